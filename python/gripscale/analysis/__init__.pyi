@@ -10,6 +10,10 @@ from .comparison import compare_case as compare_case
 from .comparison import compare_over as compare_over
 from .comparison import solve_reference as solve_reference
 from .comparison_dataset import Comparison as Comparison
+from .compound_design import design_compound as design_compound
+from .compound_limits import CompoundLimits as CompoundLimits
+from .compound_limits import PointLimit as PointLimit
+from .design_text import designed_rubber as designed_rubber
 from .effects import case_effects as case_effects
 from .effects import effect_tasks as effect_tasks
 from .effects import effects as effects
@@ -17,6 +21,7 @@ from .effects import stored_effects as stored_effects
 from .first_order import first_order as first_order
 from .friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .friction_sensitivity import case_sensitivity as case_sensitivity
+from .goal_friction import CompoundGoal as CompoundGoal
 from .ladder import LADDER as LADDER
 from .ladder import ComparisonSetup as ComparisonSetup
 from .ladder import Rung as Rung

@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
+from gripscale.cli.design import design
 from gripscale.cli.experiments import calibrate, study, uncertainty
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
@@ -36,6 +37,7 @@ app.command("init")(init)
 app.command("run")(run)
 app.command("compare")(compare)
 app.command("calibrate")(calibrate)
+app.command("design")(design)
 app.command("report")(report)
 app.command("study")(study)
 app.command("uncertainty")(uncertainty)

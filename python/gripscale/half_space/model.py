@@ -17,7 +17,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
-from gripscale.surface import Measured, Surface, SurfacePart
+from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
 from gripscale.wave.problem import Status
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import waves_to_dataset
@@ -49,6 +49,11 @@ def _measurement(surface: Surface, need: str) -> Measured:
             "(gripscale.half_space.surface_of_sines makes one)"
         )
     return surface.measured
+
+
+def smallest_wavelength(surface: Surface, measured: Profile | HeightMap) -> float:
+    """Return the shortest wave [m] of a measurement that counts by default."""
+    return max(surface.cutoff_wavelength, 2.0 * float(np.max(measured.step)))
 
 
 def _with_basis(
@@ -127,9 +132,7 @@ class DirectContact(Checked, model.Model):
         contacts = []
         measurement = _measurement(surface, "the direct contact needs a measured profile")
         for measured in measurement.surfaces:
-            smallest = self.smallest_wavelength
-            if smallest is None:
-                smallest = max(surface.cutoff_wavelength, 2.0 * float(np.max(measured.step)))
+            smallest = self.smallest_wavelength or smallest_wavelength(surface, measured)
             contact = solve_rough_contact(
                 rubber,
                 measured,

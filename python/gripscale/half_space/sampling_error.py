@@ -57,8 +57,7 @@ def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
         Length of a piece along each axis [m], such as two largest waves; the pieces are equal and
         at least this long.
     """
-    length = checks.positive("piece", piece, unit="m")
-    counts = [max(1, int(side / length * (1.0 + 1e-9))) for side in contact.grid.lengths]
+    counts = _counts(contact, checks.positive("piece", piece, unit="m"))
     pieces = math.prod(counts)
     if pieces < FEWEST_PIECES:
         return SamplingError(math.nan, math.nan, pieces)
@@ -87,10 +86,36 @@ def _losses(contact: RoughContact) -> Array:
     return np.asarray(contact.pressure * scipy.fft.irfftn(waves, s=contact.grid.shape))
 
 
+def friction_residuals(contact: RoughContact, piece: float) -> Array:
+    """Return the residuals of the pieces of a contact, whose squares make its sampling error [-].
+
+    With the friction force y and the load p of each piece, y/sum(y) - p/sum(p), and so for fewer
+    pieces than an error needs, too. Those of two contacts of one surface have the same pieces: the
+    differences make the error of the ratio of the two frictions.
+    """
+    counts = _counts(contact, checks.positive("piece", piece, unit="m"))
+    return _residuals(_by_piece(_losses(contact), counts), _by_piece(contact.pressure, counts))
+
+
+def error_of_residuals(residuals: Array) -> float:
+    """Return the relative standard error that the residuals of pieces make; NaN for one piece."""
+    count = residuals.size
+    if count < 2:
+        return math.nan
+    return math.sqrt(count / (count - 1) * float(residuals @ residuals))
+
+
+def _counts(contact: RoughContact, piece: float) -> list[int]:
+    """Return the number of pieces along each axis."""
+    return [max(1, int(side / piece * (1.0 + 1e-9))) for side in contact.grid.lengths]
+
+
+def _residuals(values: Array, load: Array) -> Array:
+    return np.asarray(values / values.sum() - load / load.sum())
+
+
 def _relative_error(values: Array, load: Array) -> float:
     """Return the relative standard error of sum(values) / sum(load)."""
-    total, count = float(values.sum()), values.size
-    if total <= 0.0:
+    if float(values.sum()) <= 0.0:
         return math.nan
-    residual = values - total / float(load.sum()) * load
-    return math.sqrt(count / (count - 1) * float(residual @ residual)) / total
+    return error_of_residuals(_residuals(values, load))

@@ -21,12 +21,13 @@ from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
 from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
-from gripscale.half_space.grid import periodic_heights
+from gripscale.half_space.grid import PeriodicHeights, periodic_heights
 from gripscale.half_space.grid_sequence import (
     ERROR_GRIDS,
     GridRecord,
     GridSequence,
     KnownLevels,
+    Level,
     LevelContact,
     errors,
     finer,
@@ -38,6 +39,7 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import HeightMap, Profile
+from gripscale.theory.half_plane import GridContact
 from gripscale.wave.problem import Status
 
 FEWEST_IN_CONTACT = 8
@@ -75,6 +77,7 @@ def solve_rough_contact(
     conditions: Conditions | None = None,
     footprint: float | None = None,
     extrapolate: str = "warn",
+    start: RoughContact | None = None,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -125,6 +128,10 @@ def solve_rough_contact(
         "refuse": raise an error if the smallest wave excites the rubber, at the temperature before
         the contact, beyond its `valid_band`. The share of the friction from beyond the band is in
         `extrapolation` of the result.
+    start : RoughContact, optional
+        Contact of the same surface and cut-off with another rubber, pressure or speed. Its grid is
+        the first and, without a tolerance, the only one, so that the result has no cut-off
+        exponents. Conditions that are iterated start anew.
 
     Raises
     ------
@@ -161,9 +168,10 @@ def solve_rough_contact(
     for name, hook in (("on_grid", on_grid), ("on_iteration", on_iteration)):
         if hook is not None and not callable(hook):
             raise InputError(f"{name} must be a function or None; got {checks.short_repr(hook)}")
+    first = {} if start is None else _known_level(start, heights)
 
     def solve(
-        by_scale: RubberByScale | None, start: KnownLevels, reach: float
+        by_scale: RubberByScale | None, earlier: KnownLevels, reach: float
     ) -> GridSequenceResult:
         sequence = GridSequence(
             replace(body, by_scale=by_scale),
@@ -171,13 +179,13 @@ def solve_rough_contact(
             load,
             threads,
             iterations,
-            start,
+            earlier,
             on_iteration=on_iteration,
         )
         return _solve_sequence(sequence, most, reach, on_grid)
 
     if not effects.iterated:
-        contact = solve(None, {}, goal).contact
+        contact = solve(None, first, goal).contact
         return replace(contact, conditions=conditions, status=_judged(contact, goal))
     time = 0.0
     if effects.heat is not None and body.speed > 0.0:
@@ -199,6 +207,21 @@ def relative_tolerance(name: str, value: float | None) -> float | None:
     if tolerance >= 1.0:
         raise InputError(f"{name} must be below 1, being a relative error; got {tolerance:g}")
     return tolerance
+
+
+def _known_level(start: RoughContact, heights: PeriodicHeights) -> KnownLevels:
+    """Return the contact to start from, by its level; `InputError` if it is of another surface."""
+    checks.instance("start", start, RoughContact)
+    same = (
+        start.grid.lengths == heights.grid.lengths
+        and start.smallest_wavelength == heights.smallest_wavelength
+        and np.array_equal(start.height, heights.on(start.grid.shape, heights.smallest_wavelength))
+    )
+    if not same:
+        raise InputError("start must be a contact of the same surface with the same cut-off")
+    level = Level(start.grid, start.smallest_wavelength)
+    contact = GridContact(start.pressure, start.gap, start.active, 0, settled=True)
+    return {level.key: LevelContact(level, start.height, contact, start.grids[-1])}
 
 
 def _solve_sequence(

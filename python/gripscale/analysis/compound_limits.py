@@ -1,0 +1,292 @@
+"""Admissible changes of a compound: its Prony moduli within bounds that keep it a rubber.
+
+The unknowns are r = E_i/E_i,0, each modulus of the Prony series (E_inf first) over that of today.
+With moduli above zero every series is admissible: E(t) is positive and falls. The modulus at any
+frequency is linear in r,
+
+    E'(w) = sum r_i E'_i,0(w),    E''(w) = sum r_i E''_i,0(w),
+
+and so all limits are linear in r too, and the admissible changes are a convex polytope:
+
+    1/f <= r_i <= f                                        each modulus, f = `largest_factor`
+    r_i <= s^d r_k,  r_k <= s^d r_i                        neighbours d decades apart, s a decade
+    low E'_0(w) <= E'(w) <= high E'_0(w)                   storage modulus
+    low t_0 E'(w) <= E''(w) <= high t_0 E'(w)              loss factor, t_0 = E''_0/E'_0
+    sum r_i E_i,0 <= sum E_i,0                             no stiffer glass than today's
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
+from gripscale.core.checks import Checked, checked
+from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.rubber import Rubber
+from gripscale.rubber.material import loss_shape, storage_shape
+
+QUANTITIES = ("storage_modulus", "loss_factor")
+HANDLING = ZERO_CELSIUS + 20.0
+"""Temperature of the storage modulus that is kept by default [K]."""
+AT_LIMIT = 1e-4
+"""Distance from a limit, relative to today's moduli, within which it counts as reached."""
+
+
+class PointLimit(Checked):
+    """Range of a modulus at one frequency and temperature, relative to today's compound.
+
+    Parameters
+    ----------
+    quantity : "storage_modulus" or "loss_factor"
+        E' or tan(delta) = E''/E'.
+    low, high : float
+        Range over today's value [-]; `low` may be zero and `high` infinite.
+    frequency : float
+        Frequency [Hz].
+    temperature : float, optional
+        Temperature [K]; by default that of the measurement.
+    """
+
+    quantity: str = checked(checks.one_of, choices=QUANTITIES)
+    low: float = checked(checks.not_negative)
+    high: float = checked(checks.positive, infinite=True)
+    frequency: float = checked(checks.positive, unit="Hz", default=10.0)
+    temperature: float | None = checked(checks.positive, unit="K", default=None)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.low < self.high:
+            raise InputError(f"low must be below high; got {self.low:g} and {self.high:g}")
+
+    @property
+    def condition(self) -> str:
+        """Frequency and temperature in words."""
+        kelvin = self.temperature
+        where = "the temperature measured" if kelvin is None else f"{kelvin - ZERO_CELSIUS:.3g} °C"
+        return f"{self.frequency:g} Hz and {where}"
+
+    def __str__(self) -> str:
+        symbol = "E'" if self.quantity == "storage_modulus" else "tan δ"
+        return f"{symbol} at {self.condition}, {self.low:g} to {self.high:g} times today's"
+
+
+def _factor(name: str, value: float) -> float:
+    factor = checks.positive(name, value)
+    if not 1.0 < factor <= 1e3:
+        raise InputError(f"{name} must be above 1, at most 1000; got {factor:g}")
+    return factor
+
+
+class CompoundLimits(Checked):
+    """How far a compound may be changed.
+
+    Parameters
+    ----------
+    largest_factor : float
+        Largest factor, up or down, on each modulus of the Prony series.
+    factor_per_decade : float
+        Largest ratio of the factors of neighbouring relaxation times a decade apart.
+    points : sequence of PointLimit
+        Limits on E' and tan(delta). By default E' at 10 Hz and 20 C, or at the temperature measured
+        where the rubber has no temperature shift, stays within 10 %.
+    """
+
+    largest_factor: float = checked(_factor, default=2.0)
+    factor_per_decade: float = checked(_factor, default=2.0)
+    points: tuple[PointLimit, ...] | None = None
+
+
+def require_shift(rubber: Rubber, kelvin: float | None, what: str) -> None:
+    """Raise `InputError` if the rubber cannot be had at a temperature [K] for `what`."""
+    if kelvin is None or rubber.shift is not None:
+        return
+    measured = rubber.reference_temperature
+    if measured is not None and math.isclose(measured, kelvin, abs_tol=0.5):
+        return
+    raise InputError(
+        f"{what} at {kelvin - ZERO_CELSIUS:.4g} C needs a rubber with a temperature shift; got "
+        f"none with {rubber.name or 'this rubber'}: state shift in [rubber], or take the "
+        "temperature of the measurement"
+    )
+
+
+def rubber_at(rubber: Rubber, kelvin: float | None) -> Rubber:
+    """Return the rubber at a temperature [K], None for that of the measurement.
+
+    Not for threads: what is to be warned of a rubber was said of today's, and is held back here.
+    """
+    if kelvin is None or rubber.shift is None:
+        return rubber
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RubberWarning)
+        return rubber.at(kelvin)
+
+
+def changed(rubber: Rubber, ratio: Array, name: str = "") -> Rubber:
+    """Return the rubber with its moduli multiplied by `ratio` [-], shape (terms + 1,), E_inf first.
+
+    What today's series leaves open does not hold for another one and is dropped.
+    """
+    with warnings.catch_warnings():  # its glass is no stiffer than that of the rubber
+        warnings.simplefilter("ignore", RubberWarning)
+        return replace(
+            rubber,
+            equilibrium_modulus=rubber.equilibrium_modulus * float(ratio[0]),
+            moduli=rubber.moduli * ratio[1:],
+            admissible=None,
+            name=name or rubber.name,
+        )
+
+
+def modulus_parts(rubber: Rubber, omega: Array) -> tuple[Array, Array]:
+    """Return what each modulus adds to E' and E'' [Pa] at `omega` [rad/s], (frequency, terms + 1).
+
+    E_inf first.
+    """
+    phase = np.multiply.outer(np.asarray(omega, dtype=float), rubber.relaxation_times)
+    relaxed = np.full((*phase.shape[:-1], 1), rubber.equilibrium_modulus)
+    storage = np.concatenate([relaxed, storage_shape(phase) * rubber.moduli], axis=-1)
+    loss = np.concatenate([0.0 * relaxed, loss_shape(phase) * rubber.moduli], axis=-1)
+    return storage, loss
+
+
+@dataclass(frozen=True)
+class AdmissibleChanges:
+    """The polytope of admissible changes of a rubber: rows r <= 1 and bounds on each modulus."""
+
+    rubber: Rubber = field(repr=False)
+    limits: CompoundLimits
+    points: tuple[PointLimit, ...] = ()
+
+    @classmethod
+    def of(
+        cls, rubber: Rubber, limits: CompoundLimits, further: Sequence[PointLimit] = ()
+    ) -> AdmissibleChanges:
+        """Return the changes within `limits` and `further` limits on moduli.
+
+        Raises `InputError` if one is at a temperature that the rubber has no shift to.
+        """
+        points = limits.points
+        if points is None:
+            kelvin = None if rubber.shift is None else HANDLING
+            points = (PointLimit("storage_modulus", 0.9, 1.1, temperature=kelvin),)
+        for point in (*points, *further):
+            require_shift(rubber, point.temperature, f"the limit on the {point.quantity}")
+        return cls(rubber, limits, (*points, *further))
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and largest ratio of each modulus [-]."""
+        return 1.0 / self.limits.largest_factor, self.limits.largest_factor
+
+    @cached_property
+    def neighbours(self) -> tuple[NDArray[np.intp], Array]:
+        """Indices of moduli next to one another, shape (pairs, 2), and their distance [decades].
+
+        E_inf is a decade beyond the slowest relaxation.
+        """
+        order = 1 + np.argsort(self.rubber.relaxation_times)
+        times = np.log10(self.rubber.relaxation_times[order - 1])
+        pairs = np.column_stack([order[:-1], order[1:]])
+        distance = np.diff(times)
+        if order.size:
+            pairs = np.vstack([pairs, [order[-1], 0]])
+            distance = np.append(distance, 1.0)
+        return pairs.reshape(-1, 2), distance
+
+    @cached_property
+    def smooth_rows(self) -> Array:
+        """Rows whose product with r is at most zero: neighbours change alike."""
+        pairs, distance = self.neighbours
+        steepest = self.limits.factor_per_decade**distance
+        rows = np.zeros((2 * len(pairs), 1 + self.rubber.moduli.size))
+        for i, (first, second) in enumerate(pairs):
+            rows[2 * i, [first, second]] = 1.0, -steepest[i]
+            rows[2 * i + 1, [first, second]] = -steepest[i], 1.0
+        return rows
+
+    def point_rows(self, point: PointLimit) -> list[tuple[Array, float]]:
+        """Return rows whose product with r is at most a number, for one limit of the moduli."""
+        body = rubber_at(self.rubber, point.temperature)
+        storage, loss = modulus_parts(body, np.array(2.0 * math.pi * point.frequency))
+        storage, loss = storage / storage.sum(), loss / storage.sum()
+        rows = []
+        if point.quantity == "storage_modulus":
+            rows = [(-storage, -point.low), (storage, point.high)]
+        else:
+            today = float(loss.sum())
+            rows = [(point.low * today * storage - loss, 0.0)]
+            if math.isfinite(point.high):
+                rows.append((loss - point.high * today * storage, 0.0))
+        return [(row, most) for row, most in rows if math.isfinite(most)]
+
+    @cached_property
+    def rows(self) -> tuple[Array, Array]:
+        """Rows and what their product with r must not exceed: all limits but the bounds."""
+        rubber = self.rubber
+        glass = np.concatenate([[rubber.equilibrium_modulus], rubber.moduli])
+        parts = [(row, 0.0) for row in self.smooth_rows]
+        parts += [pair for point in self.points for pair in self.point_rows(point)]
+        parts.append((glass / rubber.glassy_modulus, 1.0))
+        matrix, most = zip(*parts, strict=True)
+        return np.array(matrix), np.array(most)
+
+    def violation(self, ratio: Array) -> float:
+        """Return by how much the worst limit is exceeded, relative to today; zero if none is."""
+        matrix, most = self.rows
+        low, high = self.bounds
+        excess = [(matrix @ ratio - most).max(), (low - ratio).max(), (ratio - high).max()]
+        return max(0.0, *map(float, excess))
+
+    def require_some(self) -> None:
+        """Raise `InputError` if nothing is admissible."""
+        if self.best(np.zeros(1 + self.rubber.moduli.size)) is None:
+            raise InputError(
+                "the limits must leave an admissible change; got limits on the moduli that "
+                "contradict one another within the largest factors"
+            )
+
+    def best(self, gradient: Array) -> Array | None:
+        """Return the admissible r with the largest gradient . r, None if nothing is admissible."""
+        from scipy.optimize import linprog
+
+        matrix, most = self.rows
+        solved = linprog(-gradient, A_ub=matrix, b_ub=most, bounds=[self.bounds], method="highs")
+        return np.asarray(solved.x) if solved.success else None
+
+    def at_bound(self, ratio: Array) -> Mask:
+        """Return which moduli are at a bound or as far from a neighbour as they may be."""
+        low, high = self.bounds
+        reached = (ratio - low < AT_LIMIT) | (high - ratio < AT_LIMIT)
+        tight = (self.smooth_rows @ ratio > -AT_LIMIT).reshape(-1, 2).any(axis=1)
+        reached[self.neighbours[0][tight].reshape(-1)] = True
+        return np.asarray(reached)
+
+    def least_loss_factor(self, point: PointLimit) -> float:
+        """Return the least ratio of a loss factor to today's [-] that the limits admit.
+
+        E''/E' over a polytope is a linear fraction: its level is moved until no admissible
+        change has a lower one (W. Dinkelbach, Manag. Sci. 13 (1967) 492).
+
+        Raises `InputError` if nothing is admissible.
+        """
+        body = rubber_at(self.rubber, point.temperature)
+        storage, loss = modulus_parts(body, np.array(2.0 * math.pi * point.frequency))
+        self.require_some()
+        today = level = float(loss.sum() / storage.sum())
+        for _ in range(50):
+            ratio = self.best(level * storage - loss)
+            assert ratio is not None
+            before, level = level, float(loss @ ratio / (storage @ ratio))
+            if abs(level / before - 1.0) < 1e-9:
+                break
+        return level / today

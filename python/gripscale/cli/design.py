@@ -1,0 +1,118 @@
+"""`gripscale design`: which change of a compound gives more friction for its rolling resistance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from gripscale.cli import terminal
+from gripscale.cli.comparisons import names_of
+from gripscale.cli.terminal import CasePath, OwnFolder, Workers, command, option, print_wrapped
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@command
+def design(
+    case: CasePath,
+    goal: Annotated[
+        list[str] | None,
+        option(
+            "Where friction is wanted, in place of the load of the case: "
+            "'speed=3 m/s, temperature=0 C, pressure=2 bar, weight=1, road=wet.toml'; what is "
+            "missing is as in the case. May be given several times.",
+            metavar="KEY=VALUE,...",
+        ),
+    ] = None,
+    limit: Annotated[
+        list[str] | None,
+        option(
+            "Range of E' or tan(delta) over today's, in place of E' at 10 Hz and 20 C within 10 %: "
+            "'storage_modulus, 10 Hz, 20 C, 0.9:1.1' or 'loss_factor, 10 Hz, 0 C, 1:2'. May be "
+            "given several times.",
+            metavar="LIMIT",
+        ),
+    ] = None,
+    largest_factor: Annotated[
+        float, typer.Option(help="Largest factor, up or down, on each modulus of the series.")
+    ] = 2.0,
+    factor_per_decade: Annotated[
+        float,
+        typer.Option(help="Largest ratio of the factors of relaxation times a decade apart."),
+    ] = 2.0,
+    levels: Annotated[
+        str | None,
+        option(
+            "Largest tan(delta) when rolling over today's of each point, such as 0.8,0.9,1,1.1; by "
+            "default from the least that is admissible to 1.3."
+        ),
+    ] = None,
+    rubber: Annotated[
+        list[str] | None,
+        option(
+            "Another compound to be drawn on the same plane: a file of moduli, a case, or a rubber "
+            "known by name. May be given several times.",
+            metavar="FILE",
+        ),
+    ] = None,
+    output: OwnFolder = None,
+    workers: Workers = None,
+) -> None:
+    """Design a compound: most friction on the case's road for each rolling resistance.
+
+    Resumes where it was stopped.
+    """
+    from gripscale.analysis.compound_design import RESULT, design_compound
+    from gripscale.analysis.compound_limits import CompoundLimits
+    from gripscale.analysis.compound_search import default_goal
+    from gripscale.analysis.design_text import (
+        compounds_table,
+        design_lines,
+        design_table,
+        parse_goal,
+        parse_levels,
+        parse_limit,
+        write_targets,
+    )
+    from gripscale.case import folder, read_case
+    from gripscale.charts.design import design_pictures
+    from gripscale.charts.write import draw
+
+    file = read_case(case)
+    points = None if not limit else tuple(parse_limit(text) for text in limit)
+    limits = CompoundLimits(largest_factor, factor_per_decade, points)
+    goals = [parse_goal(text, default_goal(file)) for text in goal or ()]
+    wanted = [] if levels is None else parse_levels(levels)
+    others = list(rubber or ())
+    console, target = terminal.open_folder(
+        file, output, "design", f"Design of a compound for {file.path}"
+    )
+    folder.save_case(file, target)
+
+    def print_point(point: xr.Dataset) -> None:
+        rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
+        print_wrapped(console, f"tan δ when rolling {rolling:+.1%}: friction {gain:+.1%}")
+
+    data = design_compound(
+        file,
+        target,
+        goals=goals,
+        limits=limits,
+        levels=wanted,
+        rubbers=dict(zip(names_of(others), others, strict=True)),
+        workers=workers,
+        on_point=print_point,
+    )
+    write_targets(data, target)
+    compounds = compounds_table(data)
+    terminal.conclude(
+        console,
+        target,
+        [*design_lines(data), design_table(data), *([] if compounds is None else [compounds])],
+        text="design.txt",
+        closing=f"Result ({RESULT}), figure, and master curve, Prony series and rubber of each "
+        "point (target_*) are in",
+        draw=lambda: draw(design_pictures(data), target),
+    )

@@ -1,0 +1,60 @@
+"""A contact that starts from that of another rubber, and what it may not start from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.core.errors import InputError
+from tests.samples import SHIFTED_RUBBER
+
+from .rough_cases import isotropic_map, solve
+from .test_sensitivity import line
+
+SURFACES = {"line": (line(4096, 0.064, 1e-3), 1e-3), "map": (isotropic_map(64), 1.6e-3)}
+
+
+@pytest.fixture(scope="module", params=SURFACES)
+def contact(request):
+    surface, shortest = SURFACES[request.param]
+    return surface, solve(
+        surface, rubber=SHIFTED_RUBBER, smallest_wavelength=shortest, tolerance=None
+    )
+
+
+def solve_from(surface, start: gs.RoughContact | None, **more):
+    rubber = replace(SHIFTED_RUBBER, moduli=1.3 * SHIFTED_RUBBER.moduli, bulk_modulus=3e9)
+    length = {"smallest_wavelength": 1e-3 if isinstance(surface, gs.Profile) else 1.6e-3}
+    return solve(surface, rubber=rubber, start=start, **length | {"tolerance": None} | more)
+
+
+def test_it_is_the_contact_from_nothing(contact):
+    surface, start = contact
+    cold, warm = solve_from(surface, None), solve_from(surface, start)
+    # both end at the residual of the solver, 1e-6 of the pressure
+    assert warm.friction_from_dissipation == pytest.approx(cold.friction_from_dissipation, rel=1e-5)
+    assert np.array_equal(warm.active, cold.active)
+    assert len(warm.grids) == 1
+    assert sum(grid.products for grid in warm.grids) < sum(grid.products for grid in cold.grids)
+
+
+def test_grids_are_refined_from_the_start(contact):
+    surface, start = contact
+    warm = solve_from(surface, start, tolerance=0.05)
+    assert warm.converged
+    assert warm.grids[0].points == start.grids[-1].points
+    cold = solve_from(surface, None, tolerance=0.05)
+    assert warm.friction == pytest.approx(cold.friction, rel=0.05)
+
+
+def test_another_surface_is_refused(contact):
+    surface, start = contact
+    moved = replace(surface, z=1.01 * surface.z)
+    for other, shortest in ((moved, start.smallest_wavelength), (surface, 2e-3)):
+        with pytest.raises(InputError, match="start must be a contact of the same surface"):
+            solve_from(other, start, smallest_wavelength=shortest)
+    with pytest.raises(InputError, match="start must be a RoughContact"):
+        solve_from(surface, "before")
