@@ -155,7 +155,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
         ]
     tangent = first_order_of(part)
-    if tangent and names[0] == "friction":
+    if names[0] == "friction" and tangent.keys() & set(columns[0].values):
         values = [tangent.get(label, math.nan) for label in columns[0].values]
         columns.append(
             Column(
