@@ -186,7 +186,8 @@ def _in_processes(tasks: list[Task], workers: int) -> Generator[Solved, None, No
     context = multiprocessing.get_context("spawn")  # a fork would lack the threads of the kernel
     with ProcessPoolExecutor(workers, context, _ignore_interrupts) as pool:
         try:
-            futures = [pool.submit(_alone, task.reduced()) for task in tasks]
+            # whole tasks: what an answer rests on may come from parts its numbers do not need
+            futures = [pool.submit(_alone, task) for task in tasks]
             for future in as_completed(futures):
                 yield future.result()
         except BrokenProcessPool as error:

@@ -48,7 +48,7 @@ class HalfSpace:
         default_factory=dict, repr=False, compare=False
     )
     """E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
-    of them, to the last bit where the points differ by powers of two."""
+    of them."""
 
     def young_modulus(self, grid: Grid) -> ComplexArray:
         """Return E* [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""

@@ -60,6 +60,16 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
     )
 
 
+def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> None:
+    """With what it rests on, which comes from the waves and not from the measurement."""
+    choice = only(bulk_modulus="2 GPa")
+    data = propagate(folder / "case.toml", choice, samples=10, client="processes", workers=2)
+    assert float(certain.best_steep_share) >= 0.0
+    for name in map(str, certain.data_vars):
+        if name.startswith("best_"):
+            np.testing.assert_array_equal(data[name].values, certain[name].values, name)
+
+
 @pytest.fixture(scope="module")
 def blocks(folder: Path) -> xr.Dataset:
     """Return an uncertainty of the stretch of road alone."""
