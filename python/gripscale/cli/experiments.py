@@ -166,7 +166,7 @@ def uncertainty(
     from gripscale.experiment.axis import parse_vary
     from gripscale.experiment.solve import PROCESSES
     from gripscale.half_space.model import DirectContact
-    from gripscale.report.uncertainty import failures, uncertainty_parts
+    from gripscale.report.uncertainty import failures, too_many_failed, uncertainty_parts
 
     models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
@@ -212,7 +212,7 @@ def uncertainty(
         closing="Result (uncertainty.nc), tables and figures are in",
         draw=lambda: draw(uncertainty_pictures(data), figures),
         page=RESULT,
-        failure=str(failures(data) or ""),
+        failure=str(failures(data)) if too_many_failed(data) else "",
     )
 
 

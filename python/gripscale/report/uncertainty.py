@@ -37,7 +37,7 @@ from gripscale.report.answer import (
     is_measured,
     number_and_interval,
 )
-from gripscale.report.elements import Card, Element, Notice, Section, Text
+from gripscale.report.elements import Card, Doubt, Element, Notice, Section, Text
 from gripscale.report.notices import Failure, explained
 
 HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
@@ -50,6 +50,8 @@ UNCERTAINTY = (
     "The case was solved many times, each time with other values of the inputs that are not known "
     "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
 )
+MOST_FAILED = 0.25
+"""Share of the samples of a model without an answer up to which the others stand for all."""
 LEAST_SHARE = 0.02
 """Share of a part in the variance of the friction from which its linearity is judged: below it the
 samples do not know the part to a third."""
@@ -362,6 +364,13 @@ def failures(data: xr.Dataset) -> Failure | None:
     return Failure("; ".join(sentences), next(filter(None, words), "")) if sentences else None
 
 
+def too_many_failed(data: xr.Dataset) -> bool:
+    """Return whether the case has no answer, or too few samples have one to stand for all."""
+    return bool(_failed(data, "status_case")) or bool(
+        (data.failed > MOST_FAILED * data.sizes["sample"]).any()
+    )
+
+
 def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
     """Return sentence and word of what did not converge."""
     words = status_words(data, sentences).values.ravel()
@@ -442,9 +451,10 @@ def subtitle(data: xr.Dataset) -> str:
 
 
 def page_notices(data: xr.Dataset) -> list[Notice]:
-    """Return failures."""
+    """Return failures: an error where too many failed."""
     failed = failures(data)
-    return [Notice("error", f"{explained(failed)}.")] if failed else []
+    level = "error" if too_many_failed(data) else "warning"
+    return [Notice(level, f"{explained(failed)}.", doubt=Doubt.SOLUTION)] if failed else []
 
 
 def page_cards(data: xr.Dataset) -> list[Card]:

@@ -12,7 +12,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
 from gripscale.report import write_report
-from gripscale.report.uncertainty import failures
+from gripscale.report.uncertainty import failures, page_notices, too_many_failed
 
 QUICK = Uncertainty(without=["waves"])
 
@@ -120,6 +120,19 @@ def test_failures_are_counted_and_said(half_failing):
         "5 of 10 samples have no answer and count in no quantile; 5"
     )
     assert np.isfinite(data.friction_quantile).all()
+    assert too_many_failed(data)
+    (notice,) = page_notices(data)
+    assert notice.level == "error"
+
+
+def test_few_failures_are_a_warning(half_failing):
+    """Up to a quarter of the samples of a model: the others stand for all."""
+    data, _ = half_failing
+    few = data.assign(failed=0 * data.failed + 2)
+    assert not too_many_failed(few)
+    (notice,) = page_notices(few)
+    assert notice.level == "warning"
+    assert too_many_failed(data.assign(failed=0 * data.failed + 3))
 
 
 def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
