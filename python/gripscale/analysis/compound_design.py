@@ -128,7 +128,10 @@ def design_compound(
     stored = _stored_points(target, key)
     reference = Reference.of(problem.friction)
     base = today(problem, reference.contacts, TOLERANCE).assign_attrs(
-        design_key=key, rubber_parameters=json.dumps(problem.rubber.to_dict()), **file.attributes
+        file.attributes,
+        case_file=str(file.path),
+        design_key=key,
+        rubber_parameters=json.dumps(problem.rubber.to_dict()),
     )
     compounds, notes = _compounds(problem, reference, rubbers or {}, file)
     notes = (*notes, *_left_out(file))

@@ -67,18 +67,11 @@ def design(
     from gripscale.analysis.compound_design import RESULT, design_compound
     from gripscale.analysis.compound_limits import CompoundLimits
     from gripscale.analysis.compound_search import default_goal
-    from gripscale.analysis.design_text import (
-        compounds_table,
-        design_lines,
-        design_table,
-        parse_goal,
-        parse_levels,
-        parse_limit,
-        write_targets,
-    )
+    from gripscale.analysis.design_text import parse_goal, parse_levels, parse_limit, write_targets
     from gripscale.case import folder, read_case
     from gripscale.charts.design import design_pictures
     from gripscale.charts.write import draw
+    from gripscale.report.design import compounds_table, design_lines, design_table
 
     file = read_case(case)
     points = None if not limit else tuple(parse_limit(text) for text in limit)
@@ -115,4 +108,5 @@ def design(
         closing=f"Result ({RESULT}), figure, and master curve, Prony series and rubber of each "
         "point (target_*) are in",
         draw=lambda: draw(design_pictures(data), target),
+        page=RESULT,
     )

@@ -13,6 +13,7 @@ import xarray as xr
 from gripscale.case.run import KEY
 from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
+from gripscale.charts.design import design_pictures
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
 from gripscale.charts.rubber import rubber_charts
@@ -30,6 +31,7 @@ from gripscale.report import (
     answer,
     calibration,
     comparison,
+    design,
     inputs,
     notices,
     sensitivity,
@@ -111,6 +113,7 @@ def page_of(source: Source) -> Page:
         "compounds": compounds_page,
         "roads": roads_page,
         "sensitivity": sensitivity_page,
+        "design": design_page,
         "uncertainty": uncertainty_page,
         "calibration": calibration_page,
     }
@@ -492,3 +495,24 @@ def sensitivity_page(source: Study) -> Page:
             ),
         ],
     )
+
+
+def design_page(source: Study) -> Page:
+    """Return the report of a compound that was designed."""
+    data, case = source.data, case_name(source.data.attrs)
+    answer_line, *basis = design.design_lines(data)
+    tables = [design.design_table(data), design.compounds_table(data)]
+    page = _page(
+        f"Compound for {case or 'a case'}",
+        answer_line,
+        [],
+        design.design_cards(data),
+        [
+            Section(
+                "curve", "Friction over rolling resistance", [*map(image, design_pictures(data))]
+            ),
+            Section("points", "Points of the curve", [each for each in tables if each is not None]),
+            rerun_section(data.attrs, shlex.join(["gripscale", "design", case or "case.toml"])),
+        ],
+    )
+    return replace(page, basis=[line.strip() for line in basis])

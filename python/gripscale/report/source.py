@@ -26,8 +26,8 @@ COMPARISON = "comparison"
 OVER = "over_*.nc"
 """Files of comparisons over a varied input."""
 KINDS = (
-    "run, comparison, study, sensitivity, calibration or uncertainty, or of surfaces or rubbers "
-    "side by side"
+    "run, comparison, study, sensitivity, design, calibration or uncertainty, or of surfaces or "
+    "rubbers side by side"
 )
 
 
@@ -116,7 +116,7 @@ class Study:
     """The Dataset of many predictions.
 
     `kind` is study, compounds (a study over rubbers, with the differences to the first), roads,
-    sensitivity, uncertainty or calibration.
+    sensitivity, design, uncertainty or calibration.
     """
 
     kind: str
@@ -154,6 +154,8 @@ def read_result(path: Path) -> Source:
         kind = "uncertainty"
     elif SENSITIVITY in names:
         kind = "sensitivity"
+    elif "rolling_ratio" in names:
+        kind = "design"
     else:
         _require_totals(tree, path)
         if "rung" in tree.dims:

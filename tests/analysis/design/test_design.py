@@ -15,7 +15,6 @@ from gripscale.analysis.compound_gain import gain
 from gripscale.analysis.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.analysis.compound_search import design_problem
 from gripscale.analysis.design_text import (
-    design_lines,
     parse_goal,
     parse_levels,
     parse_limit,
@@ -33,6 +32,8 @@ from gripscale.half_space.sampling_error import (
 )
 from gripscale.io import netcdf
 from gripscale.model import Load
+from gripscale.report import write_report
+from gripscale.report.design import design_cards, design_lines
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, Shell, case_text, write_road, write_short_road
 
@@ -58,6 +59,16 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def data(case):
     return design_compound(case, case.parent / "stored", levels=LEVELS)
+
+
+def test_the_page_begins_with_the_gain(case, data):
+    cards = list(design_cards(data))
+    same = data.isel(point=1)
+    assert cards[0].value == f"{100.0 * float(same.gain):+.0f} %"
+    page = write_report(case.parent / "stored" / "design.nc", case.parent / "design.html")
+    text = page.read_text(encoding="utf-8")
+    assert "Compound for case.toml" in text
+    assert text.index(cards[0].value) < text.index("Points of the curve")
 
 
 def test_the_promised_friction_is_that_of_a_new_contact(case, data):
