@@ -258,7 +258,8 @@ def cluster(client: Any, workers: int) -> Iterator[Solve]:
 
 def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved, None, None]:
     """Yield results as they come."""
-    futures = [client.submit(_alone, task.reduced(), key=f"gripscale-{task.key}") for task in tasks]
+    # whole tasks: what an answer rests on may come from parts its numbers do not need
+    futures = [client.submit(_alone, task, key=f"gripscale-{task.key}") for task in tasks]
     stream = distributed.as_completed(futures, loop=client.loop, with_results=True)
     try:
         for future, result in stream:

@@ -63,10 +63,6 @@ class Task:
         }
         return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:KEY_LENGTH]
 
-    def reduced(self) -> Task:
-        """Return the same task with nothing in it that its result does not depend on."""
-        return Task(self.rubber, self.surface.only(self.model.needs), self.load, self.model)
-
     def solve(self, stop: threading.Event | None = None) -> Solved:
         """Return key, result and seconds; give up between two steps once `stop` is set."""
 
