@@ -167,12 +167,12 @@ def first_order(
         As `Tangent.of`.
     """
     measurement = Measurement.of(results)
-    stated = uncertainty or Uncertainty.of_case(results.file.case.uncertainty)
+    asked = uncertainty or Uncertainty.of_case(results.file.case.uncertainty)
     tangent, case = Tangent.of(results), Inputs.of(measurement)
-    drawn = replace(stated, without=(*stated.without, ROAD, GRID))
+    drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
     errors = {each.name: _scatter(tangent, case, each, count, seed) for each in sources}
-    if ROAD not in stated.without:
+    if ROAD not in asked.without:
         errors[ROAD] = tangent.sampling_error
     attrs = {"units": "1", "long_name": "relative standard error of friction, by first order"}
     labels = np.array([LABELS[name] for name in errors], dtype=object)
