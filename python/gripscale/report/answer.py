@@ -60,20 +60,23 @@ def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
 
 def no_answer(data: xr.Dataset | None) -> str:
     """Return why a result has no answer, or none to rely on; empty if it has one."""
-    if data is None:
+    if data is None or not (has_answer(data) or _status(data)):
         return (
             "none with an interval. No direct contact of a measured surface was solved, by which "
             "a chain of sine waves is judged."
         )
     if not has_answer(data):
-        direct = direct_of(data)
-        status = next((name for name in (model.STATUS, "status") if name in direct), "")
-        solved = bool(status) and not direct[status].ndim
-        why = str(direct[status].item()) if solved else "none was solved"
-        return f"none. The direct contact of the measured surface has no result: {why}."
+        return f"none. The direct contact of the measured surface has no result: {_status(data)}."
     guesses = [share.text for share in _guesses(data) if share.effect > MOST_ON_GUESSES]
     reasons = [*guesses, *_sampled_too_little(data)]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
+
+
+def _status(data: xr.Dataset) -> str:
+    """Return how the direct contact of a result ended; empty if none was solved."""
+    direct = direct_of(data)
+    name = next((name for name in (model.STATUS, "status") if name in direct), "")
+    return str(direct[name].item()) if name and not direct[name].ndim else ""
 
 
 def basis_lines(data: xr.Dataset) -> Iterator[str]:

@@ -1,0 +1,55 @@
+"""Stated errors of maps of lossy rubber against grids two to four times finer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from tests.half_space.rough_cases import isotropic_map
+
+pytestmark = pytest.mark.verification
+
+MAPS, SHORTEST = 24, 3.2e-3
+TIMES = np.geomspace(1e-9, 1e1, 41)
+
+
+def lossy(exponent: float) -> gs.Rubber:
+    """A rubber with E* nearly as (i w)^exponent: its loss angle is exponent pi/2 everywhere."""
+    return gs.Rubber(1e5, 2e5 * (TIMES / 1e-3) ** -exponent, TIMES, bulk_modulus=1e13)
+
+
+def test_stated_errors_hold_on_maps_of_lossy_rubber():
+    """Loss angles 0.43 to 0.87, 6 to 70 % of contact; 15 s of one core.
+
+    The area is within its error on all 24 maps, nearest 0.92 of it; the friction on 23, off by 1.16
+    times its error on the other.
+    """
+    area, friction = [], []
+    for seed in range(MAPS):
+        random = np.random.default_rng(seed)
+        rubber = lossy(random.uniform(0.25, 0.62))
+        surface = isotropic_map(64, seed=seed, shortest=SHORTEST)
+        speed = 10 ** random.uniform(-2.0, 1.0)
+        modulus = abs(complex(rubber.plane_strain_modulus(2.0 * np.pi * speed / 5e-3)))
+        pressure = 0.15 * modulus * 10 ** random.uniform(-1.5, -0.3)
+        coarse, fine = (
+            gs.solve_rough_contact(
+                rubber,
+                surface,
+                pressure=pressure,
+                speed=speed,
+                periodic=True,
+                smallest_wavelength=SHORTEST,
+                tolerance=tolerance,
+            )
+            for tolerance in (0.05, 0.008)
+        )
+        apart = coarse.contact_fraction - fine.contact_fraction
+        area.append(abs(apart) / coarse.contact_fraction_error)
+        apart = coarse.friction_from_dissipation - fine.friction_from_dissipation
+        friction.append(abs(apart) / coarse.friction_error)
+    print("area", np.round(area, 2), "friction", np.round(friction, 2))
+    for ratios in (area, friction):
+        assert np.mean(np.array(ratios) > 1.0) <= 0.1
+        assert max(ratios) <= 1.4
