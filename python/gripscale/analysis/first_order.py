@@ -37,7 +37,7 @@ from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import USABLE, DirectContact
 from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
-from gripscale.half_space.sensitivity import FrictionAdjoint, half_space_of
+from gripscale.half_space.sensitivity import FrictionAdjoint
 from gripscale.model import SAMPLING_ERRORS
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
@@ -54,6 +54,8 @@ class Tangent:
     """The direct contacts of a case, the derivatives of their friction, and the shares in it."""
 
     results: CaseResults
+    case: Inputs
+    """Its inputs, which others are compared with."""
     contacts: Sequence[RoughContact]
     adjoints: Sequence[FrictionAdjoint]
     share: Array
@@ -84,17 +86,18 @@ class Tangent:
         error = float(answer.get(FRICTION_SAMPLING_ERROR, math.nan))
         adjoints = [FrictionAdjoint.of(each) for each in contacts]
         mean = float(answer["total_friction_from_dissipation"])
-        return cls(results, contacts, adjoints, weight / weight.sum(), mean, error)
+        case = Inputs.of(Measurement.of(results))
+        return cls(results, case, contacts, adjoints, weight / weight.sum(), mean, error)
 
-    def solved_change(self, inputs: Inputs, case: Inputs) -> float:
+    def solved_change(self, inputs: Inputs) -> float:
         """Return the change of ln mu by a contact with the other inputs [-]."""
-        del case  # its contact is this one
         surface, model = inputs.for_model(_model(self.results))
         answer = model.predict(inputs.rubber, surface, self.results.load)
         return math.log(float(answer["total_friction_from_dissipation"]) / self.friction)
 
-    def change(self, inputs: Inputs, case: Inputs) -> float:
+    def change(self, inputs: Inputs) -> float:
         """Return what other inputs than those of the case change in ln mu, to first order [-]."""
+        case = self.case
         parts = np.zeros(len(self.contacts))
         for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
             if inputs.rubber is not case.rubber:
@@ -115,8 +118,7 @@ def _model(results: CaseResults) -> DirectContact:
 
 def _by_rubber(adjoint: FrictionAdjoint, rubber: Rubber) -> float:
     """Return the change of ln mu by another rubber, at the temperature it has in the case."""
-    contact = adjoint.contact
-    body = half_space_of(contact)
+    contact, body = adjoint.contact, adjoint.body
     solid = (contact.conditions or Conditions()).before(rubber)
     scales = None if body.by_scale is None else replace(body.by_scale, rubber=solid)
     other = HalfSpace(solid, body.speed, by_scale=scales)
@@ -168,10 +170,10 @@ def first_order(
     """
     measurement = Measurement.of(results)
     asked = uncertainty or Uncertainty.of_case(results.file.case.uncertainty)
-    tangent, case = Tangent.of(results), Inputs.of(measurement)
+    tangent = Tangent.of(results)
     drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
-    errors = {each.name: _scatter(tangent, case, each, count, seed) for each in sources}
+    errors = {each.name: _scatter(tangent, each, count, seed) for each in sources}
     if ROAD not in asked.without:
         errors[ROAD] = tangent.sampling_error
     attrs = {"units": "1", "long_name": "relative standard error of friction, by first order"}
@@ -182,14 +184,15 @@ def first_order(
     )
 
 
-def _scatter(tangent: Tangent, case: Inputs, source: Source, count: int, seed: int) -> float:
+def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> float:
     """Return the standard deviation of ln mu over draws of a source [-], to first order."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         solved = source.name == SOLVED
         drawn = [
-            each.inputs for each in draws(case, [source], SOLVED_DRAWS if solved else count, seed)
+            each.inputs
+            for each in draws(tangent.case, [source], SOLVED_DRAWS if solved else count, seed)
         ]
         change = tangent.solved_change if solved else tangent.change
-        changes = [change(each, case) for each in drawn if each is not None]
+        changes = [change(each) for each in drawn if each is not None]
     return float(np.std(changes))

@@ -88,10 +88,10 @@ class FrictionAdjoint:
     """Of the linear system, relative [-]."""
 
     @classmethod
-    def of(cls, contact: RoughContact, *, workers: int = 1) -> FrictionAdjoint:
-        """Return the multipliers of a contact that slides, solved with `workers` threads."""
+    def of(cls, contact: RoughContact) -> FrictionAdjoint:
+        """Return the multipliers of a contact that slides."""
         grid = contact.grid
-        response = Response.of(half_space_of(contact), grid, workers)
+        response = Response.of(half_space_of(contact), grid, 1)
         where = np.flatnonzero(contact.active)
         lost = -2.0 * grid.along * response.compliance.imag * scipy.fft.rfftn(contact.pressure)
         right = scipy.fft.irfftn(lost, s=grid.shape).reshape(-1)[where]
@@ -120,22 +120,28 @@ class FrictionAdjoint:
         return self.rigid - self.contact.friction_from_dissipation
 
     @cached_property
+    def body(self) -> HalfSpace:
+        """The rubber of the contact; it keeps its moduli on lines."""
+        return half_space_of(self.contact)
+
+    @cached_property
     def weight(self) -> ComplexArray:
         """c(q) [-], over the half spectrum of the grid."""
         contact, grid = self.contact, self.contact.grid
-        compliance = half_space_of(contact).compliance(grid)
+        compliance = self.body.compliance(grid)
         pressure = scipy.fft.rfftn(contact.pressure)
         other = scipy.fft.rfftn(self.multiplier) + 1j * grid.along * pressure
         scale = grid.weight / (grid.points**2 * contact.nominal_pressure)
         return np.asarray(scale * compliance * other.conj() * pressure)
 
     def by_modulus(self, change: ComplexArray) -> Array:
-        """Return what `change` in ln M of each wave [-] changes in mu, over the half spectrum.
+        """Return what `change` in ln M of each wave [-] changes in mu, over the half spectrum."""
+        return np.asarray((self.weight * _on_grid(change, self.contact.grid)).real)
 
-        A wave that is its own opposite has the modulus |M|, which changes by the real part.
-        """
-        real = np.where(self.contact.grid.own_opposite, change.real, change)
-        return np.asarray((self.weight * real).real)
+
+def _on_grid(change: ComplexArray, grid: Grid) -> ComplexArray:
+    """Return a change in ln M; of |M|, by its real part, where a wave is its own opposite."""
+    return np.where(grid.own_opposite, change.real, change)
 
 
 def half_space_of(
@@ -243,37 +249,36 @@ class ContactFractionDifferences:
     """Derivatives of the contact fraction, from contacts on the same grid with other inputs."""
 
     contact: RoughContact
-    workers: int = 1
+
+    @cached_property
+    def compliance(self) -> ComplexArray:
+        """K(q) of the contact [m/Pa], over the half spectrum."""
+        return half_space_of(self.contact).compliance(self.contact.grid)
 
     def by_modulus(self, change: ComplexArray) -> float:
         """Return d ln(A_r/A_0) along a derivative of ln M of each wave, over the half spectrum."""
-        grid = self.contact.grid
         largest = float(np.abs(change).max())
         if largest == 0.0:
             return 0.0
-        real = np.where(grid.own_opposite, change.real, change)
-        compliance = half_space_of(self.contact).compliance(grid)
+        real = _on_grid(change, self.contact.grid)
         step = AREA_STEP / largest
         low, high = (
-            self._log_fraction(compliance * np.exp(-by * real), self.contact.nominal_pressure)
+            self._log_fraction(self.compliance * np.exp(-by * real), self.contact.nominal_pressure)
             for by in (-step, step)
         )
         return (high - low) / (2.0 * step)
 
     def by_log_pressure(self) -> float:
         """Return d ln(A_r/A_0) / d ln p_0 [-]."""
-        compliance, pressure = (
-            half_space_of(self.contact).compliance(self.contact.grid),
-            self.contact.nominal_pressure,
-        )
+        pressure = self.contact.nominal_pressure
         low, high = (
-            self._log_fraction(compliance, pressure * math.exp(by))
+            self._log_fraction(self.compliance, pressure * math.exp(by))
             for by in (-AREA_STEP, AREA_STEP)
         )
         return (high - low) / (2.0 * AREA_STEP)
 
     def _log_fraction(self, compliance: ComplexArray, pressure: float) -> float:
-        response = Response.with_compliance(compliance, self.contact.grid, self.workers)
+        response = Response.with_compliance(compliance, self.contact.grid, 1)
         start = self.contact.pressure * (pressure / self.contact.pressure.mean())
         solved = solve_grid(response, self.contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
         return math.log(grid_contact_fraction(solved.active, solved.gap))
