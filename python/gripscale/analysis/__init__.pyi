@@ -13,6 +13,7 @@ from .comparison_dataset import Comparison as Comparison
 from .compound_design import design_compound as design_compound
 from .compound_limits import CompoundLimits as CompoundLimits
 from .compound_limits import PointLimit as PointLimit
+from .cut_off_curve import case_cut_off as case_cut_off
 from .design_text import designed_rubber as designed_rubber
 from .effects import case_effects as case_effects
 from .effects import effect_tasks as effect_tasks

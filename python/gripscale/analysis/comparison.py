@@ -21,6 +21,12 @@ from gripscale.analysis.best_estimate import (
     best_estimate,
 )
 from gripscale.analysis.comparison_dataset import Comparison
+from gripscale.analysis.cut_off_curve import (
+    CONTINUED_TO,
+    continuation_factor,
+    cut_off_curve,
+    save_curve,
+)
 from gripscale.analysis.intervals import half_width
 from gripscale.analysis.ladder import (
     DIRECT,
@@ -30,6 +36,7 @@ from gripscale.analysis.ladder import (
     chosen,
     each_measured,
 )
+from gripscale.case.prepare import prepare_continuation
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -37,15 +44,17 @@ from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.experiment.axis import Axis
-from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
+from gripscale.experiment.design import CONVERGED, Design, Point, solve_design, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
+from gripscale.half_space.continued import DOWN_TO
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
 from gripscale.model import (
+    STATUS,
     Load,
     answer,
     cut_off_exponents_of,
@@ -141,6 +150,7 @@ def compare_case(
         extrapolation and a wave excites the rubber beyond the measured band.
     """
     results = case if isinstance(case, CaseResults) else prepare_case(case)
+    factors = [*continued_factors(results, results.load, folder), *factors]
     choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
     with bench_in(folder, workers, client, on_task) as bench:
@@ -204,6 +214,8 @@ def _compared(
     klueppel_heinrich = None
     if theory.layer_ratio is not None and theory.penetration_depth is not None:
         klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
+    down_to = file.case.below_measurement.down_to or DOWN_TO
+    continuation = prepare_continuation(file, down_to=down_to)
     setups = []
     for task in tasks.values():
         chain = checks.instance("model", task.model, Chain)
@@ -216,6 +228,7 @@ def _compared(
             checks.positive("tolerance", choice.tolerance),
             klueppel_heinrich,
             chain.pressure_classes,
+            continuation=continuation,
             conditions=chain.conditions,
         )
         setups.append(setup)
@@ -412,16 +425,36 @@ def reference_design(results: CaseResults, load: Load, label: str = "") -> Desig
     return Design({"sample": len(points)}, points, subjects)
 
 
-def reference(results: CaseResults) -> xr.Dataset | None:
+def reference(results: CaseResults, folder: str | Path | None = None) -> xr.Dataset | None:
     """Return the reference contact of a case with the best estimate, and keep it in `results`.
 
-    None if no profile was measured. Raises as `solve_reference`.
+    A `folder` keeps what the case continues below the measurement. None if no profile was measured.
+    Raises as `solve_reference`.
     """
     if results.direct is None:
         samples = solve_reference(results)
         if samples is not None:
+            _ = continued_factors(results, results.load, folder)
             results.direct = reference_totals(samples, results, results.load)
     return results.direct
+
+
+def continued_factors(
+    results: CaseResults, load: Load, folder: str | Path | None = None
+) -> list[Factor]:
+    """Return the factor of the roughness below the measurement, if the case asks for it.
+
+    Its contacts are solved once for each load. Raises `InputError` if they have no result.
+    """
+    if results.file.case.below_measurement.down_to is None:
+        return []
+    if load not in results.continued:
+        with bench_in(folder) as bench:
+            results.continued[load] = cut_off_curve(results, load, bench)
+    curve = results.continued[load]
+    if curve[STATUS].item() != CONVERGED:
+        raise InputError(f"roughness below the measurement has no result: {curve[STATUS].item()}")
+    return [continuation_factor(curve, results.surface.cutoff_wavelength)]
 
 
 def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
@@ -429,9 +462,11 @@ def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | Non
 
     Raises `FileError` if it cannot be written.
     """
-    data = reference(results)
+    data = reference(results, folder)
     if data is not None:
         netcdf.save(data, Path(folder) / FILE)
+    for curve in results.continued.values():
+        save_curve(curve, results, folder)
     return data
 
 
@@ -446,7 +481,14 @@ def reference_totals(
     means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     rung = samples.expand_dims(rung=[DIRECT])
-    best = best_estimate(rung, upper_height=upper_height_of(results.surface), sampled=sampled)
+    best = best_estimate(
+        rung,
+        continued_factors(results, load),
+        upper_height=upper_height_of(results.surface),
+        sampled=sampled,
+    )
+    if results.continued:
+        best[CONTINUED_TO] = results.file.case.below_measurement.down_to
     best["cutoff_wavelength"] = xr.Variable((), results.surface.cutoff_wavelength, {"units": "m"})
     totals = answer(
         best,

@@ -18,6 +18,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError
+from gripscale.half_space.continued import ContinuedContact
 from gripscale.half_space.finite_strain import spread_windows
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, surface_of_sines
@@ -59,6 +60,8 @@ class ComparisonSetup:
     """In how many classes of equal load the chain hands its pressure down, as the case says."""
     windows: int = 3
     """Windows of the profiles that are solved at finite strain."""
+    continuation: ContinuedContact | None = None
+    """Direct contact with roughness below the measurement, as the case says."""
     conditions: Conditions | None = None
     """What changes the rubber. Chain and direct contact know all of it, every other model only the
     temperature."""
@@ -219,8 +222,9 @@ POINTS_OF_A_CLASS = 256
 """Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
 
 
-ON_REQUEST = frozenset({"map"})
-"""Groups of rungs that nothing but a comparison of them needs: synthetic maps, a minute each."""
+ON_REQUEST = frozenset({"map", "below"})
+"""Groups of rungs that nothing but a comparison of them needs: synthetic maps, a minute each, and
+roughness below the measurement."""
 
 
 def chosen(names: Iterable[str]) -> list[Rung]:
@@ -302,6 +306,13 @@ def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
 
 
+def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    if setup.continuation is None or setup.of_map:
+        return []
+    profiles = each_measured(setup.surface)
+    return [SampleSpec(setup.continuation, part, name) for name, part in profiles]
+
+
 def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return each profile down to where the sine waves end, or its spectrum before them."""
     specs = []
@@ -342,6 +353,7 @@ STEPS = {
     "sines": ("all scales together", "chain_half_plane"),
     "random_phases": ("the whole spectrum", "sines"),
     DIRECT: ("the measured phases", "random_phases"),
+    ContinuedContact.name: ("roughness below the measurement", DIRECT),
     "persson": ("", DIRECT),
     "klueppel_heinrich": ("", DIRECT),
     "windows_finite_strain": ("finite strain", "windows_half_plane"),
@@ -363,6 +375,7 @@ LADDER: tuple[Rung, ...] = (
     _rung("sines", "the case's sine waves at once", "waves", _sines),
     _rung("random_phases", "profile with random phases", "measured", _random_phases),
     _rung(DIRECT, "profile as measured, at once", "measured", _direct),
+    _rung(ContinuedContact.name, "profile continued below its sampling", "below", _continued),
     _rung("persson", "Persson, isotropic surface", "theory", _persson),
     _rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", _klueppel_heinrich),
     _rung("windows_half_plane", "windows of it, small strain", WINDOWS, _windows_half_plane),

@@ -115,12 +115,13 @@ def _free_target(
 
 BLOCKS = ("blocks_dynamic", "blocks_static")
 FIGURES = ("profile", "correlation", "master_curve", "contact_and_friction", *BLOCKS)
-AT_TIMES = ("heat", "effects", "superposition", "superposition_tests", "shift")
+AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 RESULTS = (
     "dynamic.nc",
     "static.nc",
     "direct.nc",
+    "cut_off.nc",
     "effects_chain.nc",
     "report.txt",
     CASE,

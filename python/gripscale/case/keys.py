@@ -37,6 +37,8 @@ TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
     ("conditions.softening", SOFTENING, "conditions.md"),
     ("conditions.heat", ThermalProperties, "conditions.md"),
     ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
+    ("below_measurement", tables.BelowMeasurementTable, "below-measurement.md"),
+    ("below_measurement.finer", tables.FinerTable, "below-measurement.md"),
     ("measured", tables.MeasuredTable, "direct-contact.md"),
     ("output", tables.OutputTable, "reading-results.md"),
     ("compare", tables.CompareTable, "theories.md"),

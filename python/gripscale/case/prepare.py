@@ -14,10 +14,17 @@ from gripscale import surface as surfaces
 from gripscale.case.read import CaseFile
 from gripscale.case.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case.schema import Table
-from gripscale.case.tables import SurfaceTable
+from gripscale.case.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.errors import GripscaleError, InputError, about_file, about_keys
+from gripscale.half_space.below_measurement import (
+    FinerMeasurement,
+    HurstExponent,
+    OwnFaces,
+    Roughness,
+)
+from gripscale.half_space.continued import ContinuedContact
 from gripscale.rubber import (
     MasterCurve,
     PronyFit,
@@ -248,6 +255,37 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
         softening = source
     norm = table.strain_norm or "slope"
     return Conditions(table.temperature, softening, norm, table.heat, table.shear_stress)
+
+
+@about_keys("below_measurement")
+def prepare_continuation(
+    file: CaseFile, *, down_to: float, hurst: float | None = None
+) -> ContinuedContact:
+    """Return the model of the roughness below the measurement, down to a wavelength [m].
+
+    `hurst` goes before what the case states. Raises `FileError` and `InputError` for what cannot be
+    used.
+    """
+    table = file.case.below_measurement
+    roughness: Roughness = OwnFaces()
+    exponent = table.hurst if hurst is None else hurst
+    if exponent is not None:
+        roughness = HurstExponent(exponent)
+    elif table.finer is not None:
+        roughness = FinerMeasurement(_face(table.finer, file.resolve))
+    conditions = prepare_conditions(file.case.conditions, file.resolve)
+    return ContinuedContact(
+        conditions=conditions, down_to=down_to, roughness=roughness, seed=table.seed
+    )
+
+
+def _face(table: FinerTable, resolve: Resolve) -> surfaces.Profile | surfaces.HeightMap:
+    """Read and level a finer measurement of a face."""
+    if table.file is not None:
+        line = surfaces.read_profile(resolve(table.file), **_options(table, surfaces.read_profile))
+        return surfaces.clean(line)[0]
+    raw = surfaces.read_map(resolve(table.map or ""), **_options(table, surfaces.read_map))
+    return surfaces.clean_map(raw if table.direction == "x" else raw.turned())[0]
 
 
 def case_chain(file: CaseFile) -> Chain:

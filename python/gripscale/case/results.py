@@ -41,6 +41,8 @@ class CaseResults:
     """Where the results were written."""
     direct: xr.Dataset | None = None
     """Totals of the direct contact of the measured profiles, which judges the predictions."""
+    continued: dict[Load, xr.Dataset] = field(default_factory=dict)
+    """Contact against the cut-off, below the measurement, by load; empty if not asked for."""
     _keys: dict[str, str] = field(default_factory=dict, init=False, repr=False)
 
     @property

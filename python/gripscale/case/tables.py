@@ -333,6 +333,48 @@ class MeasuredTable(Table):
     """A table of speed and friction, drawn over what is predicted."""
 
 
+class FinerTable(Table):
+    """A finer measurement of a face of a stone: a line or a map, with its units."""
+
+    file: str | None = None
+    """A measured line."""
+    map: str | None = None
+    """A measured map, in place of file."""
+    x_unit: Annotated[str, unit_of_file("length")] | None = None
+    """Unit of distances where the file does not name it."""
+    z_unit: Annotated[str, unit_of_file("length")] | None = None
+    """Unit of heights where the file does not name it."""
+    direction: Literal["x", "y"] = "x"
+    """The way of sliding in a map."""
+    step: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
+    """Distances between the points of a map along x and y, where its file has none."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> FinerTable:
+        if (self.file is None) == (self.map is None):
+            raise ValueError("expected either file (a measured line) or map (a measured map)")
+        return self
+
+
+class BelowMeasurementTable(Table):
+    """Roughness below the measured profiles; without down_to there is none."""
+
+    down_to: Length | None = None
+    """Shortest wavelength to continue the roughness to."""
+    hurst: float | None = Field(default=None, gt=0.0, le=1.0, allow_inf_nan=False)
+    """Hurst exponent of the continued roughness; by default it is that of the faces that touch."""
+    finer: FinerTable | None = None
+    """A finer measurement of a face, in place of the faces of the profiles."""
+    seed: int = Field(default=0, ge=0, le=MOST_SEED)
+    """Seed of the random waves."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> BelowMeasurementTable:
+        if self.hurst is not None and self.finer is not None:
+            raise ValueError("expected either hurst (a power law) or finer (a measurement)")
+        return self
+
+
 class CompareTable(Table):
     """What `gripscale compare` puts beside the models: fits of a theory."""
 
@@ -366,6 +408,8 @@ class Case(Table):
     """What goes on from wave to wave."""
     conditions: ConditionsTable = ConditionsTable()
     """Effects beside the rubber as measured."""
+    below_measurement: BelowMeasurementTable = BelowMeasurementTable()
+    """Roughness below the measurement."""
     measured: MeasuredTable = MeasuredTable()
     """Friction measured elsewhere."""
     output: OutputTable = OutputTable()
@@ -387,8 +431,11 @@ class Case(Table):
     def named_files(self) -> list[tuple[str, str]]:
         """Return role and name of every file it names."""
         friction = [self.measured.friction] if self.measured.friction is not None else []
+        finer = self.below_measurement.finer
+        faces = [name for name in ((finer and (finer.file, finer.map)) or ()) if name is not None]
         roles = (
             ("surface", self.surface.measured_files),
+            ("below_measurement", faces),
             ("rubber", self.rubber.files),
             ("conditions", self.conditions.files),
             ("measured", friction),

@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
+from gripscale.cli.cut_off import cut_off
 from gripscale.cli.design import design
 from gripscale.cli.experiments import calibrate, study, uncertainty
 from gripscale.cli.export import export
@@ -42,6 +43,7 @@ app.command("report")(report)
 app.command("study")(study)
 app.command("uncertainty")(uncertainty)
 app.command("sensitivity")(sensitivity)
+app.command("cut-off")(cut_off)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)

@@ -92,9 +92,13 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
     from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
+    from gripscale.charts.cut_off import cut_off_figure
+    from gripscale.charts.paper import save_figure
     from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.core.provenance import version_of
     from gripscale.report.answer import answer_lines
+    from gripscale.report.cut_off import basis_lines as answer_of_curve
+    from gripscale.report.cut_off import rules_table
     from gripscale.report.measured import measured_lines
     from gripscale.report.notices import case_notices, explained, warning_lines
     from gripscale.report.record import InputRecord
@@ -108,7 +112,9 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     require_feasible(results)
     header = f"gripscale {version_of('gripscale')}, case {file.path}"
     terminal.print_wrapped(console, header)
-    direct = reference(results)
+    if file.case.below_measurement.down_to is not None:
+        terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
+    direct = reference(results, target)
     warnings = case_notices(direct, InputRecord(record.inputs(results)))
     answer, inputs = ["", *answer_lines(direct)], ["", *_inputs(results)]
     for line in (*answer, *warning_lines(warnings, REPORT), *inputs):
@@ -139,7 +145,12 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
         sampled = stored_uncertainty(target)
         parts += uncertainty_lines(sampled, file.text, input_digests(file))
 
+        for curve in results.continued.values():
+            parts += ["", *answer_of_curve(curve), rules_table(curve)]
+
         def draw_conditions() -> None:
+            for curve in results.continued.values():
+                save_figure(cut_off_figure(curve), target / "figures", "cut_off")
             if heat is not None:
                 draw_heat(heat, target / "figures")
             if effects is not None:

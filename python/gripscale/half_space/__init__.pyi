@@ -1,3 +1,9 @@
+from .below_measurement import ContactByCutOff as ContactByCutOff
+from .below_measurement import FinerMeasurement as FinerMeasurement
+from .below_measurement import HurstExponent as HurstExponent
+from .below_measurement import OwnFaces as OwnFaces
+from .below_measurement import contact_by_cut_off as contact_by_cut_off
+from .continued import ContinuedContact as ContinuedContact
 from .finite_strain import Correction as Correction
 from .finite_strain import FiniteStrainPairs as FiniteStrainPairs
 from .finite_strain import Pair as Pair

@@ -127,8 +127,6 @@ class DirectContact(Checked, model.Model):
 
         Raises `InputError` if the surface was not measured: waves stated by hand have no profile.
         """
-        import xarray as xr
-
         contacts = []
         measurement = _measurement(surface, "the direct contact needs a measured profile")
         for measured in measurement.surfaces:
@@ -148,6 +146,11 @@ class DirectContact(Checked, model.Model):
             contacts.append(contact)
             if on_progress is not None:
                 on_progress(contact)
+        return self._answer(contacts, surface, load)
+
+    def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:
+        """Return the answer of the contacts of all profiles."""
+        import xarray as xr
 
         # patches and grids differ in number from profile to profile: only the contacts have them
         parts = [c.to_dataset(fields=False).drop_dims(["patch", "grid"]) for c in contacts]

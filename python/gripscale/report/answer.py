@@ -13,6 +13,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.analysis.best_estimate import IsotropicSurface
+from gripscale.analysis.cut_off_curve import CONTINUED_TO
 from gripscale.analysis.intervals import LEVEL, interval_ends
 from gripscale.analysis.ladder import DIRECT
 from gripscale.analysis.sampled_answer import FRICTION_BELOW_MEASUREMENT
@@ -89,7 +90,8 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         for name in ("pressure", "speed")
     )
     motion = f"and {speed}" if _moving(data) else "at rest, where there is no friction"
-    yield f"for {pressure} {motion}, roughness down to {in_mm(float(data.cutoff_wavelength), 3)}"
+    end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
+    yield f"for {pressure} {motion}, roughness down to {end}"
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:
@@ -119,7 +121,7 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
             friction=steep,
             doubt=Doubt.SOLUTION,
         )
-    octave = changes(data, 1.0 / model.OCTAVE)
+    octave = {} if CONTINUED_TO in data else changes(data, 1.0 / model.OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
         half = in_mm(float(data.cutoff_wavelength) / model.OCTAVE, 3)
         yield Notice(

@@ -13,6 +13,7 @@ import xarray as xr
 from gripscale.case.run import KEY
 from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
+from gripscale.charts.cut_off import cut_off_charts
 from gripscale.charts.design import design_pictures
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
@@ -31,6 +32,7 @@ from gripscale.report import (
     answer,
     calibration,
     comparison,
+    cut_off,
     design,
     inputs,
     notices,
@@ -113,6 +115,7 @@ def page_of(source: Source) -> Page:
         "compounds": compounds_page,
         "roads": roads_page,
         "sensitivity": sensitivity_page,
+        "cut_off": cut_off_page,
         "design": design_page,
         "uncertainty": uncertainty_page,
         "calibration": calibration_page,
@@ -154,6 +157,7 @@ def run_page(run: Run) -> Page:
             Section("surface", "Surface", _surface(run)),
             Section("rubber", "Rubber", _rubber(run)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
+            Section("cut-off", "Against the cut-off", cut_off_elements(run.cut_off)),
             Section("effects", "What each effect is worth", effects_elements(run.effects)),
             Section(
                 "blocks",
@@ -493,6 +497,34 @@ def sensitivity_page(source: Study) -> Page:
             rerun_section(
                 data.attrs, f"gripscale sensitivity {case_name(data.attrs) or 'case.toml'}"
             ),
+        ],
+    )
+
+
+def cut_off_elements(data: xr.Dataset | None) -> list[Element]:
+    """Return curves, rules and tables of a result against the cut-off; nothing without one."""
+    if data is None or cut_off.failures(data):
+        return []
+    return [
+        *map(Text, cut_off.basis_lines(data)),
+        *cut_off_charts(data),
+        cut_off.rules_table(data),
+        cut_off.curve_table(data),
+    ]
+
+
+def cut_off_page(source: Study) -> Page:
+    """Return the report of contact and friction against the cut-off."""
+    data, case = source.data, case_name(source.data.attrs) or "case.toml"
+    lead = next(part for part in cut_off.cut_off_parts(data) if isinstance(part, str))
+    return _page(
+        f"Contact and friction of {case} against the cut-off",
+        lead,
+        [Notice("error", notices.explained(each)) for each in cut_off.failures(data)],
+        cut_off.cards(data),
+        [
+            Section("cut-off", "Against the cut-off", cut_off_elements(data)),
+            rerun_section(data.attrs, shlex.join(["gripscale", "cut-off", case])),
         ],
     )
 

@@ -10,6 +10,8 @@ import xarray as xr
 
 from gripscale.analysis.best_estimate import with_best_estimate
 from gripscale.analysis.comparison import FILE as DIRECT
+from gripscale.analysis.cut_off_curve import FILE as CUT_OFF
+from gripscale.analysis.cut_off_curve import FRICTION as CURVE
 from gripscale.analysis.effects import stored_effects
 from gripscale.analysis.friction_sensitivity import LOSS as SENSITIVITY
 from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
@@ -26,8 +28,8 @@ COMPARISON = "comparison"
 OVER = "over_*.nc"
 """Files of comparisons over a varied input."""
 KINDS = (
-    "run, comparison, study, sensitivity, design, calibration or uncertainty, or of surfaces or "
-    "rubbers side by side"
+    "run, comparison, study, sensitivity, cut-off, design, calibration or uncertainty, or of "
+    "surfaces or rubbers side by side"
 )
 
 
@@ -81,6 +83,8 @@ class Run:
     """What was sampled of it, or of another case."""
     direct: xr.Dataset | None = None
     """Totals of the direct contact of the measured profiles."""
+    cut_off: xr.Dataset | None = None
+    """Contact and friction against the cut-off."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -116,7 +120,7 @@ class Study:
     """The Dataset of many predictions.
 
     `kind` is study, compounds (a study over rubbers, with the differences to the first), roads,
-    sensitivity, design, uncertainty or calibration.
+    sensitivity, cut_off, design, uncertainty or calibration.
     """
 
     kind: str
@@ -154,6 +158,8 @@ def read_result(path: Path) -> Source:
         kind = "uncertainty"
     elif SENSITIVITY in names:
         kind = "sensitivity"
+    elif CURVE in names:
+        kind = "cut_off"
     elif "rolling_ratio" in names:
         kind = "design"
     else:
@@ -177,13 +183,16 @@ def _read_folder(folder: Path) -> Source:
     if trees:
         run = replace(_run(trees), compared=_comparisons(folder / COMPARISON))
         case = run.attrs.get("case")
-        direct = folder / DIRECT
-        judge = _checked(direct).to_dataset() if direct.is_file() else None
+        direct, curve = (
+            _checked(path).to_dataset() if path.is_file() else None
+            for path in (folder / DIRECT, folder / CUT_OFF)
+        )
         return replace(
             run,
             effects=stored_effects((folder / COMPARISON, folder), case),
             uncertainty=stored_uncertainty(folder),
-            direct=judge if judge is not None and judge.attrs.get("case") == case else None,
+            direct=direct if direct is not None and direct.attrs.get("case") == case else None,
+            cut_off=curve if curve is not None and curve.attrs.get("case") == case else None,
         )
     compared = replace(_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
     if compared.parts:
