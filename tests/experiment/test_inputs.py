@@ -10,8 +10,9 @@ import pytest
 
 import gripscale as gs
 from gripscale.case import read_case
+from gripscale.case.prepare import case_surface
 from gripscale.core.errors import FileError, InputError
-from gripscale.experiment.inputs import case_surface, rubber_of, surface_of
+from gripscale.experiment.inputs import rubber_of, surface_of
 from tests.samples import EXAMPLES, write_road
 
 EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"

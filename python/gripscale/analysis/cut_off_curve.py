@@ -25,7 +25,7 @@ from gripscale.core.units import in_mm
 from gripscale.experiment.design import attributes, surface_numbers
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task
-from gripscale.half_space.below_measurement import BAND, FACTS
+from gripscale.half_space.below_measurement import BAND, FACTS, cut_off_at
 from gripscale.half_space.continued import DOWN_TO, QUANTILE_90
 from gripscale.io import netcdf
 from gripscale.model import STATUS, Load
@@ -160,11 +160,8 @@ def _rules(data: xr.Dataset, surface: Surface) -> Iterator[tuple[str, float]]:
         except InputError:  # the spectrum does not reach it
             continue
         yield f"rms slope {slope:g} of the {kind}", end
-    slopes, lengths = data[SLOPE_IN_CONTACT].values, data.cut_off.values
-    if slopes.max() >= CONTACT_SLOPE > slopes[0]:
-        at = int(np.argmax(slopes >= CONTACT_SLOPE))
-        pair = slice(at - 1, at + 1)
-        end = float(np.exp(np.interp(CONTACT_SLOPE, slopes[pair], np.log(lengths[pair]))))
+    end = cut_off_at(CONTACT_SLOPE, data.cut_off.values, data[SLOPE_IN_CONTACT].values)
+    if math.isfinite(end):
         yield f"rms slope {CONTACT_SLOPE:g} in contact", end
 
 

@@ -18,11 +18,14 @@ from gripscale.case.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.errors import GripscaleError, InputError, about_file, about_keys
+from gripscale.core.units import in_mm
 from gripscale.half_space.below_measurement import (
     FinerMeasurement,
     HurstExponent,
     OwnFaces,
     Roughness,
+    contact_by_cut_off,
+    cut_off_at,
 )
 from gripscale.half_space.continued import ContinuedContact
 from gripscale.rubber import (
@@ -90,6 +93,43 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> surfaces.
         counted,
         surface.cut_off,
     )
+
+
+def case_surface(file: CaseFile) -> surfaces.Surface:
+    """Return the surface of a case, its cut-off by the slope in contact solved.
+
+    Raises `FileError` and `InputError` as `prepare_surface` and `contact_by_cut_off` do, and if the
+    contact of the measured roughness does not reach the slope.
+    """
+    table = file.case.surface
+    rule = table.cut_off
+    if not isinstance(rule, surfaces.ContactSlope):
+        return prepare_surface(table, file.resolve)
+    measured = _profiles(table, [file.resolve(name) for name in table.files or ()])
+    lines = measured.cleaned
+    if not lines:
+        raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
+    load = file.case.load.nominal
+    curve = contact_by_cut_off(
+        prepare_rubber(file.case.rubber, file.resolve).rubber,
+        lines,
+        pressure=load.pressure,
+        speed=load.speed,
+        down_to=max(line.resolution_limit for line in lines),
+        conditions=prepare_conditions(file.case.conditions, file.resolve),
+        footprint=load.footprint,
+    )
+    slopes = curve.values("slope_in_contact")
+    wavelength = cut_off_at(rule.contact_slope, curve.wavelength, slopes)
+    if not wavelength > 0.0:
+        raise InputError(
+            f"{file.path}: [surface] cut_off must be a slope in contact that the measurement "
+            f"reaches, from {slopes[0]:.3g} to {slopes[-1]:.3g} at "
+            f"{in_mm(curve.wavelength[-1], 3)}; got {rule.contact_slope:g} (`gripscale cut-off` "
+            "continues the roughness below it)"
+        )
+    solved = replace(rule, wavelength=wavelength)
+    return prepare_surface(table.model_copy(update={"cut_off": solved}), file.resolve)
 
 
 def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from gripscale.case import events, folder, record
 from gripscale.case.events import OnEvent
-from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
+from gripscale.case.prepare import case_chain, case_surface, prepare_rubber
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.chain import Chain, ChainError
@@ -88,7 +88,7 @@ def prepare_case(case: CaseFile | str | Path) -> CaseResults:
     """
     file = case if isinstance(case, CaseFile) else read_case(case)
     chain = case_chain(file)
-    surface = prepare_surface(file.case.surface, file.resolve)
+    surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     results = CaseResults(file, surface, rubber, chain)
     _require_shift(results)

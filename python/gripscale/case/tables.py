@@ -24,7 +24,7 @@ from gripscale.core.units import in_mm, parse_quantity, such_as
 from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
 
-CUT_OFF = 'a length, "instrument" or a table such as { rms_slope = 1.3 }'
+CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
 
 
 def _cut_off(value: Any) -> Any:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gripscale.case.prepare import case_chain, prepare_rubber, prepare_surface
+from gripscale.case.prepare import case_chain, case_surface, prepare_rubber, prepare_surface
 from gripscale.case.read import CaseFile, read_case, validate
 from gripscale.case.rubber_tables import NAMED_RUBBERS, RubberSource
 from gripscale.case.tables import SurfaceTable
@@ -32,11 +32,6 @@ OF_A_FILE = (
     "reference_temperature",
 )
 """Keys of the case's [rubber] that a varied file is read with where it does not state them."""
-
-
-def case_surface(file: CaseFile) -> Surface:
-    """Return the surface of a case."""
-    return prepare_surface(file.case.surface, file.resolve)
 
 
 def case_rubber(file: CaseFile) -> Rubber:

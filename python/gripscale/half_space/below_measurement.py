@@ -189,15 +189,6 @@ class ContactByCutOff:
         """Whether all contacts of the last step converged."""
         return all(contact.converged for contact in self.steps[-1].contacts)
 
-    def where_slope_is(self, slope: float) -> float:
-        """Return the cut-off [m] at which the rms slope in contact reaches a value; NaN if none."""
-        slopes = self.values("slope_in_contact")
-        above = np.flatnonzero(slopes >= slope)
-        if not above.size or above[0] == 0:
-            return math.nan
-        at = slice(above[0] - 1, above[0] + 1)
-        return float(np.exp(np.interp(slope, slopes[at], np.log(self.wavelength[at]))))
-
     def to_dataset(self) -> xr.Dataset:
         """Return the curves over `cut_off` with their bands."""
         import xarray as xr
@@ -257,6 +248,18 @@ FACTS = {
 """What a Dataset holds of a continuation, as far as it is known."""
 
 
+def cut_off_at(slope: float, wavelength: Array, slopes: Array) -> float:
+    """Return the cut-off [m] at which the rms slope in contact reaches a value; NaN if none.
+
+    `slopes` are those at the cut-offs `wavelength` [m], which fall.
+    """
+    above = np.flatnonzero(slopes >= slope)
+    if not above.size or above[0] == 0:
+        return math.nan
+    at = slice(above[0] - 1, above[0] + 1)
+    return float(np.exp(np.interp(slope, slopes[at], np.log(wavelength[at]))))
+
+
 def contact_by_cut_off(
     rubber: Rubber,
     lines: Profile | Sequence[Profile],
@@ -305,12 +308,10 @@ def contact_by_cut_off(
         rougher or smoother than the faces by more than a factor of three where both are measured;
         and as `solve_rough_contact` does.
     """
-    given = [lines] if isinstance(lines, Profile) else checks.instances("lines", lines, Profile)
-    if not given:
-        raise InputError("lines must hold a profile; got none")
+    profiles = [lines] if isinstance(lines, Profile) else checks.instances("lines", lines, Profile)
     source = OwnFaces() if roughness is None else as_roughness("roughness", roughness)
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
-    resolved = max(line.resolution_limit for line in given)
+    resolved = max(line.resolution_limit for line in profiles)
     last = checks.positive("down_to", down_to, unit="m")
     if last > resolved / (1.0 + LEAST_STEP):
         last = max(last, resolved)
@@ -320,7 +321,7 @@ def contact_by_cut_off(
             f"below the {in_mm(resolved, 3)} that the lines resolve; got {last:.3g} m"
         )
     solver = _Solver(rubber, {"pressure": pressure, "speed": speed, "tolerance": None, **options})
-    periodic = [_periodic(line, resolved, last) for line in given]
+    periodic = [_periodic(line, resolved, last) for line in profiles]
     shortest_line = min(line.length for line in periodic)
     most = min(checks.positive("longest", longest, unit="m"), LONGEST * shortest_line)
     measured_to = max(resolved, last)

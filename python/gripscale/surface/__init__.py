@@ -2,6 +2,7 @@
 
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean, clean_map
 from gripscale.surface.cut_off import (
+    ContactSlope,
     CutOff,
     CutOffRule,
     PowerLaw,
@@ -33,6 +34,7 @@ from gripscale.surface.synthetic import self_affine_profile, sine_profile
 __all__ = [
     "ArealSpectrum",
     "CleaningReport",
+    "ContactSlope",
     "CutOff",
     "CutOffRule",
     "HeightDifference",

@@ -22,8 +22,8 @@ from gripscale.analysis.design_text import (
 )
 from gripscale.analysis.goal_friction import CompoundGoal
 from gripscale.case import read_case
+from gripscale.case.prepare import case_surface
 from gripscale.core.errors import InputError
-from gripscale.experiment.inputs import case_surface
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sampling_error import (
     error_of_residuals,
