@@ -2,7 +2,7 @@
 
     E*(w) = s E'(w) + i l E''(w)    for w within the band, else E' + i E''.
 
-Derivatives by E' and E'' of a band are differences of such rubbers. They are of steady sliding only.
+Derivatives by E' and E'' of a band are differences of such rubbers, which only slide steadily.
 """
 
 from __future__ import annotations
