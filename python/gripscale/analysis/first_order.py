@@ -34,7 +34,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.half_space.grid import periodic_heights
-from gripscale.half_space.model import USABLE, DirectContact
+from gripscale.half_space.model import DirectContact
 from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import FrictionAdjoint
@@ -76,7 +76,7 @@ class Tangent:
             results.rubber.rubber, results.surface, results.load, on_progress=contacts.append
         )
         friction = np.array([each.friction_from_dissipation for each in contacts])
-        if any(each.status not in USABLE for each in contacts) or not (friction > 0.0).all():
+        if not all(each.has_friction for each in contacts):
             status = ", ".join(str(each.status) for each in contacts)
             raise InputError(
                 "the direct contact must have a result with friction for its derivatives; got "

@@ -39,7 +39,7 @@ from gripscale.half_space.sensitivity import (
 from gripscale.half_space.sensitivity import sensitivity as contact_sensitivity
 from gripscale.model import Load
 from gripscale.rubber import Rubber
-from gripscale.rubber.banded import BandedRubber
+from gripscale.rubber.banded import Band, BandedRubber
 from gripscale.surface import SineStack
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
@@ -93,7 +93,7 @@ class WaveDifferences:
     def by(self, change: Change, step: float) -> Array:
         """Return the derivatives of both along a change of the inputs."""
         low, high = (self._logs(*change(by)) for by in (-step, step))
-        return (high - low) / (2.0 * step)
+        return np.asarray((high - low) / (2.0 * step))
 
     def _logs(self, rubbers: Sequence[Rubber], load: Load) -> Array:
         scales = self.solved.scales
@@ -105,7 +105,7 @@ class WaveDifferences:
             None,
         )
         near = chain(lambda wave, so_far: rubbers[len(so_far.scales)], None)
-        return np.log([near.friction, near.contact_fraction])
+        return np.array([math.log(near.friction), math.log(near.contact_fraction)])
 
     def by_bands(self, part: str, bands: Bands, shifts: Sequence[float]) -> Array:
         """Return the derivatives by E' or E'' of each band, shape (bands, 2).
@@ -119,7 +119,7 @@ class WaveDifferences:
             def change(by: float) -> tuple[Sequence[Rubber], Load]:
                 factors = (math.exp(by), 1.0) if part == "ln_storage" else (1.0, math.exp(by))
                 rubbers = [
-                    BandedRubber.of(rubber, low / a, high / a, *factors)
+                    BandedRubber.of(rubber, Band(low / a, high / a, *factors))
                     if ((each >= low) & (each < high)).any()
                     else rubber
                     for rubber, a, each in zip(self.rubbers, shifts, omega, strict=True)
@@ -139,7 +139,7 @@ class WaveDifferences:
             return [replace(r, bulk_modulus=r.bulk_modulus * factor) for r in rubbers], load
 
         def warmer(by: float) -> tuple[Sequence[Rubber], Load]:
-            return [r.at((r.reference_temperature or 0.0) + by) for r in rubbers], load
+            return [r.at((r.reference_temperature or math.nan) + by) for r in rubbers], load
 
         derivatives = {
             "ln_speed": self.by(
@@ -159,7 +159,7 @@ class WaveDifferences:
 def _harmonics(wave: WaveResult) -> Array:
     """Return the angular frequencies at which a wave excites the rubber [rad/s], zero first."""
     count = int(wave.details.get("columns", wave.details.get("points", 0)))
-    return wave.angular_frequency * np.arange(count // 2 + 1)
+    return np.asarray(wave.angular_frequency * np.arange(count // 2 + 1))
 
 
 def wave_sensitivity(
@@ -296,6 +296,6 @@ def _chain_of(wave: WaveResult) -> Prediction:
     """Return the chain of one wave."""
     if wave.rubber is None:
         raise InputError("result must know its rubber for derivatives; got a wave without one")
-    sines = SineStack([wave.wavelength], [wave.amplitude])
+    sines = SineStack(np.array([wave.wavelength]), np.array([wave.amplitude]))
     load = Load(wave.pressure_received, wave.speed, wave.wavelength, wave.load_time)
     return Prediction(wave.rubber, sines, load, [wave], 1)

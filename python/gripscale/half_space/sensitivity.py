@@ -42,7 +42,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -177,31 +177,35 @@ def half_space_of(
 
 def modulus_changes(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
     """Return dln M / dln E' and dln M / dln E'' of each wave [-], over the half spectrum."""
-    modulus, relative = _relative_change(contact)
+    modulus, relative = relative_change(contact)
     return relative * modulus.real, relative * 1j * modulus.imag
 
 
 def term_changes(contact: RoughContact) -> Iterator[ComplexArray]:
     """Yield dln M / dln E_i of each wave [-] of every Prony term, the equilibrium modulus first."""
     rubber, body = contact.rubber, half_space_of(contact)
-    body, (_, relative) = half_space_of(contact), _relative_change(contact)
+    body, (_, relative) = half_space_of(contact), relative_change(contact)
     rubber = contact.rubber if body.by_scale is None else body.by_scale.rubber
 
-    def young_modulus(*term: Array) -> ComplexArray:
-        alone = Rubber(rubber.equilibrium_modulus, *term, bulk_modulus=rubber.bulk_modulus)
+    def young_modulus(terms: slice) -> ComplexArray:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RubberWarning)  # the whole rubber has warned
+            alone = Rubber(
+                rubber.equilibrium_modulus,
+                rubber.moduli[terms],
+                rubber.relaxation_times[terms],
+                rubber.bulk_modulus,
+            )
         scales = None if body.by_scale is None else replace(body.by_scale, rubber=alone)
         return HalfSpace(alone, body.speed, by_scale=scales).young_modulus(contact.grid)
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RubberWarning)
-        relaxed = young_modulus()
-        terms = zip(rubber.moduli, rubber.relaxation_times, strict=True)
-        parts = [young_modulus(*np.atleast_2d(term).T) - relaxed for term in terms]
-    for part in (relaxed, *parts):
-        yield relative * part
+    relaxed = young_modulus(slice(0))
+    yield relative * relaxed
+    for term in range(rubber.moduli.size):
+        yield relative * (young_modulus(slice(term, term + 1)) - relaxed)
 
 
-def _relative_change(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
+def relative_change(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
     """Return E* [Pa] and dln M / dE* [1/Pa] of each wave, over the half spectrum."""
     grid = contact.grid
     modulus = np.broadcast_to(half_space_of(contact).young_modulus(grid), grid.spectrum_shape)
@@ -426,7 +430,7 @@ def derivatives_dataset(
     return xr.Dataset(data, {"frequency": centre}, {**attributes, **provenance.attributes()})
 
 
-Derivatives = dict[str, Array | float]
+Derivatives = Mapping[str, Array | float]
 """By the end of their name in a Dataset."""
 
 TEXTS = {

@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.friction_sensitivity import CARRIED, FEEDBACK, LOSS, RULE_FREQUENCY, STORAGE
-from gripscale.charts.sensitivity import points
+from gripscale.chain import Chain
 from gripscale.charts.view import CONVERGED
 from gripscale.core.units import display_unit_of
+from gripscale.experiment.axis import points
 from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
 from gripscale.model import STATUS
 from gripscale.report.elements import Card
@@ -55,6 +56,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
         if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
     ]
     where = f", at {' and '.join(load)}" if load else ""
+    where += ", by the chain" if data.attrs["model"] == Chain.name else ""
     yield (
         f"Answer: 1 % more E'' at all frequencies gives {_range(loss)} % more friction, "
         f"1 % less E' {_range(-storage)} %{where}"

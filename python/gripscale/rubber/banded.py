@@ -7,9 +7,9 @@ Derivatives by E' and E'' of a band are differences of such rubbers, which only 
 
 from __future__ import annotations
 
-import math
 import warnings
 from dataclasses import fields
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,44 +20,35 @@ from gripscale.core.checks import checked
 from gripscale.core.errors import RubberWarning
 from gripscale.rubber.material import Rubber
 
-UNCHANGED = (0.0, 0.0, 1.0, 1.0)
-"""Ends of no band, and factors that change nothing."""
+
+class Band(NamedTuple):
+    """Frequencies with factors of the moduli, as the kernel takes them."""
+
+    low: float = 0.0
+    """Lower end, within [rad/s]; from zero on a band also holds the relaxed modulus."""
+    high: float = 0.0
+    """Upper end, beyond [rad/s]."""
+    storage: float = 1.0
+    """Factor of E' [-]."""
+    loss: float = 1.0
+    """Factor of E'' [-]."""
 
 
 class BandedRubber(Rubber, eq=False):
-    """Rubber with factors of its moduli in a band.
+    """Rubber with factors of its moduli in a band."""
 
-    Parameters
-    ----------
-    low, high : float
-        Ends of the band [rad/s], the first within; from zero on it also holds the relaxed modulus.
-    storage_factor, loss_factor : float
-        Of E' and E'' in the band [-].
-    """
-
-    low: float = checked(checks.not_negative, unit="rad/s", default=0.0)
-    high: float = checked(checks.not_negative, unit="rad/s", infinite=True, default=math.inf)
-    storage_factor: float = checked(checks.positive, default=1.0)
-    loss_factor: float = checked(checks.positive, default=1.0)
+    band: Band = checked(checks.instance, kind=Band, default=Band())
 
     @classmethod
-    def of(cls, rubber: Rubber, *band: float) -> BandedRubber:
-        """Return `rubber` with low and high end of a band, factors of E' and of E'' in it."""
+    def of(cls, rubber: Rubber, band: Band) -> BandedRubber:
+        """Return `rubber` with factors of its moduli in a band."""
         values = {item.name: getattr(rubber, item.name) for item in fields(rubber)}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RubberWarning)  # the rubber itself has warned
-            return cls(**values, **dict(zip(_BAND, band, strict=True)))
-
-    @property
-    def band(self) -> tuple[float, ...]:
-        """Ends [rad/s] and factors [-] of the band, as the kernel takes them."""
-        return tuple(getattr(self, name) for name in _BAND)
+            return cls(**values | {"band": band})
 
     def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
         """Return E* [Pa] at `omega` [rad/s], as that of `Rubber`."""
-        modulus, size = super().complex_modulus(omega), np.abs(omega)
-        changed = self.storage_factor * modulus.real + 1j * self.loss_factor * modulus.imag
-        return np.where((size >= self.low) & (size < self.high), changed, modulus)
-
-
-_BAND = ("low", "high", "storage_factor", "loss_factor")
+        modulus, size, band = super().complex_modulus(omega), np.abs(omega), self.band
+        changed = band.storage * modulus.real + 1j * band.loss * modulus.imag
+        return np.where((size >= band.low) & (size < band.high), changed, modulus)
