@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.first_order import first_order
+from gripscale.analysis.first_order import QUANTITIES, first_order
 from gripscale.case.prepare import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.run import prepare_case
@@ -61,8 +61,8 @@ FILE = "sensitivity.nc"
 VARIED = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 """What may be varied: derivatives are taken at each value."""
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
-CARRIED = "source_friction_error"
-"""Name of the errors that sources of uncertainty carry to the friction."""
+CARRIED = "source_{}_error"
+"""Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction"."""
 FEEDBACK = "_with_feedback"
 """End of the names of derivatives with the rubber's answer to the change."""
 
@@ -254,9 +254,9 @@ def case_sensitivity(
         the answer of softening and heat. `storage_modulus` and `loss_modulus` [Pa] of the master
         curve over `modulus_frequency` [rad/s]; with a shift, over `rule`, the frequency that each
         rule of thumb stands for, and the share of the effect of E'' within half a decade of it.
-        Of the direct contact, where nothing is varied, `source_friction_error` over `source`: the
-        relative standard error that what is not known of the inputs carries to the friction
-        (`first_order`).
+        Of the direct contact, where nothing is varied, `source_friction_error` and
+        `source_contact_fraction_error` over `source`: the relative standard errors that what is not
+        known of the inputs carries to friction and contact area (`first_order`).
 
     Raises
     ------
@@ -292,7 +292,8 @@ def case_sensitivity(
     data = data.assign_coords(coordinates(study.axes, file.units))
     if STORAGE in data and prepared is not None:
         errors = first_order(prepared, seed=file.case.uncertainty.seed)
-        data = data.assign(errors.rename(friction_error=CARRIED).variables)
+        named = {f"{name}_error": CARRIED.format(name) for name in QUANTITIES}
+        data = data.assign(errors.rename(named).variables)
     if STORAGE in data:
         data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
     attrs = {
