@@ -185,15 +185,15 @@ class Study:
     @cached_property
     def surfaces(self) -> list[Surface]:
         """The varied surfaces, or the one of the case, read and fitted."""
-        own = "case" if self.prepared is None else self.prepared.surface
-        values = self._values("surface") or (own,)
+        default = "case" if self.prepared is None else self.prepared.surface
+        values = self._values("surface") or (default,)
         return [inputs.surface_of(value, self.file) for value in values]
 
     @cached_property
     def rubbers(self) -> list[Rubber]:
         """The varied rubbers, or the one of the case, read and fitted."""
-        own = "case" if self.prepared is None else self.prepared.rubber.rubber
-        values = self._values("rubber") or (own,)
+        default = "case" if self.prepared is None else self.prepared.rubber.rubber
+        values = self._values("rubber") or (default,)
         return [inputs.rubber_of(value, self.file) for value in values]
 
     @cached_property
