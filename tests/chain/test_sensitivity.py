@@ -43,7 +43,7 @@ def wave():
 
 @pytest.fixture(scope="module")
 def data(wave):
-    return gs.sensitivity(wave, bands_per_decade=10)
+    return gs.sensitivity(wave, bands_per_decade=5)
 
 
 def difference(low, high, step) -> np.ndarray:
@@ -97,7 +97,7 @@ def test_bands_as_another_prony_series(data, term):
     first = 2.0 * np.pi * WAVE["speed"] / WAVE["wavelength"]
     harmonic = first * np.arange(1, MESH["columns"] // 2 + 1)
     edges = np.geomspace(
-        data.frequency[0] / 10**0.05, data.frequency[-1] * 10**0.05, data.sizes["frequency"] + 1
+        data.frequency[0] / 10**0.1, data.frequency[-1] * 10**0.1, data.sizes["frequency"] + 1
     )
 
     def of(by: float) -> gs.Rubber:
