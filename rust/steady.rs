@@ -43,7 +43,10 @@ pub fn solve(
     positive("tolerance", tolerance.unwrap_or(1.0))?;
     problem.profile.check_resolved(&problem.mesh)?;
     let passage = problem.profile.wavelength / problem.load.speed;
-    let model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
+    let mut model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
+    if problem.load.speed > 0.0 {
+        model.band = problem.band.in_units_of(passage);
+    }
     let mut wave = Wave {
         problem,
         model: &model,
@@ -362,5 +365,10 @@ fn memory(model: &Model, passages: f64, mesh: &Mesh) -> Memory {
     if model.maxwell.moduli.is_empty() {
         return Memory::Relaxed;
     }
-    Memory::Sliding(SlidingHistory::new(mesh.columns, &model.maxwell, passages))
+    Memory::Sliding(SlidingHistory::new(
+        mesh.columns,
+        &model.maxwell,
+        passages,
+        &model.band,
+    ))
 }

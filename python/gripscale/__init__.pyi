@@ -7,6 +7,7 @@ from . import theory as theory
 from . import wave as wave
 from .chain.chain import predict as predict
 from .chain.prediction import Prediction as Prediction
+from .chain.sensitivity import sensitivity as sensitivity
 from .core.errors import ConvergenceError as ConvergenceError
 from .core.errors import ExtrapolationError as ExtrapolationError
 from .core.errors import FileError as FileError
@@ -14,7 +15,6 @@ from .core.errors import GripscaleError as GripscaleError
 from .core.errors import InputError as InputError
 from .core.errors import RubberWarning as RubberWarning
 from .half_space.result import RoughContact as RoughContact
-from .half_space.sensitivity import sensitivity as sensitivity
 from .half_space.solve import solve_rough_contact as solve_rough_contact
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber

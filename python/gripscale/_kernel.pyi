@@ -134,6 +134,7 @@ class Body(TypedDict):
 @type_check_only
 class Problem(Body):
     load: Load
+    band: tuple[float, ...]
 
 @type_check_only
 class Work(TypedDict):

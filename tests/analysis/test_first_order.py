@@ -48,10 +48,12 @@ def test_another_rubber(results, tangent):
     rubber = case.rubber
     factors = 1.0 + 0.1 * np.cos(np.arange(rubber.moduli.size))
     changed = replace(case, rubber=replace(rubber, moduli=rubber.moduli * factors, admissible=None))
-    expected = tangent.solved_change(changed)
+    expected, area = tangent.solved_change(changed)
     assert abs(expected) > 0.005
     # the second order of moduli changed by a tenth
     assert tangent.change(changed) == pytest.approx(expected, abs=0.002, rel=0.1)
+    # a contact of a few hundred points changes by single points
+    assert tangent.area_change(changed) == pytest.approx(area, abs=0.005, rel=0.1)
 
 
 def test_other_heights(results, tangent):
@@ -61,7 +63,7 @@ def test_other_heights(results, tangent):
         wave = 2e-6 * np.sin(2.0 * np.pi * line.x / 2e-3)
         lines.append(replace(line, z=line.z + wave))
     changed = replace(case, cleaned=CleanedProfiles(tuple(lines), results.surface.counted))
-    expected = tangent.solved_change(changed)
+    expected, _ = tangent.solved_change(changed)
     assert abs(expected) > 0.002
     assert tangent.change(changed) == pytest.approx(expected, rel=0.15)
 
@@ -69,10 +71,12 @@ def test_other_heights(results, tangent):
 def test_another_cut_off(results, tangent):
     case = tangent.case
     changed = case.ended_at(1.2 * case.end)
-    expected = tangent.solved_change(changed)
+    expected, area = tangent.solved_change(changed)
     # the exponent is that of the last octave, of a road of a few waves
     assert tangent.change(changed) == pytest.approx(expected, rel=0.5)
     assert tangent.change(changed) < 0.0
+    assert tangent.area_change(changed) == pytest.approx(area, abs=0.02)
+    assert tangent.area_change(changed) > 0.0
 
 
 def test_errors_of_each_source(results):
@@ -84,6 +88,8 @@ def test_errors_of_each_source(results):
     exponent = Tangent.of(results).contacts[0].cut_off_exponents.friction
     spread = abs(exponent) * math.log(2.0) / math.sqrt(12.0)
     assert errors["cut_off"] == pytest.approx(spread, rel=0.05)
+    areas = dict(zip(data.source.values, data.contact_fraction_error.values, strict=True))
+    assert areas["cut_off"] > areas["modulus"] > areas["bulk_modulus"] > 0.0
 
 
 def test_refuses_rest(folder):

@@ -12,10 +12,19 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.analysis import FrictionSensitivity, case_sensitivity
-from gripscale.analysis.friction_sensitivity import FEEDBACK, KELVIN_STEP, LOSS, STORAGE
+from gripscale.analysis.friction_sensitivity import (
+    CARRIED,
+    FEEDBACK,
+    FILE,
+    KELVIN_STEP,
+    LOSS,
+    STORAGE,
+)
+from gripscale.case.run import prepare_case
 from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
+from gripscale.io import netcdf
 from gripscale.io.table import Table
 from gripscale.report import write_report
 from gripscale.report.sensitivity import decades_table, sensitivity_parts, sums_table
@@ -165,6 +174,26 @@ def test_command_leads_with_the_answer(folder, shell: Shell):
     assert text.startswith("Answer: ")
     page = write_report(folder / "command").read_text(encoding="utf-8")
     assert "What decides the friction of case.toml" in page
+
+
+def test_the_chain_answers_the_same_command(folder, shell: Shell):
+    """Its numbers are those of `gripscale.sensitivity` of the chain of the case."""
+    out = folder / "chain"
+    result = shell("sensitivity", folder / "case.toml", "--model", "chain", "--output", out)
+    assert "by the chain" in next(
+        line for line in result.stdout.splitlines() if line.startswith("Answer")
+    )
+    data = netcdf.load(out / FILE)
+    case = prepare_case(folder / "case.toml")
+    solved = case.chain.solve(case.rubber.rubber, case.surface.sines, case.load)
+    expected = gs.sensitivity(solved, bands_per_decade=4, reference_temperature=293.15)
+    for name in (LOSS, STORAGE, "d_ln_contact_fraction_d_ln_pressure"):
+        assert data[name].values.ravel() == pytest.approx(expected[name].values.ravel(), abs=1e-12)
+    assert CARRIED.format("friction") not in data
+    with pytest.raises(InputError, match="with_feedback must be False for the chain"):
+        case_sensitivity(
+            folder / "case.toml", folder=out / "other", model="chain", with_feedback=True
+        )
 
 
 def test_refuses_rest_and_other_inputs(folder, tmp_path):

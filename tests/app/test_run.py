@@ -9,8 +9,12 @@ from pathlib import Path
 import pytest
 
 from gripscale.app.case import CaseState, VisitFolder
-from gripscale.app.runs import Runs
+from gripscale.app.elements import Cards
+from gripscale.app.run_tabs import answer_elements, results_elements, run_status
+from gripscale.app.runs import Run, Runs
+from gripscale.charts.page_elements import Chart
 from gripscale.core.errors import InputError
+from gripscale.io.table import Table
 
 SLOW = """\
 [[surface.sines]]
@@ -46,6 +50,13 @@ def there(pid: int) -> bool:
     return True
 
 
+def ended(run: Run) -> Run:
+    until = time.monotonic() + 60
+    while run.running and time.monotonic() < until:
+        time.sleep(0.1)
+    return run
+
+
 @pytest.mark.skipif(os.name != "posix", reason="asks for the process by a signal")
 def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs: Runs) -> None:
     run = runs.start()
@@ -67,12 +78,33 @@ def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
     state.set(("surface", "sines"), None)
     state.set(("surface", "files"), ["inputs/no.txt"])
     state.set(("surface", "scales"), 2)
-    run = runs.start()
-    until = time.monotonic() + 60
-    while run.running and time.monotonic() < until:
-        time.sleep(0.1)
+    run = ended(runs.start())
     assert run.state == "failed"
     assert (
         state.visit.short(run.failure())
         == "inputs/no.txt: cannot be read (no such file); see `gripscale keys surface`"
     )
+
+
+def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> None:
+    """Another command than `run`: its answer, tables and figures are those of its page."""
+    state = CaseState(VisitFolder.new(tmp_path))
+    text = (small / "case.toml").read_text().replace("../elsewhere/", "")
+    (small / "alone.toml").write_text(text)
+    state.copy_case(small / "alone.toml")
+    runs = Runs(state)
+    run = ended(runs.start("sensitivity"))
+    assert run.state == "finished", run.log()
+    assert "has finished" in run_status(run, state).text
+    numbers, answer = answer_elements(run)
+    assert isinstance(numbers, Cards)
+    assert answer.text.startswith("Answer: 1 % more E''")
+    shown = list(results_elements(run.folder))
+    assert {each.name for each in shown if isinstance(each, Table)} >= {"sums", "decades"}
+    assert {each.name for each in shown if isinstance(each, Chart)} >= {"sensitivity-loss"}
+
+
+def test_a_design_that_cannot_be_made_says_why(runs: Runs) -> None:
+    run = ended(runs.start("design"))
+    assert run.state == "failed"
+    assert "measured" in run.failure() or "shift" in run.failure(), run.log()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.fft
@@ -77,6 +79,26 @@ def test_moduli_of_each_decade_as_differences(contact, which):
     # one per cent of the largest: of 40 random contacts the median is 0.3 % (tests/verification)
     assert data[name].values == pytest.approx(measured, abs=0.01 * np.abs(measured).max())
     assert np.abs(measured).max() > 0.1
+
+
+def test_prony_terms_as_contacts_of_another_series(contact):
+    """All terms together are all moduli together; one term is what another series does."""
+    data = gs.sensitivity(contact)
+    by_term = data.d_ln_friction_d_ln_modulus.values
+    bands = data.d_ln_friction_d_ln_storage.sum() + data.d_ln_friction_d_ln_loss.sum()
+    assert by_term.sum() == pytest.approx(float(bands), abs=1e-9)
+    assert data.relaxation_time.values[1:].tolist() == contact.rubber.relaxation_times.tolist()
+    strongest = int(np.abs(by_term[1:]).argmax())
+    moduli = contact.rubber.moduli.copy()
+    moduli[strongest] *= np.exp(2.0 * STEP)
+    other = replace(contact, rubber=replace(contact.rubber, moduli=moduli))
+    change = np.log(
+        half_space_of(other).modulus(contact.grid) / half_space_of(contact).modulus(contact.grid)
+    )
+    expected = difference(contact, change / (2.0 * STEP))
+    # the forward step of the series adds half its size
+    assert by_term[1 + strongest] == pytest.approx(expected, abs=0.015)
+    assert abs(expected) > 0.1
 
 
 @pytest.mark.parametrize("name", ["ln_speed", "ln_bulk_modulus", "temperature"])

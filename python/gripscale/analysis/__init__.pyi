@@ -20,6 +20,7 @@ from .effects import effect_tasks as effect_tasks
 from .effects import effects as effects
 from .effects import stored_effects as stored_effects
 from .first_order import first_order as first_order
+from .friction_sensitivity import ChainSensitivity as ChainSensitivity
 from .friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .friction_sensitivity import case_sensitivity as case_sensitivity
 from .goal_friction import CompoundGoal as CompoundGoal

@@ -39,7 +39,7 @@ from gripscale.half_space.sampling_error import (
     error_of_residuals,
     friction_residuals,
 )
-from gripscale.half_space.sensitivity import FrictionAdjoint, half_space_of, modulus_changes
+from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.rubber import Rubber
 
 ERROR_RATIO = 0.4
@@ -186,13 +186,14 @@ def _along_series(contact: RoughContact, today: Rubber) -> Array:
     if today.admissible is None:
         return np.zeros(0)
     adjoint, grid = FrictionAdjoint.of(contact), contact.grid
-    modulus = half_space_of(contact).young_modulus(grid)
-    together = modulus_changes(contact)[0] * modulus / modulus.real
+    modulus, relative = relative_change(contact)
     omega = contact.speed * grid.along
     others = today.admissible.complex_moduli(np.abs(omega))
     others.imag *= np.sign(omega)
     ratios = np.log(others / today.complex_modulus(omega))
-    return np.array([float(adjoint.by_modulus(together * ratio).sum()) for ratio in ratios])
+    return np.array(
+        [float(adjoint.by_modulus(relative * modulus * ratio).sum()) for ratio in ratios]
+    )
 
 
 def series_error(today: Array, design: Array) -> float:

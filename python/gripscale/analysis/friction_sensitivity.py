@@ -1,4 +1,4 @@
-"""What decides the friction of a case: its direct contact with the derivatives of the friction.
+"""What decides the friction of a case: its prediction with the derivatives of the friction.
 
     from gripscale.analysis import case_sensitivity
     data = case_sensitivity("case.toml", folder="results", vary={"speed": "0.003:30:log5"})
@@ -8,8 +8,9 @@ The profiles of a surface add their friction by length. With m_k the share of pr
 
     d ln mu = sum_k m_k d ln mu_k.
 
-The derivatives are those of the grid with four points in the smallest wave: on the shipped road
-they are within 1 % of those of a grid eight times finer, where the friction itself differs by 15 %.
+Derivatives of the direct contact are those of the grid with four points in the smallest wave: on
+the shipped road they are within 1 % of those of a grid eight times finer, where the friction itself
+differs by 15 %.
 
 Where softening or heat change the rubber with the contact there are two derivatives: with the
 rubber of every scale kept, of everything, from one adjoint solution; and with its answer to the
@@ -20,17 +21,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.first_order import first_order
-from gripscale.case.prepare import prepare_conditions
+from gripscale.analysis.first_order import QUANTITIES, first_order
+from gripscale.case.prepare import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.run import prepare_case
+from gripscale.chain import Chain
+from gripscale.chain.sensitivity import sensitivity
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
@@ -38,18 +41,18 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.axis import axes_of
 from gripscale.experiment.design import CONVERGED, attributes, solve_design, surface_numbers
-from gripscale.experiment.inputs import conditions_of
+from gripscale.experiment.inputs import NAMED_MODELS, conditions_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study, coordinates
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.model import DirectContact
-from gripscale.half_space.sensitivity import sensitivity
 from gripscale.io import netcdf
 from gripscale.model import STATUS
 
 if TYPE_CHECKING:
+    from gripscale.chain.prediction import Prediction
     from gripscale.half_space.result import RoughContact
-    from gripscale.model import Load, OnProgress
+    from gripscale.model import Load, Model, OnProgress
     from gripscale.rubber import Rubber
     from gripscale.surface import Surface
 
@@ -58,8 +61,8 @@ FILE = "sensitivity.nc"
 VARIED = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 """What may be varied: derivatives are taken at each value."""
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
-CARRIED = "source_friction_error"
-"""Name of the errors that sources of uncertainty carry to the friction."""
+CARRIED = "source_{}_error"
+"""Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction"."""
 FEEDBACK = "_with_feedback"
 """End of the names of derivatives with the rubber's answer to the change."""
 
@@ -104,13 +107,12 @@ class FrictionSensitivity(DirectContact):
         answer = super().predict(rubber, surface, load, on_progress=keep)
         if answer[STATUS].item() != CONVERGED:
             return answer
-        shifted = rubber.reference_temperature if rubber.shift is not None else None
         parts = [
             sensitivity(
                 contact,
                 bands_per_decade=self.bands_per_decade,
                 contact_fraction=self.contact_fraction,
-                reference_temperature=shifted,
+                reference_temperature=_shifted_to(rubber),
             )
             for contact in contacts
         ]
@@ -152,9 +154,52 @@ class FrictionSensitivity(DirectContact):
         }
 
 
+class ChainSensitivity(Chain):
+    """Chain whose answer holds the derivatives of its friction and contact area over `frequency`.
+
+    As `FrictionSensitivity`; the other fields are those of `Chain`.
+    """
+
+    name: ClassVar[str] = "chain_sensitivity"
+
+    bands_per_decade: int = checked(checks.whole, least=1, most=100, default=4)
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer with the derivatives; without any if a wave has no result."""
+        last: list[Prediction] = []
+
+        def keep(so_far: Prediction) -> None:
+            last[:] = [so_far]
+            if on_progress is not None:
+                on_progress(so_far)
+
+        answer = super().predict(rubber, surface, load, on_progress=keep)
+        if answer[STATUS].item() != CONVERGED:
+            return answer
+        derivatives = sensitivity(
+            last[0],
+            bands_per_decade=self.bands_per_decade,
+            reference_temperature=_shifted_to(rubber),
+        )
+        return answer.merge(derivatives[_derivatives_of(derivatives)])
+
+
+def _shifted_to(rubber: Rubber) -> float | None:
+    """Return the temperature that frequencies are shifted to [K], of a rubber with a shift."""
+    return rubber.reference_temperature if rubber.shift is not None else None
+
+
+def _derivatives_of(data: xr.Dataset) -> list[str]:
+    """Return the names of derivatives but for those by Prony terms, which rubbers do not share."""
+    named = (str(name) for name in data if str(name).startswith("d_ln_"))
+    return [name for name in named if "term" not in data[name].dims]
+
+
 def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
     """Return the derivatives that profiles of these lengths [m] have together."""
-    names = [str(name) for name in parts[0] if str(name).startswith("d_ln_")]
+    names = _derivatives_of(parts[0])
     every = xr.concat([part[names] for part in parts], "profile", join="outer", fill_value=0.0)
     out = {}
     for name in names:
@@ -171,6 +216,7 @@ def case_sensitivity(
     *,
     folder: str | Path,
     vary: Mapping[str, Any] | None = None,
+    model: str = DirectContact.name,
     bands_per_decade: int = 4,
     contact_fraction: bool = False,
     with_feedback: bool = False,
@@ -182,13 +228,16 @@ def case_sensitivity(
     Parameters
     ----------
     case : path or CaseFile
-        The case; its surface must be measured and its speed above zero.
+        The case; its speed must be above zero, and its surface measured for the direct contact.
     folder : path
         Gets `sensitivity.nc`, and each solution as soon as it is there: a run that was stopped goes
         on where it was.
     vary : mapping, optional
         One or two of `VARIED`, as for a `Study`: the derivatives at each value. By default those
         of the case.
+    model : str
+        "direct", or "chain": the waves of the case, from differences of solved waves. The contact
+        fraction of the chain comes with it.
     bands_per_decade, contact_fraction
         As for `gripscale.sensitivity`.
     with_feedback : bool
@@ -205,13 +254,15 @@ def case_sensitivity(
         the answer of softening and heat. `storage_modulus` and `loss_modulus` [Pa] of the master
         curve over `modulus_frequency` [rad/s]; with a shift, over `rule`, the frequency that each
         rule of thumb stands for, and the share of the effect of E'' within half a decade of it.
-        Where nothing is varied, `source_friction_error` over `source`: the relative standard error
-        that what is not known of the inputs carries to the friction (`first_order`).
+        Of the direct contact, where nothing is varied, `source_friction_error` and
+        `source_contact_fraction_error` over `source`: the relative standard errors that what is not
+        known of the inputs carries to friction and contact area (`first_order`).
 
     Raises
     ------
     InputError, FileError
-        For what cannot be used; if the case is at rest, or has no measured surface.
+        For what cannot be used; if the case is at rest, or has no measured surface for the direct
+        contact.
     """
     file = case if isinstance(case, CaseFile) else read_case(case)
     axes = {"speed": [file.case.load.speed]} if vary is None else dict(vary)
@@ -219,26 +270,38 @@ def case_sensitivity(
         checks.one_of("vary", axis.name, VARIED)
         if axis.name == "speed" and min(axis.values) <= 0.0:
             raise InputError("speed must be above zero for derivatives of friction; got 0 m/s")
-    model = FrictionSensitivity(
-        conditions=prepare_conditions(file.case.conditions, file.resolve),
-        bands_per_decade=bands_per_decade,
-        contact_fraction=contact_fraction,
-        with_feedback=with_feedback,
-    )
-    study = Study(file, axes, static=False, model=model)
+    chosen = checks.one_of("model", model, NAMED_MODELS)
+    chain = case_chain(file)
+    if chosen == Chain.name:
+        if with_feedback:
+            raise InputError("with_feedback must be False for the chain; got True")
+        of_case = {item.name: getattr(chain, item.name) for item in fields(chain)}
+        solved: Model = ChainSensitivity(**of_case, bands_per_decade=bands_per_decade)
+    else:
+        solved = FrictionSensitivity(
+            conditions=chain.conditions,
+            bands_per_decade=bands_per_decade,
+            contact_fraction=contact_fraction,
+            with_feedback=with_feedback,
+        )
+    direct = chosen == DirectContact.name
+    prepared = prepare_case(file) if direct and vary is None else None
+    study = Study(prepared or file, axes, static=False, model=solved)
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     data = solve_design(study.design, bench, _kept)
     data = data.assign_coords(coordinates(study.axes, file.units))
-    if STORAGE in data and vary is None:
-        errors = first_order(prepare_case(file), seed=file.case.uncertainty.seed)
-        data = data.assign(errors.rename(friction_error=CARRIED).variables)
+    if STORAGE in data and prepared is not None:
+        errors = first_order(prepared, seed=file.case.uncertainty.seed)
+        named = {f"{name}_error": CARRIED.format(name) for name in QUANTITIES}
+        data = data.assign(errors.rename(named).variables)
     if STORAGE in data:
         data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
     attrs = {
         "title": "What decides the friction of a case",
         "case_file": str(file.path),
+        "model": chosen,
         "bands_per_decade": bands_per_decade,
-        "iterated": int(model.conditions is not None and model.conditions.iterated),
+        "iterated": int(chain.conditions is not None and chain.conditions.iterated),
         **provenance.attributes(),
     }
     data = data.assign_attrs(file.attributes, **attrs)
@@ -247,8 +310,7 @@ def case_sensitivity(
 
 def _kept(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
-    derivatives = [name for name in answer if str(name).startswith("d_ln_")]
-    return surface_numbers(answer, task).assign(answer[derivatives].variables)
+    return surface_numbers(answer, task).assign(answer[_derivatives_of(answer)].variables)
 
 
 def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:

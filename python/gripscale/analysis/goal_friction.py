@@ -21,17 +21,16 @@ from typing import TypeVar
 
 import numpy as np
 
-from gripscale.analysis.compound_limits import changed, modulus_parts, require_shift, rubber_at
+from gripscale.analysis.compound_limits import changed, require_shift, rubber_at
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import Job, in_threads
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.half_space.model import USABLE, smallest_wavelength
-from gripscale.half_space.response import half_space
+from gripscale.half_space.model import smallest_wavelength
 from gripscale.half_space.result import RoughContact
-from gripscale.half_space.sensitivity import FrictionAdjoint, modulus_changes
+from gripscale.half_space.sensitivity import FrictionAdjoint
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, Surface
@@ -155,7 +154,7 @@ class GoalFriction:
                 tolerance=tolerance,
                 start=self._before.get(index) if warm else None,
             )
-            if contact.status not in USABLE or not contact.friction_from_dissipation > 0.0:
+            if not contact.has_friction:
                 raise ConvergenceError(f"the contact at {goal} has no friction: {contact.status}")
             return contact
 
@@ -179,7 +178,7 @@ class GoalFriction:
     def log_friction(self, ratio: Array) -> tuple[float, Array]:
         """Return the weighted mean of ln mu [-] of moduli times `ratio`, and its gradient."""
         solved = self.contacts(changed(self.rubber, ratio))
-        slopes = self._each(lambda index: by_log_moduli(solved[index]))
+        slopes = self._each(lambda index: FrictionAdjoint.of(solved[index]).by_log_terms())
         friction = self.averaged([contact.friction_from_dissipation for contact in solved])
         gradient = self.averaged(slopes) / friction[:, None] / ratio
         return float(self.weights @ np.log(friction)), np.asarray(self.weights @ gradient)
@@ -195,17 +194,6 @@ class GoalFriction:
 
         done = dict(in_threads([job(i) for i in range(len(self.parts))], self.workers))
         return [done[index] for index in range(len(self.parts))]
-
-
-def by_log_moduli(contact: RoughContact) -> Array:
-    """Return d mu / d ln E_i [-] of the Prony moduli of a contact's rubber, E_inf first."""
-    adjoint = FrictionAdjoint.of(contact)
-    modulus = half_space(contact.rubber, contact.speed).young_modulus(contact.grid)
-    relative = modulus_changes(contact)[0] / modulus.real
-    omega = contact.speed * contact.grid.along
-    storage, loss = modulus_parts(contact.rubber, omega)
-    parts = np.moveaxis(storage + 1j * loss, -1, 0)
-    return np.array([float(adjoint.by_modulus(relative * part).sum()) for part in parts])
 
 
 def _length(surface: Profile | HeightMap) -> float:

@@ -283,8 +283,8 @@ def _inputs(text: str) -> dict[str, Any] | None:
     return {name: table for name, table in tables.items() if name not in NO_INPUTS}
 
 
-FIRST_ORDER = "friction_first_order"
-"""Name of the error of the friction that each source carries by derivatives alone."""
+FIRST_ORDER = "{}_first_order"
+"""Name of the error of a quantity that each source carries by derivatives alone."""
 MODELS = ("chain", "direct")
 VARIED = ("speed", "pressure")
 """Inputs that may be varied beside the samples: those of the load, the same samples at each."""
@@ -371,8 +371,8 @@ def propagate(
         with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`
         over `quantile`; `_grid_error` of each sample of the direct contact; `failed` samples,
         which count in no quantile; `_share` of each `source` in the variance (see
-        `gripscale.analysis.variance_shares`). At one load `friction_first_order` of each source of
-        the direct contact, its error by derivatives (see `gripscale.analysis.first_order`).
+        `gripscale.analysis.variance_shares`). At one load `_first_order` of each source of the
+        direct contact, its error by derivatives (see `gripscale.analysis.first_order`).
 
     Raises
     ------
@@ -473,7 +473,9 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
     answer = answered[0] if axis is None else xr.concat(answered, axis.name)
     if axis is None and DirectContact.name in plan.models and results.load.speed > 0.0:
         carried = first_order(results, plan.uncertainty, seed=plan.seed)
-        data[FIRST_ORDER] = carried.friction_error.reindex(source=data.source.values)
+        carried = carried.reindex(source=data.source.values)
+        for name in QUANTITIES:
+            data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         plan.file.attributes,
         case_file=str(plan.file.path),

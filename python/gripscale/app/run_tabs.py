@@ -36,7 +36,7 @@ from gripscale.app.elements import (
     wait_for_worker,
 )
 from gripscale.app.forms import fill
-from gripscale.app.runs import Run, Runs
+from gripscale.app.runs import COMMANDS, Run, Runs
 from gripscale.case import read_case
 from gripscale.case.folder import CASE
 from gripscale.charts.view import SYMBOLS, PredictionView
@@ -46,10 +46,10 @@ from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.report import source, write_report
 from gripscale.report.answer import basis_lines, has_answer
-from gripscale.report.elements import Element, Notice, Text
+from gripscale.report.elements import Code, Element, Notice, Page, Text
 from gripscale.report.measured import measured_lines
 from gripscale.report.notices import cards, exponent_sentence, notices
-from gripscale.report.pages import effects_elements, judgement_elements
+from gripscale.report.pages import effects_elements, judgement_elements, page_of
 from gripscale.report.waves import wave_tables
 
 POLL = 500
@@ -58,7 +58,8 @@ NO_RUN = "<p>No case was run yet.</p>"
 
 
 def run_tab(state: CaseState, runs: Runs) -> pn.Column:
-    """Return the tab that runs the case: start, stop, progress and output of the process."""
+    """Return the tab that runs the case: command, start, stop, progress and output."""
+    command = pn.widgets.Select(label="Result", options=COMMANDS, margin=(4, 8), width=220)
     start = pn.widgets.Button(label="Run the case", color="primary", margin=(8, 8))
     stop = pn.widgets.Button(label="Stop", color="danger", disabled=True, margin=(8, 8))
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
@@ -67,7 +68,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
 
     def on_start(_: Any) -> None:
         with refusals_in(status, state.visit.short):
-            runs.start()
+            runs.start(str(command.value))
 
     def update() -> None:
         run = runs.all[-1] if runs.all else None
@@ -96,12 +97,12 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     stop.on_click(on_stop)
     runs.param.watch(lambda _: update(), "changes")
     pn.state.add_periodic_callback(update, period=POLL)
-    return column(pn.Row(start, stop), bar, status)
+    return column(command, pn.Row(start, stop), bar, status)
 
 
 def run_status(run: Run, state: CaseState) -> Element:
     """Return the state of a run in a sentence."""
-    progress = run.progress().sentence
+    progress = run.how_far()
     if run.state == "running":
         return Text(f"{run.name} is running: {progress}.")
     if run.state == "stopped":
@@ -114,12 +115,15 @@ def run_status(run: Run, state: CaseState) -> Element:
 
 
 def answer_elements(run: Run) -> PageElements:
-    """Return the cards of a finished run: its answer, where the surface was measured."""
+    """Return the answer of a finished run: of its contact where the surface was measured."""
     try:
         result = wait_for_worker(lambda: source.read_result(run.folder))
     except GripscaleError:
         return []  # the next tab says why
-    return [Cards(cards(result))] if isinstance(result, source.Run) else []
+    if isinstance(result, source.Run):
+        return [Cards(cards(result))]
+    page = page_of(result)
+    return [Cards(page.cards), Text(page.subtitle)]
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
@@ -157,6 +161,7 @@ def results_elements(folder: Path) -> Iterator[AppElement]:
     """Yield the results in the folder of a run, in the order of the page."""
     run = source.read_result(folder)
     if not isinstance(run, source.Run):
+        yield from page_elements(page_of(run))
         return
     yield Cards(cards(run))
     if run.direct is not None:
@@ -172,6 +177,15 @@ def results_elements(folder: Path) -> Iterator[AppElement]:
     tables = {table.name: table for table in wave_tables(run.by_wave)}
     yield from (tables[name] for name in ("contact", "load", "conditions") if name in tables)
     yield from effects_elements(run.effects)
+
+
+def page_elements(page: Page) -> Iterator[AppElement]:
+    """Yield what a page shows, without how to run it again."""
+    yield Cards(page.cards)
+    yield from map(Text, (page.subtitle, *page.basis))
+    yield from notice_elements(page.notices)
+    for section in page.sections:
+        yield from (each for each in section.elements if not isinstance(each, Code))
 
 
 def measured_elements(folder: Path, run: source.Run) -> Iterator[Element]:

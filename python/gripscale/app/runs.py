@@ -1,8 +1,8 @@
-"""Runs of one visit: each is `gripscale run` in its own process, which writes into a folder.
+"""Runs of one visit: each is a `gripscale` command in its own process, which writes into a folder.
 
-The process writes its events (`gripscale.case.events`) to one file beside the results and its text
-to another. Stopping a run ends the process and all it started; the waves it finished stay, and
-a run of the same case continues from them.
+The process of `gripscale run` writes its events (`gripscale.case.events`) to one file beside the
+results, each process its text to another. Stopping a run ends the process and all it started; what
+it finished stays, and a run of the same case continues from there.
 """
 
 from __future__ import annotations
@@ -34,6 +34,13 @@ from gripscale.case.events import (
 )
 from gripscale.core.errors import InputError
 
+RUN = "run"
+COMMANDS = {
+    "Contact and friction": RUN,
+    "What decides the grip": "sensitivity",
+    "Design of a compound": "design",
+}
+"""Commands that the page runs on a case, by what they are called there."""
 GRACE = 5.0
 """Seconds a process has to end before it is killed."""
 
@@ -117,12 +124,13 @@ class Progress:
 
 @dataclass
 class Run:
-    """A process, its folder, and the text of the case it runs."""
+    """A process, its folder, and command and text of the case it runs."""
 
     name: str
     case: Path
     folder: Path
     text: str
+    command: str = RUN
     stopped: bool = field(default=False, init=False)
     _process: Any = field(default=None, init=False, repr=False)
 
@@ -130,14 +138,16 @@ class Run:
         """Start the process; its events and its text go into files beside the results."""
         atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "gripscale", "run", self.case.name, "--progress", "json"]
+        reports = self.command == RUN
+        command = [sys.executable, "-m", "gripscale", self.command, self.case.name]
+        command += ["--progress", "json"] if reports else []
         process_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
         with self._events_file.open("wb") as events, self._log_file.open("wb") as log:
             self._process = subprocess.Popen(
                 [*command, "--output", str(self.folder)],
                 cwd=self.case.parent,
                 stdin=subprocess.DEVNULL,
-                stdout=events,
+                stdout=events if reports else log,
                 stderr=log,
                 env=os.environ | {"PYTHONUNBUFFERED": "1", "COLUMNS": "110"},
                 **process_group,
@@ -209,12 +219,20 @@ class Run:
         for event in self.events():
             if isinstance(event, RunFailed):
                 return event.message
-        lines = self.log().split("\n") if self.state == "failed" else []
-        return next((line for line in reversed(lines) if line.strip()), "")
+        return self.last_line() if self.state == "failed" else ""
+
+    def last_line(self) -> str:
+        """Return what the process printed last."""
+        lines = self.log().split("\n")
+        return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
     def progress(self) -> Progress:
         """Return how far it is."""
         return Progress.of(self.events())
+
+    def how_far(self) -> str:
+        """Return how far it is, in words."""
+        return self.progress().sentence if self.command == RUN else self.last_line()
 
 
 class Runs(param.Parameterized):
@@ -232,16 +250,17 @@ class Runs(param.Parameterized):
         """The run whose process exists."""
         return next((run for run in self.all if run.running), None)
 
-    def start(self) -> Run:
-        """Run the case as it is now; a stopped run of the same text continues.
+    def start(self, command: str = RUN) -> Run:
+        """Run a command on the case as it is now; a stopped run of the same text continues.
 
         Raises what is wrong with the case, and `InputError` while another run is running.
         """
         if self.running is not None:
             raise InputError(f"{self.running.name} is still running; stop it or wait for its end")
         file = self._state.file()
-        stopped = [run for run in self.all if run.stopped and run.text == file.text]
-        run = stopped[0] if stopped else self._new(file)
+        asked = (command, file.text)
+        stopped = [run for run in self.all if run.stopped and (run.command, run.text) == asked]
+        run = stopped[0] if stopped else self._new(file, command)
         run.stopped = False
         run.start()
         self.changes += 1
@@ -253,10 +272,10 @@ class Runs(param.Parameterized):
             run.stop()
         self.changes += 1
 
-    def _new(self, file: CaseFile) -> Run:
+    def _new(self, file: CaseFile, command: str) -> Run:
         """Add a run of a case, saved beside the files it names."""
         name, path = f"run-{len(self.all) + 1}", self._state.visit.path
         case = folder.write_text(path / f"{name}.toml", file.text)
-        run = Run(name, case, path / "runs" / name, file.text)
+        run = Run(name, case, path / "runs" / name, file.text, command)
         self.all.append(run)
         return run

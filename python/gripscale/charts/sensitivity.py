@@ -14,7 +14,7 @@ from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, S
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
-from gripscale.experiment.axis import dimensions, name_of
+from gripscale.experiment.axis import points
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,14 +25,6 @@ EFFECTS = {
     LOSS: ("$E''$", "more loss, more friction"),
     STORAGE: ("$E'$", "stiffer, less contact and less friction"),
 }
-
-
-def points(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield the name of each point of the axes, such as "0.3 m/s", and what holds there."""
-    axes = dimensions(data)
-    for index in np.ndindex(*(data.sizes[axis] for axis in axes)):
-        at = dict(zip(axes, index, strict=True))
-        yield ", ".join(name_of(data, axis, i) for axis, i in at.items()), data.isel(at)
 
 
 def sensitivity_charts(data: xr.Dataset) -> list[Chart]:

@@ -22,6 +22,13 @@ def sensitivity(
             metavar="NAME=VALUES",
         ),
     ] = None,
+    model: Annotated[
+        str,
+        option(
+            "What predicts: the direct contact of the measured surface, or the chain of waves.",
+            metavar="direct|chain",
+        ),
+    ] = "direct",
     bands: Annotated[
         int, typer.Option(help="Bands of frequency in a decade of the figure.", metavar="NUMBER")
     ] = 4,
@@ -63,6 +70,7 @@ def sensitivity(
         file,
         folder=target,
         vary=axes,
+        model=model,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -212,6 +212,19 @@ def axis_label(result: xr.Dataset, axis: str) -> str:
 def dimensions(result: xr.Dataset) -> list[str]:
     """Return the axes that were varied, in order."""
     return [str(name) for name in result.total_friction.dims]
+
+
+def places(result: xr.Dataset) -> Iterator[dict[str, int]]:
+    """Yield the place of every prediction on the axes."""
+    names = dimensions(result)
+    for index in np.ndindex(*(result.sizes[name] for name in names)):
+        yield dict(zip(names, index, strict=True))
+
+
+def points(result: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield what each place is called, such as "0.3 m/s", and what holds there."""
+    for at in places(result):
+        yield ", ".join(name_of(result, axis, i) for axis, i in at.items()), result.isel(at)
 
 
 def numeric(result: xr.Dataset) -> list[str]:

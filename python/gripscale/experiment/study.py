@@ -24,6 +24,7 @@ import xarray as xr
 
 from gripscale.case.prepare import prepare_conditions
 from gripscale.case.read import CaseFile, read_case
+from gripscale.case.results import CaseResults
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import provenance
@@ -122,7 +123,7 @@ class Study:
     Parameters
     ----------
     case
-        The case, or its file. What is not varied is as it says.
+        The case, prepared, read, or its file. What is not varied is as it says.
     vary
         One or two of speed, pressure, temperature, smallest_wavelength, cut_off (numbers in SI
         units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
@@ -149,14 +150,16 @@ class Study:
 
     def __init__(
         self,
-        case: CaseFile | str | Path,
+        case: CaseResults | CaseFile | str | Path,
         vary: Mapping[str, Any],
         *,
         static: bool | None = None,
         model: Model | str | None = None,
         tolerance: float = JUDGED_TO,
     ) -> None:
-        self.file = case if isinstance(case, CaseFile) else read_case(case)
+        self.prepared = case if isinstance(case, CaseResults) else None
+        file = case.file if isinstance(case, CaseResults) else case
+        self.file = file if isinstance(file, CaseFile) else read_case(file)
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
         if model is None:
@@ -182,13 +185,15 @@ class Study:
     @cached_property
     def surfaces(self) -> list[Surface]:
         """The varied surfaces, or the one of the case, read and fitted."""
-        values = self._values("surface") or ("case",)
+        default = "case" if self.prepared is None else self.prepared.surface
+        values = self._values("surface") or (default,)
         return [inputs.surface_of(value, self.file) for value in values]
 
     @cached_property
     def rubbers(self) -> list[Rubber]:
         """The varied rubbers, or the one of the case, read and fitted."""
-        values = self._values("rubber") or ("case",)
+        default = "case" if self.prepared is None else self.prepared.rubber.rubber
+        values = self._values("rubber") or (default,)
         return [inputs.rubber_of(value, self.file) for value in values]
 
     @cached_property

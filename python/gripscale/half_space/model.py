@@ -18,7 +18,6 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
-from gripscale.wave.problem import Status
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import waves_to_dataset
 
@@ -32,13 +31,6 @@ if TYPE_CHECKING:
 
 JUDGED_TO = 0.05
 """Estimated relative error of the contact that every run judges its chain by."""
-
-USABLE = (Status.CONVERGED, Status.FRICTIONS_DISAGREE)
-"""Statuses of contacts that count in an answer.
-
-Without a tolerance every contact has a grid equally coarse: without those whose frictions disagree
-the others would be a selection. `status` over `profile` and the notes say which they are.
-"""
 
 
 def _measurement(surface: Surface, need: str) -> Measured:
@@ -158,7 +150,7 @@ class DirectContact(Checked, model.Model):
         answer = model.answer_by_length(
             xr.concat(parts, dim="profile", join="outer", combine_attrs="override"),
             contacts,
-            ["" if contact.status in USABLE else str(contact.status) for contact in contacts],
+            ["" if contact.usable else str(contact.status) for contact in contacts],
             lengths,
             self.name,
             load,

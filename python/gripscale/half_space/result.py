@@ -197,6 +197,20 @@ class RoughContact:
         return self.status == Status.CONVERGED
 
     @property
+    def usable(self) -> bool:
+        """Whether the contact counts in an answer.
+
+        Without a tolerance every contact has a grid equally coarse: without those whose frictions
+        disagree the others would be a selection.
+        """
+        return self.status in (Status.CONVERGED, Status.FRICTIONS_DISAGREE)
+
+    @property
+    def has_friction(self) -> bool:
+        """Whether its friction has a logarithm."""
+        return self.usable and self.friction_from_dissipation > 0.0
+
+    @property
     def x(self) -> Array:
         """Positions along the sliding direction [m], shape (nx,)."""
         return self._positions(0)

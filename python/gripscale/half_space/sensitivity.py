@@ -41,6 +41,8 @@ solved one.
 from __future__ import annotations
 
 import math
+import warnings
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -51,12 +53,13 @@ import xarray as xr
 from gripscale.conditions.conditions import state_by_scale
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.errors import InputError
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.half_space.result import RoughContact
+from gripscale.rubber import Rubber
 from gripscale.wave.result import labelled
 
 ADJOINT_TOLERANCE = 1e-8
@@ -138,6 +141,11 @@ class FrictionAdjoint:
         """Return what `change` in ln M of each wave [-] changes in mu, over the half spectrum."""
         return np.asarray((self.weight * _on_grid(change, self.contact.grid)).real)
 
+    def by_log_terms(self) -> Array:
+        """Return d mu / d ln E_i [-] of the Prony moduli, the equilibrium modulus first."""
+        changes = term_changes(self.contact)
+        return np.array([float(self.by_modulus(change).sum()) for change in changes])
+
 
 def _on_grid(change: ComplexArray, grid: Grid) -> ComplexArray:
     """Return a change in ln M; of |M|, by its real part, where a wave is its own opposite."""
@@ -169,12 +177,41 @@ def half_space_of(
 
 def modulus_changes(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
     """Return dln M / dln E' and dln M / dln E'' of each wave [-], over the half spectrum."""
-    grid, body = contact.grid, half_space_of(contact)
-    modulus = np.broadcast_to(body.young_modulus(grid), grid.spectrum_shape)
-    bulk = 3.0 * contact.rubber.bulk_modulus
-    shear = modulus / 3.0
+    modulus, relative = relative_change(contact)
+    return relative * modulus.real, relative * 1j * modulus.imag
+
+
+def term_changes(contact: RoughContact) -> Iterator[ComplexArray]:
+    """Yield dln M / dln E_i of each wave [-] of every Prony term, the equilibrium modulus first."""
+    rubber, body = contact.rubber, half_space_of(contact)
+    body, (_, relative) = half_space_of(contact), relative_change(contact)
+    rubber = contact.rubber if body.by_scale is None else body.by_scale.rubber
+
+    def young_modulus(terms: slice) -> ComplexArray:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RubberWarning)  # the whole rubber has warned
+            alone = Rubber(
+                rubber.equilibrium_modulus,
+                rubber.moduli[terms],
+                rubber.relaxation_times[terms],
+                rubber.bulk_modulus,
+            )
+        scales = None if body.by_scale is None else replace(body.by_scale, rubber=alone)
+        return HalfSpace(alone, body.speed, by_scale=scales).young_modulus(contact.grid)
+
+    relaxed = young_modulus(slice(0))
+    yield relative * relaxed
+    for term in range(rubber.moduli.size):
+        yield relative * (young_modulus(slice(term, term + 1)) - relaxed)
+
+
+def relative_change(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
+    """Return E* [Pa] and dln M / dE* [1/Pa] of each wave, over the half spectrum."""
+    grid = contact.grid
+    modulus = np.broadcast_to(half_space_of(contact).young_modulus(grid), grid.spectrum_shape)
+    bulk, shear = 3.0 * contact.rubber.bulk_modulus, modulus / 3.0
     together = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
-    return together * modulus.real / modulus, together * 1j * modulus.imag / modulus
+    return modulus, together / modulus
 
 
 def _log_change(low: HalfSpace, high: HalfSpace, grid: Grid, step: float) -> ComplexArray:
@@ -227,6 +264,11 @@ class Bands:
         omega = np.broadcast_to(np.abs(grid.along) * contact.speed * shift, grid.spectrum_shape)
         if contact.by_scale is not None:
             omega = omega * contact.by_scale.shift(grid.wavenumber)
+        return cls.over(omega, per_decade)
+
+    @classmethod
+    def over(cls, omega: Array, per_decade: int) -> Bands:
+        """Return the bands of waves that excite the rubber at `omega` [rad/s], not all zero."""
         moving = omega > 0.0
         decade = np.floor(per_decade * np.log10(np.where(moving, omega, np.inf)) + 1e-9)
         first, last = decade.min(), decade[moving].max()
@@ -318,8 +360,9 @@ def sensitivity(
         holds the relaxed modulus. Scalars: `d_ln_friction_d_ln_speed`, `..._ln_pressure`,
         `..._ln_bulk_modulus`, `..._ln_cut_off` (the last from the contact with twice the cut-off),
         and `d_ln_friction_d_temperature`
-        [1/K], NaN without a shift. Over `x` [m], and `y` of a map: `d_friction_d_height` [1/m], of
-        the height of one point of the grid.
+        [1/K], NaN without a shift. Over `term`: `d_ln_friction_d_ln_modulus` [-], of the moduli of
+        the Prony series with `relaxation_time` [s], infinite for the equilibrium modulus. Over `x`
+        [m], and `y` of a map: `d_friction_d_height` [1/m], of the height of one point of the grid.
 
     Raises
     ------
@@ -354,40 +397,46 @@ def sensitivity(
             ("products", float(adjoint.products), "products with the transposed response"),
         )
     }
-    data |= _variables("friction", _friction_derivatives(adjoint, bands))
+    data |= derivative_variables("friction", _friction_derivatives(adjoint, bands))
     if contact_fraction:
-        data |= _variables("contact_fraction", _area_derivatives(contact, bands))
+        data |= derivative_variables("contact_fraction", _area_derivatives(contact, bands))
     data["d_friction_d_height"] = labelled(
         axes, adjoint.by_height, "1/m", "d friction / d height of a point", SOURCE
     )
     coordinates = {
         axis: labelled(axis, getattr(contact, axis), "m", axis, "input") for axis in axes
     }
-    coordinates["frequency"] = labelled(
-        "frequency", bands.centre, "rad/s", "centre of the band", SOURCE
+    coordinates["relaxation_time"] = labelled(
+        "term", [math.inf, *contact.rubber.relaxation_times], "s", "of the Prony term", "input"
     )
-    return xr.Dataset(
+    return derivatives_dataset(
         data,
-        coordinates,
-        {
-            "title": "Derivatives of the friction of a direct contact",
-            "status": str(contact.status),
-            "bands_per_decade": per_decade,
-            "settled": int(contact.by_scale is not None),
-            "rubber": f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
-            "nominal_pressure": contact.nominal_pressure,
-            "speed": contact.speed,
-            **provenance.attributes(),
-        },
-    )
+        bands,
+        title="Derivatives of the friction of a direct contact",
+        status=str(contact.status),
+        bands_per_decade=per_decade,
+        settled=int(contact.by_scale is not None),
+        rubber=f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
+        nominal_pressure=contact.nominal_pressure,
+        speed=contact.speed,
+    ).assign_coords(coordinates)
 
 
-Derivatives = dict[str, Array | float]
+def derivatives_dataset(
+    data: dict[str, xr.Variable], bands: Bands, **attributes: str | float
+) -> xr.Dataset:
+    """Return derivatives as a Dataset over the `frequency` of bands."""
+    centre = labelled("frequency", bands.centre, "rad/s", "centre of the band", SOURCE)
+    return xr.Dataset(data, {"frequency": centre}, {**attributes, **provenance.attributes()})
+
+
+Derivatives = Mapping[str, Array | float]
 """By the end of their name in a Dataset."""
 
 TEXTS = {
     "ln_storage": ("1", "E' in the band"),
     "ln_loss": ("1", "E'' in the band"),
+    "ln_modulus": ("1", "a modulus of the Prony series"),
     "ln_speed": ("1", "speed"),
     "ln_pressure": ("1", "nominal pressure"),
     "ln_bulk_modulus": ("1", "bulk modulus"),
@@ -406,6 +455,7 @@ def _friction_derivatives(adjoint: FrictionAdjoint, bands: Bands) -> Derivatives
     moduli = {
         "ln_storage": bands.sums(adjoint.by_modulus(storage)) / friction,
         "ln_loss": bands.sums(adjoint.by_modulus(loss)) / friction,
+        "ln_modulus": adjoint.by_log_terms() / friction,
     }
     cut_off = contact.cut_off_exponents.friction
     return (
@@ -441,15 +491,18 @@ def _area_derivatives(contact: RoughContact, bands: Bands) -> Derivatives:
     )
 
 
-def _variables(quantity: str, derivatives: Derivatives) -> dict[str, xr.Variable]:
+def derivative_variables(
+    quantity: str, derivatives: Derivatives, source: str = SOURCE
+) -> dict[str, xr.Variable]:
+    """Return derivatives of "friction" or "contact_fraction" by their names in a Dataset."""
     symbol = quantity.replace("_", " ")
     return {
         f"d_ln_{quantity}_d_{name}": labelled(
-            "frequency" if isinstance(value, np.ndarray) else (),
+            () if np.ndim(value) == 0 else "term" if name == "ln_modulus" else "frequency",
             value,
             TEXTS[name][0],
             f"d ln {symbol} by {TEXTS[name][1]}",
-            SOURCE,
+            source,
         )
         for name, value in derivatives.items()
     }

@@ -7,10 +7,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.first_order import QUANTITIES
 from gripscale.analysis.friction_sensitivity import CARRIED, FEEDBACK, LOSS, RULE_FREQUENCY, STORAGE
-from gripscale.charts.sensitivity import points
-from gripscale.charts.view import CONVERGED
+from gripscale.chain import Chain
+from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.core.units import display_unit_of
+from gripscale.experiment.axis import points
 from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
 from gripscale.model import STATUS
 from gripscale.report.elements import Card
@@ -41,7 +43,7 @@ def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
     if _has_feedback(data):
         yield feedback_table(data)
     yield decades_table(data)
-    if CARRIED in data:
+    if CARRIED.format("friction") in data:
         yield carried_table(data)
     yield from rule_lines(data)
 
@@ -55,6 +57,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
         if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
     ]
     where = f", at {' and '.join(load)}" if load else ""
+    where += ", by the chain" if data.attrs["model"] == Chain.name else ""
     yield (
         f"Answer: 1 % more E'' at all frequencies gives {_range(loss)} % more friction, "
         f"1 % less E' {_range(-storage)} %{where}"
@@ -153,17 +156,14 @@ def decades_table(data: xr.Dataset) -> Table:
 
 
 def carried_table(data: xr.Dataset) -> Table:
-    """Return what is not known of the inputs, and what it carries to the friction, most first."""
-    error = data[CARRIED].values
-    ranked = np.argsort(-np.nan_to_num(error), kind="stable")
-    ranked = ranked[np.isfinite(error[ranked])]
-    together = float(np.sqrt(np.sum(error[ranked] ** 2)))
-    columns = [
-        Column("source", [*data.label.values[ranked].tolist(), "together"], "not known"),
-        Column(
-            "friction_error", [*error[ranked].tolist(), together], "± of friction", format=percent
-        ),
-    ]
+    """Return what is not known of the inputs, and what it carries to the results, most first."""
+    errors = {name: data[CARRIED.format(name)].values for name in QUANTITIES}
+    ranked = np.argsort(-np.nan_to_num(errors["friction"]), kind="stable")
+    ranked = ranked[np.isfinite(errors["friction"][ranked])]
+    columns = [Column("source", [*data.label.values[ranked].tolist(), "together"], "not known")]
+    for name, error in errors.items():
+        values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
+        columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
     notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
     return Table("carried", columns, "What the errors of the inputs carry", notes, keys=1)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import shlex
 from collections.abc import Iterator, Sequence
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ import xarray as xr
 from gripscale.charts.page_elements import is_evidence, telling, words_of
 from gripscale.charts.view import CONVERGED, SYMBOLS, believed
 from gripscale.core.units import MILLI
-from gripscale.experiment.axis import COUNTS, axis_shown, dimensions, name_of, of_numbers
+from gripscale.experiment.axis import COUNTS, axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.experiment.inputs import NAMED_MODELS
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, PER_DECADE
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
@@ -26,13 +25,6 @@ MOST_ROWS = 200
 ONE_CURVE = 1e-3
 """Relative distance up to which temperatures over a_T v are one curve."""
 COLLAPSING = {"total_friction": "friction", "total_contact_fraction": "A_r/A_0"}
-
-
-def places(data: xr.Dataset) -> Iterator[dict[str, int]]:
-    """Yield the place of every prediction on the axes of a study."""
-    names = dimensions(data)
-    for index in product(*(range(data.sizes[name]) for name in names)):
-        yield dict(zip(names, index, strict=True))
 
 
 def study_table(data: xr.Dataset) -> Table:

@@ -156,19 +156,11 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             Column(f"{name}_error", sigma, "±", group=HEADS[name], format=percent),
             Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
         ]
-    tangent = first_order_of(part)
-    if names[0] == "friction" and tangent.keys() & set(columns[0].values):
-        values = [tangent.get(label, math.nan) for label in columns[0].values]
-        columns.append(
-            Column(
-                "first_order",
-                values,
-                "± by",
-                "derivatives",
-                group=HEADS["friction"],
-                format=percent,
-            )
-        )
+        tangent = first_order_of(part, name)
+        if tangent.keys() & set(columns[0].values):
+            column, text = f"{name}_first_order", ("± by", "derivatives")
+            values = [tangent.get(label, math.nan) for label in columns[0].values]
+            columns.append(Column(column, values, *text, group=HEADS[name], format=percent))
     error = part[f"best_{names[0]}_part_share_error"].values[ranked]
     notes = ["±: standard error of the logarithm; share: of its square in that of the interval."]
     if NOT_ALONE in part.part_label.values:
@@ -187,11 +179,12 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     return Table("parts", columns, title, [*notes, *_not_linear(part)])
 
 
-def first_order_of(data: xr.Dataset) -> dict[str, float]:
-    """Return the error that each source carries to the friction by derivatives, by its label."""
-    if FIRST_ORDER not in data:
+def first_order_of(data: xr.Dataset, quantity: str) -> dict[str, float]:
+    """Return the error that each source carries to a quantity by derivatives, by its label."""
+    name = FIRST_ORDER.format(quantity)
+    if name not in data:
         return {}
-    pairs = zip(data.label.values.tolist(), data[FIRST_ORDER].values.tolist(), strict=True)
+    pairs = zip(data.label.values.tolist(), data[name].values.tolist(), strict=True)
     return {label: error for label, error in pairs if math.isfinite(error)}
 
 
@@ -200,7 +193,7 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
 
     Not the road, whose stretches are no small change.
     """
-    if not (tangent := first_order_of(part)):
+    if not (tangent := first_order_of(part, "friction")):
         return
     sampled = dict(
         zip(

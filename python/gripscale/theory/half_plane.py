@@ -306,6 +306,7 @@ class HalfPlane(Checked):
                 "points_in_contact": in_contact,
                 "contact_edges": [(start / k, end / k) for start, end in edges],
                 "full_contact": full,
+                **({} if self.poisson_ratio is None else {"poisson_ratio": self.poisson_ratio}),
             },
         )
 

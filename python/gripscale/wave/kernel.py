@@ -11,6 +11,7 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import look, worker_count
 from gripscale.rubber import Rubber
+from gripscale.rubber.banded import Band, BandedRubber
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveProblem
 from gripscale.wave.result import WaveResult
 
@@ -44,10 +45,11 @@ def solve_steady(
     The number of `workers` threads does not change the solution by a bit. Ctrl-C and the end of a
     job of `gripscale.core.parallel` interrupt it.
     """
-    load = problem.load
+    load, rubber = problem.load, problem.rubber
     inputs: _kernel.Problem = {
-        **_body(problem.rubber, problem.profile, mesh),
+        **_body(rubber, problem.profile, mesh),
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
+        "band": rubber.band if isinstance(rubber, BandedRubber) else Band(),
     }
     work = _work(workers, time_limit)
     return _checked_call(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))

@@ -207,7 +207,7 @@ def test_derivatives_stand_beside_samples(folder: Path) -> None:
     carried = float(data.friction_first_order.sel(source="cut_off"))
     assert carried > 0.0
     (table,) = part_tables(data)
-    column = next(each for each in table.columns if each.name == "first_order")
+    column = next(each for each in table.columns if each.name == "friction_first_order")
     assert carried in column.values
     # where they differ by more than a third, the table says so
     assert not any("not linear" in note for note in with_errors(data, label, 1.2 * carried))
