@@ -1,7 +1,7 @@
 """Octaves that were withheld and continued: the band holds the truth as often as it says.
 
 Twelve lines of five kinds: a road, a machined surface, Gaussian lines, overlapping caps and
-lognormal cascades, which no Gaussian waves have. `python -m pytest -m verification -s` prints the table.
+lognormal cascades. `python -m pytest -m verification -s` prints the table.
 """
 
 import numpy as np
