@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from gripscale.case.record import excited
 from gripscale.charts import comparison, rubber, study, surface, uncertainty, wave_and_chain
 from gripscale.charts.blocks import blocks_figure
+from gripscale.charts.cut_off import cut_off_figure
 from gripscale.charts.ladder import on_the_surface, varied, worth_drawing
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.paper import save_figure
@@ -78,12 +79,14 @@ def draw_blocks(results: CaseResults, name: str, folder: Path) -> None:
 
 
 def draw_contact(results: CaseResults, folder: Path) -> None:
-    """Draw area and friction of all predictions into `folder`, and what judges them."""
+    """Draw area and friction of all predictions, what judges them, and against the cut-off."""
     predictions = map(results.dataset, results.predictions)
     titles = {PredictionView(data).title.lower(): data for data in predictions}
     if results.direct is not None:
         titles[JUDGE] = results.direct
     save_figure(wave_and_chain.contact_figure(titles), folder, "contact_and_friction")
+    for curve in results.continued.values():
+        save_figure(cut_off_figure(curve), folder, "cut_off")
 
 
 def draw_heat(data: xr.Dataset, folder: Path) -> None:

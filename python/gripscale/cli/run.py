@@ -92,8 +92,6 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
     from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
-    from gripscale.charts.cut_off import cut_off_figure
-    from gripscale.charts.paper import save_figure
     from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.core.provenance import version_of
     from gripscale.report.answer import answer_lines
@@ -144,13 +142,10 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
             parts += measured_lines(friction, results.load.speed, results.display_unit("speed"))
         sampled = stored_uncertainty(target)
         parts += uncertainty_lines(sampled, file.text, input_digests(file))
-
         for curve in results.continued.values():
             parts += ["", *answer_of_curve(curve), rules_table(curve)]
 
         def draw_conditions() -> None:
-            for curve in results.continued.values():
-                save_figure(cut_off_figure(curve), target / "figures", "cut_off")
             if heat is not None:
                 draw_heat(heat, target / "figures")
             if effects is not None:

@@ -19,9 +19,11 @@ far a continuation errs: see `BAND`.
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,6 +33,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.result import RoughContact
@@ -387,19 +390,24 @@ class _Solver:
         on_contact: OnContact | None = None,
     ) -> CutOffContact:
         """Return the contacts of lines with waves down to a cut-off [m]."""
-        contacts = []
-        for line in lines:
-            contact = solve_rough_contact(
+
+        def job(line: PeriodicLine, _: threading.Event) -> RoughContact:
+            return solve_rough_contact(
                 self.rubber,
                 line.profile(),
                 smallest_wavelength=cut_off,
                 periodic=True,
                 **self.options,
             )
-            contacts.append(contact)
-            if on_contact is not None:
-                on_contact(contact)
-        return CutOffContact(cut_off, tuple(contacts), tuple(lines), slope)
+
+        contacts: list[RoughContact | None] = [None] * len(lines)
+        jobs = [partial(job, line) for line in lines]
+        with closing(in_threads(jobs, worker_count(None))) as solved:
+            for at, contact in solved:
+                contacts[at] = contact
+                if on_contact is not None:
+                    on_contact(contact)
+        return CutOffContact(cut_off, tuple(c for c in contacts if c), tuple(lines), slope)
 
     def continued(
         self,

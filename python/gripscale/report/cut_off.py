@@ -91,7 +91,7 @@ def _source(data: xr.Dataset) -> str:
             else "; no wavelength is measured by both"
         )
         return f"with the slopes of the finer measurement{compared}"
-    text = f"with slopes {significant(float(data.slope_ratio), 3)} times steeper an octave"
+    text = f"with slopes {significant(float(data.slope_ratio), 3)} times as steep each octave"
     if "withheld_friction_error" not in data:
         return f"{text}, as stated or as constant slopes"
     errors = ", ".join(
@@ -112,7 +112,9 @@ def rules_table(data: xr.Dataset) -> Table:
         Column("rule_cut_off", data.rule_cut_off.values, "cut-off", "mm", MILLI),
         *numbers,
     ]
-    return Table("rules", columns, "Rules of cut-off", ["- lies beyond the curve."], keys=1)
+    beyond = bool(np.isnan(data.rule_contact_fraction.values).any())
+    notes = ["Without numbers: beyond the curve."] if beyond else []
+    return Table("rules", columns, "Rules of cut-off", notes, keys=1)
 
 
 def curve_table(data: xr.Dataset) -> Table:
