@@ -33,7 +33,7 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
-    of_conditions = {"effects_chain.nc"} | {
+    of_conditions = {"effects_chain.nc", "cut_off.nc"} | {
         name for name in RESULTS if any(f"/{figure}." in name for figure in AT_TIMES)
     }
     assert written == {*RESULTS, "inputs/road.txt", "inputs/dma.txt"} - of_conditions
