@@ -49,11 +49,6 @@ def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
     return out
 
 
-def trace(x: ArrayLike, lowest: ArrayLike, highest: ArrayLike) -> tuple[Array, Array]:
-    """Return an envelope as one line that runs from lowest to highest in each piece."""
-    return np.repeat(np.asarray(x), 2), np.column_stack([lowest, highest]).ravel()
-
-
 def close_up(profile: Profile) -> Array:
     """Return abscissa and height [m] of a piece from the middle of a profile, shape (2, points)."""
     start = 0.5 * (profile.x[0] + profile.x[-1])

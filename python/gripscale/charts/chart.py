@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.charts.style import BLUE, GREY, INK, WIDE
+from gripscale.core.arrays import Array
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
@@ -104,6 +105,30 @@ class Series:
 
 
 @dataclass(frozen=True)
+class Outline:
+    """A curve of very many points by the lowest and highest value of pieces, NaN for a gap.
+
+    What is drawn has at most two points to a pixel and every extreme: paper has pixels, and the
+    page draws anew what its frame shows.
+    """
+
+    x: ArrayLike
+    low: ArrayLike
+    high: ArrayLike
+    colour: str = BLUE
+    label: str = ""
+    width: float = 1.4
+
+    def drawn(self, pieces: int) -> tuple[Array, Array]:
+        """Return abscissa and ordinate of the curve in so many equal pieces of the abscissa."""
+        x = np.asarray(self.x, dtype=float)
+        index = np.clip(((x - x[0]) / (x[-1] - x[0]) * pieces).astype(int), 0, pieces - 1)
+        first = np.flatnonzero(np.diff(index, prepend=-1))
+        low, high = np.fmin.reduceat(self.low, first), np.fmax.reduceat(self.high, first)
+        return np.repeat(x[first], 2), np.column_stack([low, high]).ravel()
+
+
+@dataclass(frozen=True)
 class Band:
     """The area between two curves."""
 
@@ -145,7 +170,7 @@ class CrossLine:
     upright: bool = False
     order: float = 1.5
     to: float | None = None
-    """Other end of a shade, which is drawn on paper only; None for a line."""
+    """Other end of a shade; None for a line."""
 
 
 @dataclass(frozen=True)
@@ -170,7 +195,10 @@ class Note:
 
 @dataclass(frozen=True)
 class ValueMap:
-    """Values over a plane, shape (y, x), with a colour bar; on paper only."""
+    """Values over a plane, shape (y, x), with a colour bar; NaN is left white.
+
+    The page draws what has no contours.
+    """
 
     x: ArrayLike
     y: ArrayLike
@@ -180,7 +208,7 @@ class ValueMap:
     """Most contours; 0 for a smooth map to scale."""
 
 
-Mark = Series | Band | Bars | CrossLine | Note | ValueMap
+Mark = Series | Outline | Band | Bars | CrossLine | Note | ValueMap
 
 
 @dataclass(frozen=True)
@@ -198,6 +226,8 @@ class Panel:
     """On the page [px]."""
     legend: str = ""
     """Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere."""
+    to_scale: bool = False
+    """Whether lengths along both axes are equal."""
 
     def with_marks(self, marks: Iterable[Mark]) -> Panel:
         """Return the panel with more marks, drawn above the others."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from gripscale.charts.chart import Panel, Sheet
@@ -25,3 +25,10 @@ def on_page(panels: Iterable[Panel]) -> list[Chart]:
     from gripscale.charts.page import draw_panel
 
     return [draw_panel(panel) for panel in panels]
+
+
+def linked_on_page(panels: Sequence[Panel], name: str, caption: str, alt: str) -> Chart:
+    """Draw panels below each other with Bokeh, zoomed together along their abscissa."""
+    from gripscale.charts.page import draw_linked
+
+    return draw_linked(panels, name, caption, alt)

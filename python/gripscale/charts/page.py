@@ -6,21 +6,51 @@ Bokeh: https://bokeh.org. Its core script, 1.3 MB, is a quarter of the size of P
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from bokeh.models import BasicTickFormatter, FixedTicker, HoverTool, LogTickFormatter, Range1d
+from bokeh.layouts import gridplot
+from bokeh.models import (
+    BasicTickFormatter,
+    BoxAnnotation,
+    ColorBar,
+    ColumnDataSource,
+    FixedTicker,
+    HoverTool,
+    LinearColorMapper,
+    LogTickFormatter,
+    Range1d,
+)
 from bokeh.models.annotations.geometry import Span
 from bokeh.models.annotations.legends import LegendItem
 from bokeh.plotting import figure as Figure
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.charts import page_elements
-from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, spelled_out
-from gripscale.charts.style import BEYOND, FAINT, GREY, INK, stretches
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    Bars,
+    CrossLine,
+    Mark,
+    Outline,
+    Panel,
+    Series,
+    ValueMap,
+    spelled_out,
+)
+from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, stretches
 from gripscale.core.arrays import Array
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
+TOOLS = "pan,box_zoom,wheel_zoom,reset,save"
+ALONG = "xpan,xbox_zoom,xwheel_zoom,reset,save"
+"""Tools of figures that are zoomed together along their abscissa; a drag draws a box."""
+LABELS = 70
+"""Room for the numbers of the ordinates of linked figures [px], so that their frames are aligned."""
+COLUMNS = 1000
+"""Pieces of an outline as the page is opened, a pixel each."""
 LEGEND_ROW = 28
 """Height of a row of the legend [px]; of more than two rows the figure grows."""
 LEGEND_WIDTH = 300
@@ -47,25 +77,64 @@ MARKERS = {
 
 def draw_panel(panel: Panel) -> page_elements.Chart:
     """Return a chart of the page: the panel's Bokeh figure, with its caption and alternative."""
+    return page_elements.Chart(panel.name, panel.caption, panel.alt, _figure(panel, Store()))
+
+
+def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> page_elements.Chart:
+    """Return panels below each other as one chart, zoomed together along their abscissa."""
+    store = Store()
+    figures = [_figure(panel, store, tools=ALONG) for panel in panels]
+    for figure in figures[1:]:
+        figure.x_range = figures[0].x_range
+    for figure in figures:
+        figure.update(min_border_left=LABELS, toolbar_location=None)
+    figures[0].toolbar_location = "right"
+    column = gridplot([[figure] for figure in figures], sizing_mode="stretch_width")
+    return page_elements.Chart(name, caption, alt, column, wide=True)
+
+
+class Store:
+    """The columns that the outlines of a chart are drawn from, each array once."""
+
+    def __init__(self) -> None:
+        self.source = ColumnDataSource()
+        self._names: dict[int, str] = {}
+
+    def name(self, values: ArrayLike) -> str:
+        """Return the name of the column of an array."""
+        if id(values) not in self._names:
+            self._names[id(values)] = name = f"c{len(self._names)}"
+            self.source.data[name] = np.asarray(values)
+        return self._names[id(values)]
+
+
+def _figure(panel: Panel, store: Store, tools: str = TOOLS) -> Any:
     figure = Figure(
         height=panel.height,
         sizing_mode="stretch_width",
+        match_aspect=panel.to_scale,
         x_axis_type="log" if panel.x.log else "linear",
         y_axis_type="log" if panel.y.log else "linear",
         x_axis_label=spelled_out(panel.x.label),
         y_axis_label=spelled_out(panel.y.label),
-        tools="pan,box_zoom,wheel_zoom,reset,save",
-        active_drag="box_zoom",
+        tools=tools,
+        active_drag=tools.split(",")[1],
         toolbar_location="right",
     )
     _style(figure)
-    _set_axis(figure, "x", panel.x, _extent(panel.marks, "x"))
-    _set_axis(figure, "y", panel.y, _extent(panel.marks, "y"))
+    for which, axis in (("x", panel.x), ("y", panel.y)):
+        # at equal scales Bokeh finds the limits
+        free = replace(axis, low=None, high=None) if panel.to_scale else axis
+        _set_axis(figure, which, free, _extent(panel.marks, which))
     points: list[Any] = []
     for mark in panel.marks:
         match mark:
             case Series():
                 points += _draw_series(figure, mark, positive=panel.y.log)
+            case Outline():
+                _draw_outline(figure, mark, store)
+            case ValueMap(levels=0):
+                _draw_field(figure, mark)
             case Band():
                 _draw_band(figure, mark, positive=panel.y.log)
             case Bars():
@@ -77,6 +146,12 @@ def draw_panel(panel: Panel) -> page_elements.Chart:
                             **_labelled(mark.label))  # fmt: skip
             case CrossLine(to=None):
                 _draw_cross_line(figure, mark, panel)
+            case CrossLine(to=float(end)):
+                sides = ("left", "right") if mark.upright else ("bottom", "top")
+                ends = dict(zip(sides, (mark.at, end), strict=True))
+                look: dict[str, Any] = {"fill_color": mark.colour, "line_color": mark.colour}
+                look |= {"fill_alpha": 0.4, "level": "underlay"}
+                figure.add_layout(BoxAnnotation(**ends, **look))
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)
@@ -92,7 +167,7 @@ def draw_panel(panel: Panel) -> page_elements.Chart:
         figure.center = [part for part in figure.center if part not in boxes]
     else:
         _place_legend(figure)
-    return page_elements.Chart(panel.name, panel.caption, panel.alt, figure)
+    return figure
 
 
 def _style(figure: Any) -> None:
@@ -121,10 +196,12 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
                 ends = [end for end in (mark.low, mark.high) if end is not None]
                 along = mark.level_bars == (which == "x")
                 parts += [getattr(mark, which), *(ends if along else [])]
-            case Band():
+            case Band() | Outline():
                 parts += [mark.x] if which == "x" else [mark.low, mark.high]
             case Bars():
                 parts += [mark.x0, mark.x1] if which == "x" else [mark.y0, mark.y1]
+            case ValueMap():
+                parts.append(getattr(mark, which))
             case CrossLine() if mark.upright == (which == "x"):
                 parts.append(mark.at)
     values: Array = np.concatenate([np.ravel(np.asarray(part, float)) for part in (*parts, [])])
@@ -194,6 +271,30 @@ def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
                 ))  # fmt: skip
         drawn = [part for part in drawn if part.glyph.__class__.__name__ == "Scatter"]
     return drawn if x.size <= MOST_HOVERED else []
+
+
+def _draw_outline(figure: Any, outline: Outline, store: Store) -> None:
+    """Draw a curve in pieces; `templates/outlines.js` draws it anew as the reader zooms."""
+    x, y = outline.drawn(COLUMNS)
+    columns = [store.name(values) for values in (outline.x, outline.low, outline.high)]
+    source = ColumnDataSource({"x": _stored(x), "y": _stored(y)})
+    source.tags = ["outline", store.source, *columns]
+    width = PIXELS * outline.width
+    figure.line("x", "y", source=source, color=outline.colour, line_width=width,
+                **_labelled(outline.label))  # fmt: skip
+
+
+def _draw_field(figure: Any, field: ValueMap) -> None:
+    x, y = np.asarray(field.x), np.asarray(field.y)
+    values = np.asarray(field.values, dtype=np.float32)
+    palette = [*shades(256, "Inferno")]
+    colours = LinearColorMapper(palette, low=0.0, high=float(np.nanmax(values)), nan_color="white")
+    steps = float(x[1] - x[0]), float(y[1] - y[0])
+    figure.image(image=[values], x=float(x[0]), y=float(y[0]), dw=steps[0] * x.size,
+                 dh=steps[1] * y.size, color_mapper=colours)  # fmt: skip
+    bar = ColorBar(color_mapper=colours, title=spelled_out(field.label), title_text_font=FONT,
+                   title_text_font_style="normal")  # fmt: skip
+    figure.add_layout(bar, "right")
 
 
 def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:

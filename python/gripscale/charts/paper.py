@@ -28,6 +28,7 @@ from gripscale.charts.chart import (
     CrossLine,
     Mark,
     Note,
+    Outline,
     Panel,
     Series,
     Sheet,
@@ -38,6 +39,9 @@ from gripscale.io.netcdf import write_whole
 
 DPI = 200
 """Pixels per inch of a PNG, and of what is rasterised in a PDF."""
+
+PIECES = 5000
+"""Pieces of an outline: several to a pixel, so that most gaps are still seen."""
 
 MOST_MARKED = 1e7
 """Largest over smallest value of a logarithmic axis with marks between the powers of ten."""
@@ -138,6 +142,8 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
             (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
     for mark in panel.marks:
         _draw_mark(figure, axes, mark)
+    if panel.to_scale:
+        axes.set_aspect("equal", adjustable="box")
     if any(isinstance(mark, Bars) for mark in panel.marks):
         axes.use_sticky_edges = False  # of bars upon bars, which would leave no room above
     if panel.title:
@@ -171,6 +177,9 @@ def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
     match mark:
         case Series():
             _draw_series(axes, mark)
+        case Outline():
+            _draw_series(axes, Series(*mark.drawn(PIECES), mark.colour, mark.label,
+                                      width=mark.width, coarse=True))  # fmt: skip
         case Band():
             _draw_band(axes, mark)
         case Bars():
@@ -274,7 +283,11 @@ def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
     else:
         mappable = axes.pcolormesh(x, y, values, cmap="inferno", rasterized=True)
         axes.set_aspect("equal")
-    bar = figure.colorbar(mappable, ax=axes, label=field.label, pad=0.02)
+    # beside the frame, which an equal scale makes narrower than its place
+    where: Any = {"ax": axes, "pad": 0.02}
+    if not field.levels:
+        where = {"cax": axes.inset_axes((1.02, 0.0, 0.03, 1.0))}
+    bar = figure.colorbar(mappable, label=field.label, **where)
     bar.outline.set_linewidth(0.0)
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
 

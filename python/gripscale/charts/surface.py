@@ -8,21 +8,20 @@ back there, are dotted. Neither is drawn beyond the first wavelength.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from gripscale.case.record import CLOSE_UP, close_up, envelope, sine_curves, trace
+from gripscale.case.record import CLOSE_UP, close_up, sine_curves
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Outline, Panel, Series, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
 from gripscale.core.arrays import Array
-from gripscale.core.units import MEGA, MILLI, SQUARE_MM
-from gripscale.half_space.result import RoughContact
+from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 from gripscale.surface.profile import Profile
 
@@ -30,8 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 DISTANCE, HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
-PIECES = 5000
-"""Pieces a profile is drawn in on paper: several to a pixel, so that most gaps are still seen."""
 SELF_AFFINE = "correlation_self_affine"
 
 
@@ -69,11 +66,11 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     dots: dict[str, Any] = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
     rows: dict[str, list[Mark]] = {
         "as read": [
-            _outline(envelope(raw.x, np.where(kept, raw.z, np.nan), PIECES), "kept", GREY),
+            _outline(raw.x, *[np.where(kept, raw.z, np.nan)] * 2, "kept", GREY),
             Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, size=1.0, order=1.5,
                    **dots),
         ],
-        "cleaned": [_outline(envelope(cleaned.x, cleaned.z, PIECES), "", BLUE)],
+        "cleaned": [_outline(cleaned.x, cleaned.z, cleaned.z, "", BLUE)],
         "close up": [
             Series(x / MILLI, z / MILLI, label="cleaned", width=0.9),
             Series(raw.x[piece] / MILLI, level / MILLI, size=4.5, **dots),
@@ -89,10 +86,10 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     return panels
 
 
-def _outline(parts: Iterable[ArrayLike], label: str, colour: str) -> Series:
-    """Return a profile by abscissa, lowest and highest height of its pieces, quickly drawn."""
-    along, heights = trace(*parts)
-    return Series(along / MILLI, heights / MILLI, colour, label, width=0.45)
+def _outline(x: Array, low: Array, high: Array, label: str, colour: str) -> Outline:
+    inside = np.isfinite(x)
+    parts = (part[inside] / MILLI for part in (x, low, high))
+    return Outline(*parts, colour, label, width=0.45)
 
 
 def kept_points(raw: Profile, cleaned: Profile) -> NDArray[np.bool_]:
@@ -109,7 +106,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
     for i, name in enumerate(str(name) for name in inputs["profile_name"].values):
         profile = inputs.isel(profile=i)
         outlines = [
-            _outline((profile[f"{part}_{end}"].values for end in ("x", "lowest", "highest")),
+            _outline(*(profile[f"{part}_{end}"].values for end in ("x", "lowest", "highest")),
                      label, colour)
             for part, label, colour in (("read", "as read", GREY), ("cleaned", "cleaned", BLUE))
         ]  # fmt: skip
@@ -236,27 +233,3 @@ def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
         height=400,
     )
 
-
-def rough_contact_figure(contact: RoughContact) -> Figure:
-    """Draw the contact pressure along a line, and rubber and surface about its highest value.
-
-    Of a map this is the middle line along the way of sliding.
-    """
-    x = contact.x
-    height, gap, pressure = (
-        values if values.ndim == 1 else values[:, values.shape[1] // 2]
-        for values in (contact.height, contact.gap, contact.pressure)
-    )
-    about = np.abs(x - x[np.argmax(pressure)]) <= CLOSE_UP / 2.0
-    part, along = x[about] / MILLI, Axis("distance $x$ [mm]")
-    totals = f"$A_r/A_0$ = {contact.contact_fraction:.3g}, $\\mu$ = {contact.friction:.3g}"
-    whole = Series(x / MILLI, pressure / MEGA, width=0.8, coarse=True)
-    close = [
-        Series(part, height[about] / MILLI, INK, "surface"),
-        Series(part, (height + gap)[about] / MILLI, BLUE, "rubber"),
-    ]
-    panels = [
-        Panel(along, Axis("contact pressure $p$ [MPa]", low=0.0), [whole], title=totals),
-        Panel(along, Axis("height $z$ [mm]"), close, legend="lower left"),
-    ]
-    return draw.on_paper(Sheet(panels, columns=1, height=5.2, legend=""))

@@ -52,8 +52,8 @@ UNITS: dict[str, dict[str, float]] = {
 """The units of each kind of quantity by their usual spelling; the first is the one used inside: the
 SI unit, except for the energy of a bond."""
 
-MILLI, MEGA, SQUARE_MM = 1e-3, 1e6, 1e-6
-"""Sizes of mm, MPa and mm^2 in SI units."""
+MILLI, MICRO, MEGA, SQUARE_MM = 1e-3, 1e-6, 1e6, 1e-6
+"""Sizes of mm, um, MPa and mm^2 in SI units."""
 
 ZERO_CELSIUS = 273.15
 """0 C [K]."""

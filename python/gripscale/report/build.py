@@ -43,8 +43,8 @@ def build(result: Path, output: Path | None) -> Path:
 def render(page: Page) -> str:
     """Return `page` as HTML; all texts in it are escaped by the template."""
     items = [json_item(chart.model, ID(f"plot-{chart.name}")) for chart in page.charts]
-    library, script = _bokeh(), _template_file("page.js")
-    style = "\n".join(_template_file(f"{name}.css") for name in ("page", "elements", "media"))
+    library, script = _bokeh(), "\n".join(map(_template_file, ("outlines.js", "page.js")))
+    style = "\n".join(map(_template_file, ("page.css", "elements.css", "media.css")))
     return _template().render(
         page=page,
         # the template turns plain data into JSON without any markup

@@ -6,6 +6,8 @@ async function drawAll() {
   for (const figure of figures) {
     await Bokeh.embed.embed_item(figure);
   }
+  const roots = Bokeh.documents.flatMap(each => each.roots());
+  watchOutlines(new Set(roots.flatMap(root => [...root.references()])));
   document.documentElement.dataset.drawn = String(figures.length);
 }
 

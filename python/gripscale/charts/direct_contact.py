@@ -1,0 +1,236 @@
+"""Charts of a direct contact: the rubber on the road, its pressure, and where it makes friction.
+
+All are drawn from a trace (`gripscale.half_space.location.contact_trace`), which a result keeps.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import draw
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    CrossLine,
+    Mark,
+    Note,
+    Outline,
+    Panel,
+    Series,
+    Sheet,
+    ValueMap,
+)
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
+from gripscale.core.arrays import Array
+from gripscale.core.units import MEGA, MICRO, MILLI, in_mm
+from gripscale.half_space.location import contact_trace
+from gripscale.half_space.result import RoughContact
+from gripscale.io.table import percent
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DRAPED = 0.3
+"""Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
+FLATTEST = 0.15
+"""Least height of the stretch drawn to scale, over its length."""
+ROW, FIELD_ROW = 1.4, 3.2
+"""Heights of a panel over the whole line, and of the field of a map [inch]."""
+INSIDE = 0.87
+"""Width of a panel over that of the figure."""
+
+
+def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None) -> Figure:
+    """Draw a direct contact: rubber on the surface, pressure, friction, a stretch to scale.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        Of a line; of a map, the pressure field and its section with the strongest stretch.
+    stretch : float, optional
+        Length of the stretch that is drawn to scale [m], the one of this length with most friction;
+        by default 4 mm, see `gripscale.half_space.contact_trace`.
+
+    Raises
+    ------
+    InputError
+        If the stretch is not positive.
+    """
+    return trace_figure(contact_trace(contact, stretch=stretch))
+
+
+def trace_figure(trace: xr.Dataset, title: str = "") -> Figure:
+    """Draw a trace on paper."""
+    fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
+    low, high = close.y.low, close.y.high
+    assert low is not None and high is not None
+    length = float(trace.stretch_end - trace.stretch_start) / _unit(trace)[0]
+    rows = [FIELD_ROW] * len(fields) + [ROW] * len(lines)
+    heights = [*rows, INSIDE * WIDE * (high - low) / length + 0.3]
+    look = {"legend_columns": 4, "title": title, "layout": {"height_ratios": heights}}
+    return draw.on_paper(Sheet([*fields, *lines, close], 1, WIDE, sum(heights) + 0.8, **look))
+
+
+def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
+    """Return a trace on the page: along the whole line, to be zoomed, and a stretch to scale."""
+    lines = draw.linked_on_page(
+        _line_panels(trace),
+        f"contact-{name}",
+        f"{name}: rubber on the surface, contact pressure, and friction and load from the "
+        "beginning of the line. The shade is the stretch of the next figure. Draw a box to zoom; "
+        "the tools above move the line and zoom by the wheel.",
+        f"Heights of surface and rubber, pressure, and running friction along {name}.",
+    )
+    return [lines, *draw.on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
+
+
+def height_panels(trace: xr.Dataset, friction: float) -> list[Panel]:
+    """Return the stretch with most friction, and what its heights are worth for the friction."""
+    part = _stretch(trace)
+    x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI / friction
+    axis = Axis("d ln $\\mu$ / d height [%/µm on 1 mm]")
+    curve = Series(x, 100.0 * values, GREEN, width=0.9)
+    caption = (
+        "What a height is worth: per cent of friction for a micrometre on a millimetre of the "
+        "surface. Out of contact no height counts."
+    )
+    alt = "Derivative of the friction by the height of the surface, over one stretch."
+    return [
+        _stretch_panel(trace, "sensitivity"),
+        Panel(_along(trace, x), axis, [curve, CrossLine(0.0)], name="sensitivity-height",
+              caption=caption, alt=alt, height=260),
+    ]  # fmt: skip
+
+
+def _unit(trace: xr.Dataset) -> tuple[float, str]:
+    """Return the unit of lengths: a millimetre, or of very small surfaces a micrometre."""
+    return (MILLI, "mm") if np.ptp(trace.x.values) > MILLI else (MICRO, "µm")
+
+
+def _lengths(values: xr.DataArray, trace: xr.Dataset) -> Array:
+    return np.asarray(values.values, dtype=float) / _unit(trace)[0]
+
+
+def _along(trace: xr.Dataset, x: Array) -> Axis:
+    label = f"distance $x$ [{_unit(trace)[1]}]"
+    return Axis(label, low=float(x[0]), high=float(x[-1]))
+
+
+def _stretch(trace: xr.Dataset) -> xr.Dataset:
+    inside = (trace.x >= trace.stretch_start) & (trace.x <= trace.stretch_end)
+    return trace.isel(piece=np.flatnonzero(inside.values))
+
+
+def _touching(trace: xr.Dataset) -> tuple[Array, Array]:
+    """Return lowest and highest height of the pieces in contact, NaN of the others."""
+    inside = trace.pressure_high.values > 0.0
+    low, high = (_lengths(trace[f"height_{end}"], trace) for end in ("low", "high"))
+    return np.where(inside, low, np.nan), np.where(inside, high, np.nan)
+
+
+def _line_panels(trace: xr.Dataset) -> list[Panel]:
+    """Return heights, pressure, and running friction and load along the whole line."""
+    x, unit = _lengths(trace.x, trace), _unit(trace)[1]
+    ends = {f"{name}_{end}": _lengths(trace[f"{name}_{end}"], trace)
+            for name in ("height", "rubber") for end in ("low", "high")}  # fmt: skip
+    low, high = (float(trace[f"stretch_{end}"]) / _unit(trace)[0] for end in ("start", "end"))
+    shade = CrossLine(low, SKY, "", upright=True, to=high)
+    pressure = (trace[f"pressure_{end}"].values / MEGA for end in ("low", "high"))
+    running: list[Mark] = [
+        Outline(x, trace[name].values, trace[name].values, colour, words, width=1.2)
+        for name, colour, words in (("load", GREY, "load"), ("friction", GREEN, "friction"))
+        if np.isfinite(trace[name].values).any()
+    ]
+    heights: list[Mark] = [
+        Outline(x, ends["height_low"], ends["height_high"], INK, "surface", width=0.6),
+        Outline(x, ends["rubber_low"], ends["rubber_high"], BLUE, "rubber", width=0.9),
+        Outline(x, *_touching(trace), ORANGE, "contact", width=2.2),
+    ]
+    rows = (
+        (f"height $z$ [{unit}]", heights),
+        ("pressure $p$ [MPa]", [Outline(x, *pressure, ORANGE, width=0.6)]),
+        ("running share [-]", running),
+    )
+    return [
+        Panel(
+            _along(trace, x) if number == len(rows) else Axis("", low=float(x[0]), high=float(x[-1])),
+            Axis(label, low=None if number == 1 else 0.0),
+            [shade, *marks],
+            height=250 if number == 1 else 190,
+        )
+        for number, (label, marks) in enumerate(rows, start=1)
+    ]
+
+
+def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
+    """Return the stretch with most friction to scale, the pressure drawn upon the rubber."""
+    part = _stretch(trace)
+    x, surface, rubber = (
+        _lengths(part[name], trace) for name in ("x", "height_low", "rubber_low")
+    )
+    unit = _unit(trace)[1]
+    lowest, highest = float(surface.min()), float(rubber.max())
+    lowest = min(lowest, highest - FLATTEST * (x[-1] - x[0]))
+    room = DRAPED * (highest - lowest)
+    top = highest + 1.1 * room
+    pressure = part.pressure_high.values / MEGA
+    scale = _round_down(room / float(pressure.max()))
+    text = f"pressure, {1.0 / scale:.3g} MPa a {unit}"
+    contact = _touching(part)[1]
+    makes = "a stretch"
+    if np.isfinite(part.stretch_friction):
+        shares = (percent(float(part[f"stretch_{what}"])) for what in ("friction", "load"))
+        makes = "the stretch with most friction, {} of it under {} of the load".format(*shares)
+        if "section" in trace:
+            makes = "the stretch of a line with most friction"
+    return Panel(
+        _along(trace, x),
+        Axis(f"height $z$ [{unit}]", low=lowest, high=top),
+        [
+            Band(x, np.full(x.size, lowest), surface, FAINT, alpha=1.0),
+            Band(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
+            Band(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
+            Series(x, surface, INK, "surface", width=0.8),
+            Series(x, rubber, BLUE, "rubber", width=0.9),
+            Series(x, contact, ORANGE, "contact", width=2.2),
+            Note(0.02, 0.95, "rubber slides $\\rightarrow$", frame="xy", top=True),
+        ],
+        title=f"To scale: {makes}",
+        name=f"stretch-{name}",
+        caption=f"{name}, to scale: {makes}. Pressure stands upon the rubber.",
+        alt=f"Rubber on the surface and contact pressure over one stretch of {name}.",
+        height=420,
+        to_scale=True,
+    )
+
+
+def _round_down(value: float) -> float:
+    """Return the next smaller of 1, 2, 5 times a power of ten."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-9)))
+
+
+def _field_panels(trace: xr.Dataset, name: str = "") -> list[Panel]:
+    """Return the pressure of a map with its section; nothing of a line."""
+    if "field_pressure" not in trace:
+        return []
+    x, y = _lengths(trace.field_x, trace), _lengths(trace.field_y, trace)
+    unit = _unit(trace)[1]
+    field = ValueMap(x, y, trace.field_pressure.values.T / MEGA, "pressure $p$ [MPa]")
+    section = CrossLine(float(trace.section) / _unit(trace)[0], BLUE, "section", width=1.2)
+    return [
+        Panel(
+            Axis(f"$x$, the way of sliding [{unit}]", grid=False),
+            Axis(f"$y$ [{unit}]", grid=False),
+            [field, section],
+            name=f"field-{name}",
+            caption=f"{name}: contact pressure, white out of contact, and the section below.",
+            alt=f"Contact pressure over the map {name}.",
+            height=480,
+            to_scale=True,
+        )
+    ]

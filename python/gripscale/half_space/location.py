@@ -1,0 +1,239 @@
+"""Where a contact makes its friction: on which slopes of the surface, and at which of its points.
+
+The friction from the contact traction is a sum over the points of the grid,
+
+    mu = sum_i p_i h'_i / (N p_0),
+
+so that a class of slopes, or a stretch of the surface, has a share in it, as it has in the load,
+sum_i p_i = N p_0, and in the contact area. Behind a summit p h' is below zero: over a stretch much
+shorter than a summit a share may exceed 1, and over several summits it does not.
+
+A trace is a contact along a line as a drawing needs it: lowest and highest values of pieces, half
+of them equally long, the others single points in the stretches with most friction. Its size does
+not depend on the number of points.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
+from gripscale.wave.result import labelled
+
+if TYPE_CHECKING:
+    from gripscale.half_space.result import RoughContact
+
+SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
+"""Lower ends of the classes of |dh/dx|; the last has no upper end."""
+SHARES = {
+    "friction_by_slope": "share of the friction from contact on slopes of the class",
+    "load_by_slope": "share of the load carried on slopes of the class",
+    "contact_by_slope": "share of the contact area on slopes of the class",
+}
+STRETCH, LEAST_WAVES, MOST_OF_LINE = 4e-3, 20.0, 0.25
+"""Length of a stretch that shows some stones [m], the least in smallest waves and the most in
+lengths of the line."""
+PIECES = 2**15
+"""Pieces of a trace: 1.2 MB in single precision."""
+FIELD = 256
+"""Most blocks of the field of a map along a side."""
+SOURCE = "gripscale direct contact"
+
+
+def shares_by_slope(contact: RoughContact) -> xr.Dataset:
+    """Return the shares of friction, load and contact area by slope of the surface.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        The contact; the slope is dh/dx along the sliding direction, up or down.
+
+    Returns
+    -------
+    xarray.Dataset
+        `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the lower end
+        of the classes 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1; the friction is NaN
+        where there is none.
+    """
+    slope = contact.grid.slope(contact.height)
+    index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
+    force, total = contact.pressure * slope, float(np.sum(contact.pressure * slope))
+    moving = contact.speed > 0.0 and total > 0.0
+    amounts = (force if moving else np.full(force.shape, math.nan), contact.pressure, contact.active)
+    data = {}
+    for (name, text), amount in zip(SHARES.items(), amounts, strict=True):
+        sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
+        share = sums / amount.sum() if amount is not force else sums / total
+        data[name] = labelled("slope", share, "1", text, SOURCE)
+    ends = labelled("slope", np.array(SLOPES), "1", "lower end of |dh/dx|", "input")
+    return xr.Dataset(data, {"slope": ends})
+
+
+def stretch_length(contact: RoughContact) -> float:
+    """Return the length [m] of a stretch that shows some summits of a contact."""
+    least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)
+    return min(least, MOST_OF_LINE * contact.grid.lengths[0])
+
+
+def strongest_stretches(amount: Array, active: Mask, points: int, count: int) -> list[int]:
+    """Return the first points of the stretches with the largest sums of an amount, largest first.
+
+    They begin and end out of contact, where there is any such place.
+
+    Parameters
+    ----------
+    amount : array, shape (n,)
+        What each point of a line adds.
+    active : array of bool, shape (n,)
+        Where it is in contact.
+    points : int
+        Points of a stretch, at most n.
+    count : int
+        Stretches wanted; they do not overlap, so that there may be fewer.
+    """
+    sums = _window_sums(amount, points)
+    cut = active[: sums.size] | active[points - 1 :]
+    sums[cut & ~cut.all()] = -math.inf
+    firsts: list[int] = []
+    while len(firsts) < count and np.isfinite(sums).any():
+        firsts.append(int(np.argmax(sums)))
+        sums[max(firsts[-1] - points + 1, 0) : firsts[-1] + points] = -math.inf
+    return firsts
+
+
+def _window_sums(amount: Array, points: int) -> Array:
+    """Return the sums over each window of so many points along the first axis."""
+    running = np.cumsum(np.insert(amount, 0, 0.0, axis=0), axis=0)
+    return np.asarray(running[points:] - running[:-points])
+
+
+class _Line(NamedTuple):
+    """A contact along x: a line, or the section of a map through its strongest stretch."""
+
+    height: Array
+    rubber: Array
+    pressure: Array
+    force: Array
+    """p h' [Pa]."""
+    mean: float
+    """Sum of p h' of the mean line of the contact [Pa]; NaN at rest."""
+    y: float
+
+
+def _line(contact: RoughContact, points: int) -> _Line:
+    force = contact.pressure * contact.grid.slope(contact.height)
+    mean = float(force.mean()) * force.shape[0] if contact.speed > 0.0 else math.nan
+    fields = contact.height, contact.height + contact.gap, contact.pressure, force
+    if contact.height.ndim == 1:
+        return _Line(*fields, mean, math.nan)
+    amount = force if contact.speed > 0.0 else contact.pressure
+    column = int(np.argmax(_window_sums(amount, points).max(axis=0)))
+    return _Line(*(field[:, column] for field in fields), mean, float(contact.y[column]))
+
+
+def contact_trace(
+    contact: RoughContact,
+    *,
+    stretch: float | None = None,
+    pieces: int = PIECES,
+    derivative: Array | None = None,
+) -> xr.Dataset:
+    """Return a contact along a line as charts draw it, in pieces.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        Of a line, or of a map: then along its section with the strongest stretch.
+    stretch : float, optional
+        Length of the stretch with most friction [m]; by default 4 mm, at least 20 of the smallest
+        waves and at most a quarter of the line.
+    pieces : int
+        Most pieces of the trace: half of them are equally long, the others are the points of the
+        stretches with most friction.
+    derivative : array, optional
+        d friction / d height [1/m] of each point, shape of the grid.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `piece`: `x`, the middle [m]; `height_low` and `height_high`, `rubber_low` and
+        `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact; `friction` and `load`
+        from the beginning of the line to the end of the piece, over those of the contact [-] (of a
+        map, of its mean line), `friction` NaN at rest. `by_height`, if there is a derivative: of the friction by the height of a piece,
+        over its length [1/m^2]. `stretch_start`, `stretch_end` [m] of the stretch with most
+        friction (at rest, load), `stretch_friction` and `stretch_load`, its parts of them. Of a map also
+        `section` [m], the y of the line, and over `block_x` and `block_y` the largest
+        `field_pressure` [Pa], NaN out of contact, at `field_x` and `field_y` [m].
+
+    Raises
+    ------
+    InputError
+        If the stretch is not positive.
+    """
+    x, step = contact.x, contact.grid.spacing[0]
+    length = stretch_length(contact) if stretch is None else checks.positive("stretch", stretch)
+    points = min(max(round(length / step), 2), x.size)
+    line = _line(contact, points)
+    amount = line.force if contact.speed > 0.0 else line.pressure
+    firsts = strongest_stretches(amount, line.pressure > 0.0, points, max(pieces // 2 // points, 1))
+    first = _first_points(x.size, points, firsts, pieces)
+    last = np.append(first[1:], x.size) - 1
+    friction = np.cumsum(line.force) / line.mean
+    load = np.cumsum(line.pressure) / (x.size * contact.nominal_pressure)
+    columns = {
+        "height_low": (np.minimum.reduceat(line.height, first), "m"),
+        "height_high": (np.maximum.reduceat(line.height, first), "m"),
+        "rubber_low": (np.minimum.reduceat(line.rubber, first), "m"),
+        "rubber_high": (np.maximum.reduceat(line.rubber, first), "m"),
+        "pressure_low": (np.minimum.reduceat(line.pressure, first), "Pa"),
+        "pressure_high": (np.maximum.reduceat(line.pressure, first), "Pa"),
+        "friction": (friction[last], "1"),
+        "load": (load[last], "1"),
+    }
+    if derivative is not None:
+        column = derivative if derivative.ndim == 1 else derivative[:, contact.y == line.y][:, 0]
+        by_height = np.add.reduceat(column, first) / (step * (last - first + 1))
+        columns["by_height"] = (by_height, "1/m^2")
+    data = {
+        name: labelled("piece", values.astype(np.float32), unit, name.replace("_", " "), SOURCE)
+        for name, (values, unit) in columns.items()
+    }
+    data["x"] = labelled("piece", 0.5 * (x[first] + x[last]), "m", "middle of the piece", SOURCE)
+    end = firsts[0] + points - 1
+    for name, value, unit in (
+        ("start", x[firsts[0]], "m"),
+        ("end", x[end], "m"),
+        ("friction", line.force[firsts[0] : end + 1].sum() / line.mean, "1"),
+        ("load", line.pressure[firsts[0] : end + 1].mean() * points / x.size / contact.nominal_pressure, "1"),
+    ):
+        data[f"stretch_{name}"] = labelled((), value, unit, f"{name} of the stretch", SOURCE)
+    return xr.Dataset(data | ({} if contact.height.ndim == 1 else _field(contact, line.y)))
+
+
+def _first_points(size: int, points: int, firsts: list[int], pieces: int) -> NDArray[np.int64]:
+    """Return the first point of each piece: each of the stretches' points, and equal pieces."""
+    if size <= pieces:
+        return np.arange(size)
+    even = np.linspace(0, size, pieces // 2, endpoint=False).astype(np.int64)
+    single = [np.arange(start, start + points + 1) for start in firsts]
+    first = np.unique(np.concatenate([even, *single]))
+    return first[first < size]
+
+
+def _field(contact: RoughContact, section: float) -> dict[str, xr.Variable]:
+    """Return the pressure of a map by blocks, and where its section is."""
+    edges = [np.arange(0, n, -(-n // FIELD)) for n in contact.grid.shape]
+    pressure = np.maximum.reduceat(np.maximum.reduceat(contact.pressure, edges[0], 0), edges[1], 1)
+    field = np.where(pressure > 0.0, pressure, math.nan).astype(np.float32)
+    return {
+        "section": labelled((), section, "m", "y of the section", SOURCE),
+        "field_pressure": labelled(("block_x", "block_y"), field, "Pa", "largest pressure", SOURCE),
+        "field_x": labelled("block_x", contact.x[edges[0]], "m", "begin of the block", SOURCE),
+        "field_y": labelled("block_y", contact.y[edges[1]], "m", "begin of the block", SOURCE),
+    }
