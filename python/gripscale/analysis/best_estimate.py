@@ -31,7 +31,7 @@ from gripscale.analysis.samples import (
 )
 from gripscale.experiment.design import Index, attributes, stack
 from gripscale.experiment.study import UPPER_HEIGHT
-from gripscale.half_space import line_to_map
+from gripscale.half_space import line_to_map, location
 from gripscale.model import BASIS, STATUS
 
 
@@ -129,7 +129,8 @@ def best_estimate(
     relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
     interval where the profiles are too short to tell how well they represent the road
     (`_sampling_error`, the relative standard error; `_grid_error` is that of the grid).
-    `best_steep_share`, `best_missing_share`. Over
+    `best_steep_share`, `best_missing_share`, and over `slope` `best_friction_by_slope`,
+    `best_load_by_slope`, `best_contact_by_slope` (`gripscale.half_space.shares_by_slope`). Over
     `factor` the `_factor` on each with its `_factor_uncertainty`, NaN where it is not included, and
     `factor_label`. No factors without the rung of the direct contact. A `supplied` factor with the
     name of ours replaces it.
@@ -147,6 +148,9 @@ def best_estimate(
     direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
     for share in SHARES:
         data[f"best_{share}"] = unknown
+        if direct is not None and share in direct:
+            data[f"best_{share}"] = usable(direct, share).mean("sample")
+    for share in location.SHARES:
         if direct is not None and share in direct:
             data[f"best_{share}"] = usable(direct, share).mean("sample")
     for name in ESTIMATED:

@@ -50,6 +50,7 @@ from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
 from gripscale.half_space.continued import DOWN_TO
+from gripscale.half_space.location import PREFIX
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
@@ -394,29 +395,38 @@ def solve_reference(results: CaseResults) -> xr.Dataset | None:
     -------
     xarray.Dataset or None
         Over `sample`, one for each profile, solved to an estimated relative error of `JUDGED_TO`,
-        5 %, see `gripscale.analysis.samples`; None if no profile was measured.
+        5 %, see `gripscale.analysis.samples`, with its trace for charts
+        (`gripscale.half_space.location.traces_of`); None if no profile was measured.
 
     Raises
     ------
     InputError
         If the direct contact cannot use the rubber or a profile.
     """
-    design = reference_design(results, results.load)
+    design = reference_design(results, results.load, traces=True)
     if design is None:
         return None
+
+    def numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
+        traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
+        return reduce.sample_numbers(answer, task).assign(answer[traces].isel(profile=0))
+
     with bench_in(None) as bench:
-        return solve_design(design, bench, reduce.sample_numbers)
+        return solve_design(design, bench, numbers)
 
 
-def reference_design(results: CaseResults, load: Load, label: str = "") -> Design | None:
+def reference_design(
+    results: CaseResults, load: Load, label: str = "", *, traces: bool = False
+) -> Design | None:
     """Return the tasks of the direct contact of each profile of a case under a load.
 
-    Their names begin with the `label`; None if no profile was measured.
+    Their names begin with the `label`, their answers may hold `traces` for charts; None if no
+    profile was measured.
     """
     profiles = each_measured(results.surface)
     if not profiles:
         return None
-    model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions)
+    model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions, traces=traces)
     points = [
         Point((at,), f"{label}{name}", Task(results.rubber.rubber, surface, load, model))
         for at, (name, surface) in enumerate(profiles)
@@ -500,4 +510,7 @@ def reference_totals(
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
     ).assign_attrs(results.file.attributes, tolerance=JUDGED_TO)
+    traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
+    if traces:
+        totals = totals.assign(samples[traces].variables)
     return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))

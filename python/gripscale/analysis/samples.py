@@ -23,6 +23,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, Mask
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.task import Task
+from gripscale.half_space import location
 from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,
@@ -63,6 +64,9 @@ def sample_numbers(
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
+    for share in location.SHARES:
+        if f"total_{share}" in answer:
+            numbers[share] = answer[f"total_{share}"]
     if rest:
         numbers |= {name: 0.0 * numbers[name] for name in QUANTITIES if "friction" in name}
         numbers["friction_error"] = math.nan

@@ -40,6 +40,7 @@ def background_figures(results: CaseResults, folder: Path) -> Iterator[Callable[
                 draw("draw_blocks", begun[-1])
             else:
                 draw("draw_inputs")
+                draw("draw_direct")
             begun.append(name)
 
         yield solving

@@ -27,13 +27,15 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MEGA, MICRO, MILLI, in_mm
-from gripscale.half_space.location import contact_trace
+from gripscale.half_space.location import contact_trace, traces_of
 from gripscale.half_space.result import RoughContact
 from gripscale.io.table import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+MOST_DRAWN = 2
+"""Profiles of a result that are drawn, of each of which a page holds 1.6 MB."""
 DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST = 0.15
@@ -63,6 +65,13 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
     return trace_figure(contact_trace(contact, stretch=stretch))
 
 
+def named_traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
+    """Return the first few traces of a result with the names of their profiles."""
+    traces = traces_of(data)[:MOST_DRAWN]
+    names = map(str, data.subject.values) if "subject" in data.coords else iter(())
+    return [(next(names, f"profile {i}"), trace) for i, trace in enumerate(traces, start=1)]
+
+
 def trace_figure(trace: xr.Dataset, title: str = "") -> Figure:
     """Draw a trace on paper."""
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
@@ -73,6 +82,11 @@ def trace_figure(trace: xr.Dataset, title: str = "") -> Figure:
     heights = [*rows, INSIDE * WIDE * (high - low) / length + 0.3]
     look = {"legend_columns": 4, "title": title, "layout": {"height_ratios": heights}}
     return draw.on_paper(Sheet([*fields, *lines, close], 1, WIDE, sum(heights) + 0.8, **look))
+
+
+def contact_pictures(data: xr.Dataset) -> list[Chart]:
+    """Return the traces of a result on the page; nothing without any."""
+    return [chart for name, trace in named_traces(data) for chart in trace_charts(trace, name)]
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:

@@ -15,6 +15,7 @@ from gripscale.case.record import excited
 from gripscale.charts import comparison, rubber, study, surface, uncertainty, wave_and_chain
 from gripscale.charts.blocks import blocks_figure
 from gripscale.charts.cut_off import cut_off_figure
+from gripscale.charts.direct_contact import named_traces, trace_figure
 from gripscale.charts.ladder import on_the_surface, varied, worth_drawing
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.paper import save_figure
@@ -87,6 +88,14 @@ def draw_contact(results: CaseResults, folder: Path) -> None:
     save_figure(wave_and_chain.contact_figure(titles), folder, "contact_and_friction")
     for curve in results.continued.values():
         save_figure(cut_off_figure(curve), folder, "cut_off")
+
+
+def draw_direct(results: CaseResults, folder: Path) -> None:
+    """Draw rubber on surface, pressure and friction of the direct contacts, if they are solved."""
+    traces = [] if results.direct is None else named_traces(results.direct)
+    for number, (name, trace) in enumerate(traces, start=1):
+        end = f"_{number}" if number > 1 else ""
+        save_figure(trace_figure(trace, name), folder, f"direct_contact{end}")
 
 
 def draw_heat(data: xr.Dataset, folder: Path) -> None:

@@ -235,7 +235,7 @@ def _parts(
     """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
     from gripscale.case.results import DYNAMIC
     from gripscale.charts.view import PredictionView
-    from gripscale.report.comparison import judgement
+    from gripscale.report.comparison import judgement, slopes_table
     from gripscale.report.side_by_side import effects_table
     from gripscale.report.waves import LEGEND, heat_table, prediction_table
 
@@ -248,6 +248,8 @@ def _parts(
         parts.append(heat_table(heat))
     if worth is not None:
         parts.append(effects_table(worth))
+    if direct is not None:
+        parts += slopes_table(direct)
     if views and direct is not None:
         parts += ["", *judgement(views[0], direct)]
     return parts, heat

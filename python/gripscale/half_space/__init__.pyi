@@ -10,6 +10,8 @@ from .finite_strain import Pair as Pair
 from .finite_strain import solve_both_ways as solve_both_ways
 from .finite_strain import spread_windows as spread_windows
 from .grid_sequence import GridRecord as GridRecord
+from .location import contact_trace as contact_trace
+from .location import shares_by_slope as shares_by_slope
 from .maps import MapContact as MapContact
 from .maps import MapOverLines as MapOverLines
 from .maps import map_over_lines as map_over_lines

@@ -16,6 +16,7 @@ not depend on the number of points.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -214,6 +215,41 @@ def contact_trace(
     ):
         data[f"stretch_{name}"] = labelled((), value, unit, f"{name} of the stretch", SOURCE)
     return xr.Dataset(data | ({} if contact.height.ndim == 1 else _field(contact, line.y)))
+
+
+ROUNDED = 2**10
+"""Pieces of a trace in a result are a multiple of these."""
+PREFIX = "trace_"
+"""Begin of the names and dimensions of traces in a result."""
+
+
+def with_traces(answer: xr.Dataset, traces: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Return an answer with the trace of each of its profiles, over `profile`.
+
+    Names and dimensions begin with `trace_`; shorter traces end in NaN.
+    """
+    sizes = {dim: max(trace.sizes[dim] for trace in traces) for dim in traces[0].dims}
+    # traces of like profiles, from several answers, then have one length
+    sizes["piece"] = -(-sizes["piece"] // ROUNDED) * ROUNDED
+    padded = [
+        trace.pad({dim: (0, size - trace.sizes[dim]) for dim, size in sizes.items()})
+        for trace in traces
+    ]
+    together = xr.concat(padded, "profile").rename({dim: f"{PREFIX}{dim}" for dim in sizes})
+    return answer.assign({f"{PREFIX}{name}": together[name].variable for name in together})
+
+
+def traces_of(data: xr.Dataset) -> list[xr.Dataset]:
+    """Return the traces that a result holds over `profile` or `sample`; empty without any."""
+    names = {name: name.removeprefix(PREFIX) for name in map(str, data) if name.startswith(PREFIX)}
+    if not names:
+        return []
+    traces = data[[*names]].drop_vars(data.coords, errors="ignore")
+    dims = {dim: str(dim).removeprefix(PREFIX) for dim in traces.dims}
+    traces = traces.rename(names | {dim: name for dim, name in dims.items() if dim != name})
+    along = "sample" if "sample" in traces.dims else "profile"
+    each = (traces.isel({along: i}) for i in range(traces.sizes[along]))
+    return [trace.isel(piece=np.flatnonzero(np.isfinite(trace.x.values))) for trace in each]
 
 
 def _first_points(size: int, points: int, firsts: list[int], pieces: int) -> NDArray[np.int64]:

@@ -15,11 +15,12 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.half_space.location import SHARES, contact_trace, with_traces
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
 from gripscale.wave.profile import solve_profile
-from gripscale.wave.result import waves_to_dataset
+from gripscale.wave.result import labelled, waves_to_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,6 +75,12 @@ def _with_basis(
         name: xr.Variable((), number, {"units": "1", "long_name": text, "source": "direct"})
         for (name, text), number in zip(model.BASIS.items(), numbers, strict=True)
     }
+    # the nominal pressure is the same: their loads are as their lengths
+    weights = dict(zip(SHARES, (friction, np.asarray(lengths, dtype=float), area), strict=True))
+    for name, text in SHARES.items():
+        parts = [contact.shares_by_slope[name].values for contact in contacts]
+        share = np.average(parts, axis=0, weights=weights[name])
+        variables[f"total_{name}"] = labelled("slope", share, "1", text, "direct")
     return answer.assign(variables)
 
 
@@ -107,6 +114,8 @@ class DirectContact(Checked, model.Model):
     most_points: int = checked(checks.whole, least=1, most=2**40, default=2**22)
     periodic: bool = checked(checks.flag, default=False)
     conditions: Conditions | None = None
+    traces: bool = checked(checks.flag, default=False)
+    """Whether the answer holds every contact as charts draw it (`with_traces`)."""
 
     def with_conditions(self, conditions: Conditions | None) -> DirectContact:
         """Return the direct contact under other conditions."""
@@ -161,6 +170,8 @@ class DirectContact(Checked, model.Model):
         if surface.waves is not None:
             piece = PIECE * float(surface.waves.wavelength[0])
             answer = _with_basis(answer, contacts, lengths, piece)
+        if self.traces:
+            answer = with_traces(answer, [contact_trace(contact) for contact in contacts])
         adhesive = [contact.adhesive_friction for contact in contacts]
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 

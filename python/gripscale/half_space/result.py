@@ -38,6 +38,7 @@ from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
+from gripscale.half_space.location import shares_by_slope
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
@@ -266,11 +267,13 @@ class RoughContact:
     @property
     def steep_share(self) -> float:
         """Share of the friction from contact on slopes above 1 [-]; NaN without friction."""
-        slope = self.grid.slope(self.height)
-        force = self.pressure * slope
-        total = float(force.sum())
-        steep = float(force[np.abs(slope) > VERY_STEEP].sum())
-        return steep / total if self.speed > 0.0 and total > 0.0 else math.nan
+        share = self.shares_by_slope.friction_by_slope
+        return float(share.where(share.slope >= VERY_STEEP, 0.0).sum(skipna=False))
+
+    @cached_property
+    def shares_by_slope(self) -> xr.Dataset:
+        """Shares of friction, load and contact area by slope, see `half_space.location`."""
+        return shares_by_slope(self)
 
     @property
     def patches(self) -> Array:
@@ -346,7 +349,7 @@ class RoughContact:
         return xr.Dataset(data).set_coords("wavelength")
 
     def plot(self) -> Figure:
-        """Draw pressure and gap along a line; see `gripscale.charts.rough_contact_figure`."""
+        """Draw rubber on the surface and pressure; see `gripscale.charts.rough_contact_figure`."""
         return gripscale.charts.rough_contact_figure(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
@@ -371,6 +374,7 @@ class RoughContact:
         for name in (entry.name for entry in fields_of(GridRecord)):
             values = [float(getattr(grid, name)) for grid in self.grids]
             add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
+        data |= self.shares_by_slope.variables
         pressures = self.pressure_quantiles(SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -201,6 +202,21 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     if chain.moving:
         against += f" and {chain.total('friction') / friction:.2g} times its friction"
     yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
+
+
+def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
+    """Yield which slopes of the surface carry load and make friction, where that is known."""
+    if "best_friction_by_slope" not in direct:
+        return
+    ends = direct.slope.values.tolist()
+    names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
+    columns = [
+        Column(name, direct[f"best_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
+        for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
+        if direct[f"best_{name}_by_slope"].notnull().all()
+    ]
+    caption = "Shares by slope of the surface, direct contact"
+    yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)
 
 
 def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:

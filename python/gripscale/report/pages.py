@@ -15,6 +15,7 @@ from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.cut_off import cut_off_charts
 from gripscale.charts.design import design_pictures
+from gripscale.charts.direct_contact import contact_pictures
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
 from gripscale.charts.rubber import rubber_charts
@@ -61,6 +62,11 @@ METHOD = (
     "The measured surface is approximated by superposed sine waves. On each wave, largest first, "
     "a rubber block at finite strain is pressed and slid; the pressure in its contact is what the "
     "next wave receives."
+)
+PICTURE = (
+    "The direct contact of the measured surface: the friction is made where pressure stands on "
+    "flanks that rise in the way of sliding. Of the surface the page holds lowest and highest "
+    "values of pieces, and every point where most of the friction is made."
 )
 EVIDENCE = (
     "The two friction coefficients of a wave are found independently, from the traction in the "
@@ -153,6 +159,7 @@ def run_page(run: Run) -> Page:
         [*notices.notices(run), *([OF_ANOTHER] if stale else [])],
         [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
+            Section("contact", "Rubber on the surface", _direct_contact(run)),
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", _surface(run)),
             Section("rubber", "Rubber", _rubber(run)),
@@ -171,6 +178,14 @@ def run_page(run: Run) -> Page:
         ],
         run.direct,
     )
+
+
+def _direct_contact(run: Run) -> list[Element]:
+    """Return the direct contact of the measured surface as pictures and by slope."""
+    if run.direct is None or not (pictures := contact_pictures(run.direct)):
+        return []
+    first, *others = pictures
+    return [Text(PICTURE), first, *comparison.slopes_table(run.direct), *others]
 
 
 def _surface(run: Run) -> list[Element]:

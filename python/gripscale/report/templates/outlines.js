@@ -28,9 +28,9 @@ function piecesSeen(x, low, high, start, end, columns) {
   const seen = {x: new Float64Array(most), y: new Float64Array(most)};
   let size = 0;
   for (let i = first; i < last; size += 2) {
-    const column = Math.floor(x[i] / width);
+    const end = (Math.floor(x[i] / width) + 1) * width; // NaN where every piece is drawn
     let [begin, least, largest] = [i, low[i], high[i]];
-    for (i += 1; i < last && Math.floor(x[i] / width) === column && width > 0; i += 1) {
+    for (i += 1; i < last && x[i] < end; i += 1) {
       if (low[i] < least || Number.isNaN(least)) {
         least = low[i];
       }
