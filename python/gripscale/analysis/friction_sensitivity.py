@@ -45,6 +45,7 @@ from gripscale.experiment.inputs import NAMED_MODELS, conditions_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study, coordinates
 from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.half_space.location import PREFIX, contact_trace, with_traces
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import STATUS
@@ -117,6 +118,10 @@ class FrictionSensitivity(DirectContact):
             for contact in contacts
         ]
         answer = answer.merge(_of_all(parts, [contact.grid.lengths[0] for contact in contacts]))
+        if self.traces:
+            relative = [(part.d_friction_d_height / part.friction).values for part in parts]
+            pairs = zip(contacts, relative, strict=True)
+            answer = with_traces(answer, [contact_trace(c, derivative=d) for c, d in pairs])
         if self.with_feedback and self.conditions is not None and self.conditions.iterated:
             answer = answer.assign(self._with_feedback(rubber, surface, load))
         return answer
@@ -257,6 +262,8 @@ def case_sensitivity(
         Of the direct contact, where nothing is varied, `source_friction_error` and
         `source_contact_fraction_error` over `source`: the relative standard errors that what is not
         known of the inputs carries to friction and contact area (`first_order`).
+        There, too, the derivatives by height are in the traces of the profiles
+        (`gripscale.half_space.location.traces_of`).
 
     Raises
     ------
@@ -283,6 +290,7 @@ def case_sensitivity(
             bands_per_decade=bands_per_decade,
             contact_fraction=contact_fraction,
             with_feedback=with_feedback,
+            traces=vary is None,
         )
     direct = chosen == DirectContact.name
     prepared = prepare_case(file) if direct and vary is None else None
@@ -310,7 +318,9 @@ def case_sensitivity(
 
 def _kept(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
-    return surface_numbers(answer, task).assign(answer[_derivatives_of(answer)].variables)
+    traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
+    kept = answer[[*_derivatives_of(answer), *traces]]
+    return surface_numbers(answer, task).assign(kept.variables)
 
 
 def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:

@@ -38,8 +38,10 @@ MOST_DRAWN = 2
 """Profiles of a result that are drawn, of each of which a page holds 1.6 MB."""
 DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
-FLATTEST = 0.15
-"""Least height of the stretch drawn to scale, over its length."""
+FLATTEST, LOWEST = 0.15, 0.2
+"""Least height of the stretch drawn to scale and what it shows below its contact, over its length."""
+PAGE = 420
+"""Width of half a page [px]."""
 ROW, FIELD_ROW = 1.4, 3.2
 """Heights of a panel over the whole line, and of the field of a map [inch]."""
 INSIDE = 0.87
@@ -66,21 +68,19 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
 
 
 def named_traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    """Return the first few traces of a result with the names of their profiles."""
+    """Return the first few traces of a result with their names."""
     traces = traces_of(data)[:MOST_DRAWN]
-    names = map(str, data.subject.values) if "subject" in data.coords else iter(())
-    return [(next(names, f"profile {i}"), trace) for i, trace in enumerate(traces, start=1)]
+    return [
+        ("map" if "section" in trace else f"profile {number}", trace)
+        for number, trace in enumerate(traces, start=1)
+    ]
 
 
 def trace_figure(trace: xr.Dataset, title: str = "") -> Figure:
     """Draw a trace on paper."""
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
-    low, high = close.y.low, close.y.high
-    assert low is not None and high is not None
-    length = float(trace.stretch_end - trace.stretch_start) / _unit(trace)[0]
-    rows = [FIELD_ROW] * len(fields) + [ROW] * len(lines)
-    heights = [*rows, INSIDE * WIDE * (high - low) / length + 0.3]
-    look = {"legend_columns": 4, "title": title, "layout": {"height_ratios": heights}}
+    heights = [FIELD_ROW] * len(fields) + [ROW] * len(lines) + [_drawn_height(close)]
+    look = {"legend_columns": 4, "legend_title": title, "layout": {"height_ratios": heights}}
     return draw.on_paper(Sheet([*fields, *lines, close], 1, WIDE, sum(heights) + 0.8, **look))
 
 
@@ -93,7 +93,7 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
     """Return a trace on the page: along the whole line, to be zoomed, and a stretch to scale."""
     lines = draw.linked_on_page(
         _line_panels(trace),
-        f"contact-{name}",
+        f"contact-{_word(name)}",
         f"{name}: rubber on the surface, contact pressure, and friction and load from the "
         "beginning of the line. The shade is the stretch of the next figure. Draw a box to zoom; "
         "the tools above move the line and zoom by the wheel.",
@@ -102,22 +102,42 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
     return [lines, *draw.on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
 
 
-def height_panels(trace: xr.Dataset, friction: float) -> list[Panel]:
-    """Return the stretch with most friction, and what its heights are worth for the friction."""
+def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
+    """Return what heights are worth for the friction, on the stretch with most, and the stretch."""
     part = _stretch(trace)
-    x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI / friction
-    axis = Axis("d ln $\\mu$ / d height [%/µm on 1 mm]")
-    curve = Series(x, 100.0 * values, GREEN, width=0.9)
-    caption = (
-        "What a height is worth: per cent of friction for a micrometre on a millimetre of the "
-        "surface. Out of contact no height counts."
-    )
-    alt = "Derivative of the friction by the height of the surface, over one stretch."
+    x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI
     return [
-        _stretch_panel(trace, "sensitivity"),
-        Panel(_along(trace, x), axis, [curve, CrossLine(0.0)], name="sensitivity-height",
-              caption=caption, alt=alt, height=260),
-    ]  # fmt: skip
+        Panel(
+            _along(trace, x),
+            Axis("d ln $\\mu$ / d $z$\n[% for 1 µm on 1 mm]"),
+            [Series(x, 100.0 * values, GREEN, width=0.9), CrossLine(0.0)],
+            name=f"height-{_word(name)}",
+            caption=f"{name}: per cent of its friction for a micrometre of height on a millimetre "
+            "of the surface. Out of contact no height counts.",
+            alt=f"Derivative of the friction by the height of {name}, over one stretch.",
+            height=300,
+        ),
+        _stretch_panel(trace, name),
+    ]
+
+
+def height_figure(trace: xr.Dataset, name: str) -> Figure:
+    """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
+    worth, close = height_panels(trace, name)
+    heights = [ROW, _drawn_height(close)]
+    look = {"legend_columns": 4, "legend_title": name, "layout": {"height_ratios": heights}}
+    return draw.on_paper(Sheet([worth, close], 1, WIDE, sum(heights) + 0.8, **look))
+
+
+def _drawn_height(close: Panel) -> float:
+    """Return the height [inch] of a panel to scale over the width of the figure."""
+    ends = close.y.low, close.y.high, close.x.low, close.x.high
+    low, high, start, end = (float(each or 0.0) for each in ends)
+    return INSIDE * WIDE * (high - low) / (end - start) + 0.3
+
+
+def _word(name: str) -> str:
+    return name.replace(" ", "-")
 
 
 def _unit(trace: xr.Dataset) -> tuple[float, str]:
@@ -166,7 +186,7 @@ def _line_panels(trace: xr.Dataset) -> list[Panel]:
     ]
     rows = (
         (f"height $z$ [{unit}]", heights),
-        ("pressure $p$ [MPa]", [Outline(x, *pressure, ORANGE, width=0.6)]),
+        ("pressure $p$ [MPa]", [Outline(x, *pressure, ORANGE, width=0.8)]),
         ("running share [-]", running),
     )
     return [
@@ -187,14 +207,16 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
         _lengths(part[name], trace) for name in ("x", "height_low", "rubber_low")
     )
     unit = _unit(trace)[1]
-    lowest, highest = float(surface.min()), float(rubber.max())
-    lowest = min(lowest, highest - FLATTEST * (x[-1] - x[0]))
+    length, highest = x[-1] - x[0], float(rubber.max())
+    contact = _touching(part)[1]
+    # of a pit beside the contact only the edge
+    lowest = max(float(surface.min()), float(np.nanmin(contact)) - LOWEST * length)
+    lowest = min(lowest, highest - FLATTEST * length)
     room = DRAPED * (highest - lowest)
     top = highest + 1.1 * room
     pressure = part.pressure_high.values / MEGA
     scale = _round_down(room / float(pressure.max()))
     text = f"pressure, {1.0 / scale:.3g} MPa a {unit}"
-    contact = _touching(part)[1]
     makes = "a stretch"
     if np.isfinite(part.stretch_friction):
         shares = (percent(float(part[f"stretch_{what}"])) for what in ("friction", "load"))
@@ -205,19 +227,19 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
         _along(trace, x),
         Axis(f"height $z$ [{unit}]", low=lowest, high=top),
         [
-            Band(x, np.full(x.size, lowest), surface, FAINT, alpha=1.0),
+            Band(x, np.full(x.size, lowest), np.maximum(surface, lowest), FAINT, alpha=1.0),
             Band(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
             Band(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
-            Series(x, surface, INK, "surface", width=0.8),
+            Series(x, np.where(surface < lowest, np.nan, surface), INK, "surface", width=0.8),
             Series(x, rubber, BLUE, "rubber", width=0.9),
             Series(x, contact, ORANGE, "contact", width=2.2),
             Note(0.02, 0.95, "rubber slides $\\rightarrow$", frame="xy", top=True),
         ],
         title=f"To scale: {makes}",
-        name=f"stretch-{name}",
+        name=f"stretch-{_word(name)}",
         caption=f"{name}, to scale: {makes}. Pressure stands upon the rubber.",
         alt=f"Rubber on the surface and contact pressure over one stretch of {name}.",
-        height=420,
+        height=int(min(max(PAGE * (top - lowest) / length, 200), 480)) + 150,
         to_scale=True,
     )
 
@@ -241,7 +263,7 @@ def _field_panels(trace: xr.Dataset, name: str = "") -> list[Panel]:
             Axis(f"$x$, the way of sliding [{unit}]", grid=False),
             Axis(f"$y$ [{unit}]", grid=False),
             [field, section],
-            name=f"field-{name}",
+            name=f"field-{_word(name)}",
             caption=f"{name}: contact pressure, white out of contact, and the section below.",
             alt=f"Contact pressure over the map {name}.",
             height=480,

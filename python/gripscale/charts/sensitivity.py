@@ -11,7 +11,8 @@ import xarray as xr
 from gripscale.analysis.friction_sensitivity import LOSS, STORAGE
 from gripscale.charts import draw, style
 from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.direct_contact import height_figure, height_panels, named_traces
+from gripscale.charts.page_elements import Chart, Picture
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
 from gripscale.experiment.axis import points
@@ -29,7 +30,20 @@ EFFECTS = {
 
 def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
     """Return the panels as charts of the page."""
-    return draw.on_page(_panels(data))
+    heights = [panel for name, trace in _traces(data) for panel in height_panels(trace, name)]
+    return draw.on_page([*_panels(data), *heights])
+
+
+def height_pictures(data: xr.Dataset) -> list[Picture]:
+    """Return what heights of the surface are worth; nothing where something is varied."""
+    return [
+        Picture(f"height_{number}", height_figure(trace, name), "", "")
+        for number, (name, trace) in enumerate(_traces(data), start=1)
+    ]
+
+
+def _traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
+    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)))
 
 
 def sensitivity_figure(data: xr.Dataset) -> Figure:

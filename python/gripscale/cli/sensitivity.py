@@ -55,7 +55,8 @@ def sensitivity(
     from gripscale.analysis.friction_sensitivity import FILE, STORAGE, VARIED, case_sensitivity
     from gripscale.case import folder, read_case
     from gripscale.charts.paper import save_figure
-    from gripscale.charts.sensitivity import sensitivity_figure
+    from gripscale.charts.sensitivity import height_pictures, sensitivity_figure
+    from gripscale.charts.write import draw as write_pictures
     from gripscale.experiment.axis import parse_vary
     from gripscale.report.sensitivity import failures, sensitivity_parts
 
@@ -82,6 +83,7 @@ def sensitivity(
         if STORAGE in data:
             folder.make(target / "figures")
             save_figure(sensitivity_figure(data), target / "figures", "sensitivity")
+            write_pictures(height_pictures(data), target / "figures")
 
     failed = failures(data)
     terminal.conclude(

@@ -158,7 +158,7 @@ def contact_trace(
         Most pieces of the trace: half of them are equally long, the others are the points of the
         stretches with most friction.
     derivative : array, optional
-        d friction / d height [1/m] of each point, shape of the grid.
+        d ln friction / d height [1/m] of each point, shape of the grid.
 
     Returns
     -------
@@ -166,8 +166,8 @@ def contact_trace(
         Over `piece`: `x`, the middle [m]; `height_low` and `height_high`, `rubber_low` and
         `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact; `friction` and `load`
         from the beginning of the line to the end of the piece, over those of the contact [-] (of a
-        map, of its mean line), `friction` NaN at rest. `by_height`, if there is a derivative: of the friction by the height of a piece,
-        over its length [1/m^2]. `stretch_start`, `stretch_end` [m] of the stretch with most
+        map, of its mean line), `friction` NaN at rest. `by_height`, if there is a derivative: that by the height of a piece, over its
+        length [1/m^2]. `stretch_start`, `stretch_end` [m] of the stretch with most
         friction (at rest, load), `stretch_friction` and `stretch_load`, its parts of them. Of a map also
         `section` [m], the y of the line, and over `block_x` and `block_y` the largest
         `field_pressure` [Pa], NaN out of contact, at `field_x` and `field_y` [m].
