@@ -52,6 +52,7 @@ from gripscale.experiment.task import Store, Task
 from gripscale.half_space.continued import DOWN_TO
 from gripscale.half_space.location import PREFIX
 from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.location import PREFIX
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
 from gripscale.model import (

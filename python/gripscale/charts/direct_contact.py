@@ -5,7 +5,7 @@ All are drawn from a trace (`gripscale.half_space.location.contact_trace`), whic
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -26,7 +26,7 @@ from gripscale.charts.chart import (
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
 from gripscale.core.arrays import Array
-from gripscale.core.units import MEGA, MICRO, MILLI, in_mm
+from gripscale.core.units import MEGA, MICRO, MILLI
 from gripscale.half_space.location import contact_trace, traces_of
 from gripscale.half_space.result import RoughContact
 from gripscale.io.table import percent
@@ -39,13 +39,14 @@ MOST_DRAWN = 2
 DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST, LOWEST = 0.15, 0.2
-"""Least height of the stretch drawn to scale and what it shows below its contact, over its length."""
+"""Least height of the stretch to scale and what it shows below its contact, over its length."""
 PAGE = 420
 """Width of half a page [px]."""
-ROW, FIELD_ROW = 1.4, 3.2
-"""Heights of a panel over the whole line, and of the field of a map [inch]."""
-INSIDE = 0.87
-"""Width of a panel over that of the figure."""
+ROW, FIELD_ROW, BELOW, HEAD = 1.15, 2.9, 0.32, 0.7
+"""Heights of a frame over the whole line, of the field of a map, of the numbers below a frame, and
+of the legend [inch]."""
+INSIDE = 0.92
+"""Width of a frame over that of the figure."""
 
 
 def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None) -> Figure:
@@ -80,8 +81,7 @@ def trace_figure(trace: xr.Dataset, title: str = "") -> Figure:
     """Draw a trace on paper."""
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
     heights = [FIELD_ROW] * len(fields) + [ROW] * len(lines) + [_drawn_height(close)]
-    look = {"legend_columns": 4, "legend_title": title, "layout": {"height_ratios": heights}}
-    return draw.on_paper(Sheet([*fields, *lines, close], 1, WIDE, sum(heights) + 0.8, **look))
+    return _drawn([*fields, *lines, close], heights, title)
 
 
 def contact_pictures(data: xr.Dataset) -> list[Chart]:
@@ -103,10 +103,11 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
 
 
 def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
-    """Return what heights are worth for the friction, on the stretch with most, and the stretch."""
+    """Return the stretch with most friction, and what its heights are worth for the friction."""
     part = _stretch(trace)
     x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI
     return [
+        _stretch_panel(trace, name),
         Panel(
             _along(trace, x),
             Axis("d ln $\\mu$ / d $z$\n[% for 1 µm on 1 mm]"),
@@ -117,23 +118,27 @@ def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
             alt=f"Derivative of the friction by the height of {name}, over one stretch.",
             height=300,
         ),
-        _stretch_panel(trace, name),
     ]
 
 
 def height_figure(trace: xr.Dataset, name: str) -> Figure:
     """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
-    worth, close = height_panels(trace, name)
-    heights = [ROW, _drawn_height(close)]
-    look = {"legend_columns": 4, "legend_title": name, "layout": {"height_ratios": heights}}
-    return draw.on_paper(Sheet([worth, close], 1, WIDE, sum(heights) + 0.8, **look))
+    close, worth = height_panels(trace, name)
+    return _drawn([worth, close], [ROW, _drawn_height(close)], name)
+
+
+def _drawn(panels: list[Panel], heights: list[float], title: str) -> Figure:
+    """Draw panels of these heights [inch] below each other."""
+    height = sum(heights) + BELOW * len(panels) + HEAD
+    look: dict[str, Any] = {"legend_columns": 4, "legend_title": title}
+    return draw.on_paper(Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look))
 
 
 def _drawn_height(close: Panel) -> float:
     """Return the height [inch] of a panel to scale over the width of the figure."""
     ends = close.y.low, close.y.high, close.x.low, close.x.high
     low, high, start, end = (float(each or 0.0) for each in ends)
-    return INSIDE * WIDE * (high - low) / (end - start) + 0.3
+    return INSIDE * WIDE * (high - low) / (end - start)
 
 
 def _word(name: str) -> str:
@@ -159,39 +164,46 @@ def _stretch(trace: xr.Dataset) -> xr.Dataset:
     return trace.isel(piece=np.flatnonzero(inside.values))
 
 
+def _ends(trace: xr.Dataset, name: str) -> tuple[Array, Array]:
+    return _lengths(trace[f"{name}_low"], trace), _lengths(trace[f"{name}_high"], trace)
+
+
 def _touching(trace: xr.Dataset) -> tuple[Array, Array]:
     """Return lowest and highest height of the pieces in contact, NaN of the others."""
     inside = trace.pressure_high.values > 0.0
-    low, high = (_lengths(trace[f"height_{end}"], trace) for end in ("low", "high"))
+    low, high = _ends(trace, "height")
     return np.where(inside, low, np.nan), np.where(inside, high, np.nan)
 
 
 def _line_panels(trace: xr.Dataset) -> list[Panel]:
     """Return heights, pressure, and running friction and load along the whole line."""
     x, unit = _lengths(trace.x, trace), _unit(trace)[1]
-    ends = {f"{name}_{end}": _lengths(trace[f"{name}_{end}"], trace)
-            for name in ("height", "rubber") for end in ("low", "high")}  # fmt: skip
-    low, high = (float(trace[f"stretch_{end}"]) / _unit(trace)[0] for end in ("start", "end"))
-    shade = CrossLine(low, SKY, "", upright=True, to=high)
-    pressure = (trace[f"pressure_{end}"].values / MEGA for end in ("low", "high"))
+    start, end = (float(trace[f"stretch_{end}"]) / _unit(trace)[0] for end in ("start", "end"))
+    shade = CrossLine(start, SKY, "", upright=True, to=end)
+    p_low, p_high = (trace[f"pressure_{end}"].values / MEGA for end in ("low", "high"))
     running: list[Mark] = [
         Outline(x, trace[name].values, trace[name].values, colour, words, width=1.2)
         for name, colour, words in (("load", GREY, "load"), ("friction", GREEN, "friction"))
         if np.isfinite(trace[name].values).any()
     ]
     heights: list[Mark] = [
-        Outline(x, ends["height_low"], ends["height_high"], INK, "surface", width=0.6),
-        Outline(x, ends["rubber_low"], ends["rubber_high"], BLUE, "rubber", width=0.9),
-        Outline(x, *_touching(trace), ORANGE, "contact", width=2.2),
+        Outline(x, low, high, colour, words, width=width)
+        for (low, high), colour, words, width in (
+            (_ends(trace, "height"), INK, "surface", 0.6),
+            (_ends(trace, "rubber"), BLUE, "rubber", 0.9),
+            (_touching(trace), ORANGE, "contact", 2.2),
+        )
     ]
-    rows = (
+    rows: tuple[tuple[str, list[Mark]], ...] = (
         (f"height $z$ [{unit}]", heights),
-        ("pressure $p$ [MPa]", [Outline(x, *pressure, ORANGE, width=0.8)]),
+        ("pressure $p$ [MPa]", [Outline(x, p_low, p_high, ORANGE, width=0.8)]),
         ("running share [-]", running),
     )
     return [
         Panel(
-            _along(trace, x) if number == len(rows) else Axis("", low=float(x[0]), high=float(x[-1])),
+            _along(trace, x)
+            if number == len(rows)
+            else Axis("", low=float(x[0]), high=float(x[-1])),
             Axis(label, low=None if number == 1 else 0.0),
             [shade, *marks],
             height=250 if number == 1 else 190,
@@ -203,9 +215,7 @@ def _line_panels(trace: xr.Dataset) -> list[Panel]:
 def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
     """Return the stretch with most friction to scale, the pressure drawn upon the rubber."""
     part = _stretch(trace)
-    x, surface, rubber = (
-        _lengths(part[name], trace) for name in ("x", "height_low", "rubber_low")
-    )
+    x, surface, rubber = (_lengths(part[name], trace) for name in ("x", "height_low", "rubber_low"))
     unit = _unit(trace)[1]
     length, highest = x[-1] - x[0], float(rubber.max())
     contact = _touching(part)[1]
@@ -247,7 +257,9 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
 def _round_down(value: float) -> float:
     """Return the next smaller of 1, 2, 5 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
-    return float(power * max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-9)))
+    return float(
+        power * max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-9))
+    )
 
 
 def _field_panels(trace: xr.Dataset, name: str = "") -> list[Panel]:

@@ -13,8 +13,6 @@ import numpy as np
 from bokeh.layouts import gridplot
 from bokeh.models import (
     BasicTickFormatter,
-    BoxAnnotation,
-    ColorBar,
     ColumnDataSource,
     FixedTicker,
     HoverTool,
@@ -22,8 +20,8 @@ from bokeh.models import (
     LogTickFormatter,
     Range1d,
 )
-from bokeh.models.annotations.geometry import Span
-from bokeh.models.annotations.legends import LegendItem
+from bokeh.models.annotations.geometry import BoxAnnotation, Span
+from bokeh.models.annotations.legends import ColorBar, LegendItem
 from bokeh.plotting import figure as Figure
 from numpy.typing import ArrayLike, NDArray
 
@@ -48,7 +46,7 @@ TOOLS = "pan,box_zoom,wheel_zoom,reset,save"
 ALONG = "xpan,xbox_zoom,xwheel_zoom,reset,save"
 """Tools of figures that are zoomed together along their abscissa; a drag draws a box."""
 LABELS = 70
-"""Room for the numbers of the ordinates of linked figures [px], so that their frames are aligned."""
+"""Room for the numbers of the ordinates of linked figures [px], whose frames are aligned."""
 COLUMNS = 1000
 """Pieces of an outline as the page is opened, a pixel each."""
 LEGEND_ROW = 28
@@ -287,8 +285,10 @@ def _draw_outline(figure: Any, outline: Outline, store: Store) -> None:
 def _draw_field(figure: Any, field: ValueMap) -> None:
     x, y = np.asarray(field.x), np.asarray(field.y)
     values = np.asarray(field.values, dtype=np.float32)
-    palette = [*shades(256, "Inferno")]
-    colours = LinearColorMapper(palette, low=0.0, high=float(np.nanmax(values)), nan_color="white")
+    palette = shades(256, "Inferno")
+    colours = LinearColorMapper(
+        palette=palette, low=0.0, high=float(np.nanmax(values)), nan_color="white"
+    )
     steps = float(x[1] - x[0]), float(y[1] - y[0])
     figure.image(image=[values], x=float(x[0]), y=float(y[0]), dw=steps[0] * x.size,
                  dh=steps[1] * y.size, color_mapper=colours)  # fmt: skip

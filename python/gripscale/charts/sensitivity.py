@@ -30,12 +30,18 @@ EFFECTS = {
 
 def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
     """Return the panels as charts of the page."""
-    heights = [panel for name, trace in _traces(data) for panel in height_panels(trace, name)]
-    return draw.on_page([*_panels(data), *heights])
+    return draw.on_page(_panels(data))
+
+
+def height_charts(data: xr.Dataset) -> list[Chart]:
+    """Return what heights of the surface are worth; nothing where something is varied."""
+    return draw.on_page(
+        panel for name, trace in _traces(data) for panel in height_panels(trace, name)
+    )
 
 
 def height_pictures(data: xr.Dataset) -> list[Picture]:
-    """Return what heights of the surface are worth; nothing where something is varied."""
+    """Return the same for the figures of a folder."""
     return [
         Picture(f"height_{number}", height_figure(trace, name), "", "")
         for number, (name, trace) in enumerate(_traces(data), start=1)

@@ -66,11 +66,11 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     dots: dict[str, Any] = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
     rows: dict[str, list[Mark]] = {
         "as read": [
-            _outline(raw.x, *[np.where(kept, raw.z, np.nan)] * 2, "kept", GREY),
+            _outline(raw.x, [np.where(kept, raw.z, np.nan)] * 2, "kept", GREY),
             Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, size=1.0, order=1.5,
                    **dots),
         ],
-        "cleaned": [_outline(cleaned.x, cleaned.z, cleaned.z, "", BLUE)],
+        "cleaned": [_outline(cleaned.x, [cleaned.z] * 2, "", BLUE)],
         "close up": [
             Series(x / MILLI, z / MILLI, label="cleaned", width=0.9),
             Series(raw.x[piece] / MILLI, level / MILLI, size=4.5, **dots),
@@ -86,10 +86,11 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     return panels
 
 
-def _outline(x: Array, low: Array, high: Array, label: str, colour: str) -> Outline:
+def _outline(x: Array, ends: Sequence[Array], label: str, colour: str) -> Outline:
+    """Return a profile by the lowest and highest heights of its pieces."""
     inside = np.isfinite(x)
-    parts = (part[inside] / MILLI for part in (x, low, high))
-    return Outline(*parts, colour, label, width=0.45)
+    low, high = (end[inside] / MILLI for end in ends)
+    return Outline(x[inside] / MILLI, low, high, colour, label, width=0.45)
 
 
 def kept_points(raw: Profile, cleaned: Profile) -> NDArray[np.bool_]:
@@ -106,7 +107,8 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
     for i, name in enumerate(str(name) for name in inputs["profile_name"].values):
         profile = inputs.isel(profile=i)
         outlines = [
-            _outline(*(profile[f"{part}_{end}"].values for end in ("x", "lowest", "highest")),
+            _outline(profile[f"{part}_x"].values,
+                     [profile[f"{part}_{end}"].values for end in ("lowest", "highest")],
                      label, colour)
             for part, label, colour in (("read", "as read", GREY), ("cleaned", "cleaned", BLUE))
         ]  # fmt: skip
@@ -232,4 +234,3 @@ def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
         alt="Difference of fitted and measured height difference correlation against lag.",
         height=400,
     )
-

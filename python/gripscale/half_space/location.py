@@ -66,7 +66,11 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
     force, total = contact.pressure * slope, float(np.sum(contact.pressure * slope))
     moving = contact.speed > 0.0 and total > 0.0
-    amounts = (force if moving else np.full(force.shape, math.nan), contact.pressure, contact.active)
+    amounts = (
+        force if moving else np.full(force.shape, math.nan),
+        contact.pressure,
+        contact.active,
+    )
     data = {}
     for (name, text), amount in zip(SHARES.items(), amounts, strict=True):
         sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
@@ -124,18 +128,20 @@ class _Line(NamedTuple):
     """p h' [Pa]."""
     mean: float
     """Sum of p h' of the mean line of the contact [Pa]; NaN at rest."""
-    y: float
+    column: int | None
+    """Of a map, where it is along y."""
 
 
 def _line(contact: RoughContact, points: int) -> _Line:
     force = contact.pressure * contact.grid.slope(contact.height)
     mean = float(force.mean()) * force.shape[0] if contact.speed > 0.0 else math.nan
-    fields = contact.height, contact.height + contact.gap, contact.pressure, force
+    rubber, pressure = contact.height + contact.gap, contact.pressure
     if contact.height.ndim == 1:
-        return _Line(*fields, mean, math.nan)
-    amount = force if contact.speed > 0.0 else contact.pressure
-    column = int(np.argmax(_window_sums(amount, points).max(axis=0)))
-    return _Line(*(field[:, column] for field in fields), mean, float(contact.y[column]))
+        return _Line(contact.height, rubber, pressure, force, mean, None)
+    amount = force if contact.speed > 0.0 else pressure
+    at = int(np.argmax(_window_sums(amount, points).max(axis=0)))
+    height = contact.height[:, at]
+    return _Line(height, rubber[:, at], pressure[:, at], force[:, at], mean, at)
 
 
 def contact_trace(
@@ -164,13 +170,14 @@ def contact_trace(
     -------
     xarray.Dataset
         Over `piece`: `x`, the middle [m]; `height_low` and `height_high`, `rubber_low` and
-        `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact; `friction` and `load`
-        from the beginning of the line to the end of the piece, over those of the contact [-] (of a
-        map, of its mean line), `friction` NaN at rest. `by_height`, if there is a derivative: that by the height of a piece, over its
-        length [1/m^2]. `stretch_start`, `stretch_end` [m] of the stretch with most
-        friction (at rest, load), `stretch_friction` and `stretch_load`, its parts of them. Of a map also
-        `section` [m], the y of the line, and over `block_x` and `block_y` the largest
-        `field_pressure` [Pa], NaN out of contact, at `field_x` and `field_y` [m].
+        `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact; `friction`
+        and `load` from the beginning of the line to the end of the piece, over those of the contact
+        [-] (of a map, of its mean line), the friction NaN at rest; `by_height`, if there is a
+        derivative: that by the height of a piece, over its length [1/m^2]. `stretch_start` and
+        `stretch_end` [m] of the stretch with most friction (at rest, load), `stretch_friction` and
+        `stretch_load`, its parts of them. Of a map also `section` [m], the y of the line, and over
+        `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of contact, at `field_x`
+        and `field_y` [m].
 
     Raises
     ------
@@ -198,7 +205,7 @@ def contact_trace(
         "load": (load[last], "1"),
     }
     if derivative is not None:
-        column = derivative if derivative.ndim == 1 else derivative[:, contact.y == line.y][:, 0]
+        column = derivative if line.column is None else derivative[:, line.column]
         by_height = np.add.reduceat(column, first) / (step * (last - first + 1))
         columns["by_height"] = (by_height, "1/m^2")
     data = {
@@ -211,10 +218,16 @@ def contact_trace(
         ("start", x[firsts[0]], "m"),
         ("end", x[end], "m"),
         ("friction", line.force[firsts[0] : end + 1].sum() / line.mean, "1"),
-        ("load", line.pressure[firsts[0] : end + 1].mean() * points / x.size / contact.nominal_pressure, "1"),
+        (
+            "load",
+            line.pressure[firsts[0] : end + 1].mean() * points / x.size / contact.nominal_pressure,
+            "1",
+        ),
     ):
         data[f"stretch_{name}"] = labelled((), value, unit, f"{name} of the stretch", SOURCE)
-    return xr.Dataset(data | ({} if contact.height.ndim == 1 else _field(contact, line.y)))
+    if line.column is not None:
+        data |= _field(contact, float(contact.y[line.column]))
+    return xr.Dataset(data)
 
 
 ROUNDED = 2**10

@@ -38,7 +38,8 @@ from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
-from gripscale.half_space.location import shares_by_slope
+from gripscale.half_space.location import SHARES as BY_SLOPE
+from gripscale.half_space.location import SLOPES, shares_by_slope
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
@@ -374,7 +375,7 @@ class RoughContact:
         for name in (entry.name for entry in fields_of(GridRecord)):
             values = [float(getattr(grid, name)) for grid in self.grids]
             add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
-        data |= self.shares_by_slope.variables
+        data |= {name: self.shares_by_slope[name].variable for name in BY_SLOPE}
         pressures = self.pressure_quantiles(SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]
@@ -390,7 +391,11 @@ class RoughContact:
         add("status", (), np.array(str(self.status), dtype=object), "1", "")
         return xr.Dataset(
             data,
-            coords={"share": list(SHARES), "wavelength": octaves["wavelength"].variable},
+            coords={
+                "share": list(SHARES),
+                "slope": list(SLOPES),
+                "wavelength": octaves["wavelength"].variable,
+            },
             attrs={
                 "title": "Direct contact of rubber with a whole rough surface",
                 "rubber": f"{self.rubber.name}; {self.rubber.source}".strip("; "),

@@ -19,7 +19,7 @@ from gripscale.charts.direct_contact import contact_pictures
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
 from gripscale.charts.rubber import rubber_charts
-from gripscale.charts.sensitivity import sensitivity_charts
+from gripscale.charts.sensitivity import height_charts, sensitivity_charts
 from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
@@ -509,6 +509,7 @@ def sensitivity_page(source: Study) -> Page:
             Section(
                 "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
             ),
+            Section("heights", "Which heights count", height_charts(data)),
             rerun_section(
                 data.attrs, f"gripscale sensitivity {case_name(data.attrs) or 'case.toml'}"
             ),
