@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import gripscale as gs
 from gripscale.rubber import Sweeps
@@ -34,11 +35,18 @@ def test_a_direct_contact_is_drawn():
     contact = gs.solve_rough_contact(
         SHIFTED_RUBBER, ROAD, pressure=3e5, speed=1.0, smallest_wavelength=2e-3
     )
-    pressure, surface = contact.plot().axes
+    heights, pressure, running, stretch = contact.plot().axes
     (line,) = pressure.get_lines()
-    assert np.array_equal(line.get_ydata(), contact.pressure / 1e6)
-    lower, upper = (line.get_ydata() for line in surface.get_lines())
-    assert (np.asarray(upper) >= np.asarray(lower) - 1e-9).all()  # [mm]: rubber lies on the road
+    assert np.nanmax(line.get_ydata()) == pytest.approx(contact.pressure.max() / 1e6)
+    load, friction = (line.get_ydata()[-1] for line in running.get_lines())
+    assert (load, friction) == pytest.approx((1.0, 1.0), abs=1e-5)
+    assert len(heights.get_lines()) == 3
+    lower, upper, touching = (np.asarray(line.get_ydata()) for line in stretch.get_lines())
+    inside = np.isfinite(lower)
+    assert (upper[inside] >= lower[inside] - 1e-9).all()  # [mm]: rubber lies on the road
+    touched = np.isfinite(touching)
+    np.testing.assert_allclose(touching[touched], upper[touched], atol=1e-6)
+    assert stretch.get_aspect() == 1.0
 
 
 def test_a_prediction_writes_its_page(tmp_path: Path):

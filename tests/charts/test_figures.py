@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
-from gripscale.case.record import envelope, sine_curves, trace
+from gripscale.case.record import envelope, sine_curves
 from gripscale.charts import (
     block_figure,
     blocks_figure,
@@ -24,6 +24,7 @@ from gripscale.charts import (
     profile_figure,
     save_figure,
 )
+from gripscale.charts.chart import Outline
 from gripscale.charts.style import short_number, stretches
 from gripscale.charts.surface import kept_points
 from gripscale.charts.view import JUDGE
@@ -262,7 +263,12 @@ def test_envelope_keeps_extremes_and_gaps() -> None:
     assert middle.tolist() == [0.5, 2.5, 4.5, 6.5]
     np.testing.assert_array_equal(lowest, [1.0, 2.0, np.nan, 4.0])
     np.testing.assert_array_equal(highest, [3.0, 2.0, np.nan, 5.0])
-    np.testing.assert_array_equal(trace(middle, lowest, highest)[1][:4], [1.0, 3.0, 2.0, 2.0])
+    along, heights = Outline(middle, lowest, highest).drawn(4)
+    np.testing.assert_array_equal(along[:4], [0.5, 0.5, 2.5, 2.5])
+    np.testing.assert_array_equal(heights, [1.0, 3.0, 2.0, 2.0, np.nan, np.nan, 4.0, 5.0])
+    np.testing.assert_array_equal(
+        Outline(middle, lowest, highest).drawn(2)[1], [1.0, 3.0, 4.0, 5.0]
+    )
     few = envelope([0.0, 1.0], [7.0, 8.0], 3)
     np.testing.assert_array_equal(few, [[0.0, 1.0, np.nan], [7.0, 8.0, np.nan], [7.0, 8.0, np.nan]])
 

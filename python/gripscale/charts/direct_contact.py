@@ -183,7 +183,10 @@ def _line_panels(trace: xr.Dataset) -> list[Panel]:
     p_low, p_high = (trace[f"pressure_{end}"].values / MEGA for end in ("low", "high"))
     running: list[Mark] = [
         Outline(x, trace[name].values, trace[name].values, colour, words, width=1.2)
-        for name, colour, words in (("load", GREY, "load"), ("friction", GREEN, "friction"))
+        for name, colour, words in (
+            ("running_load", GREY, "load"),
+            ("running_friction", GREEN, "friction"),
+        )
         if np.isfinite(trace[name].values).any()
     ]
     heights: list[Mark] = [

@@ -145,11 +145,11 @@ def _figure(panel: Panel, store: Store, tools: str = TOOLS) -> Any:
             case CrossLine(to=None):
                 _draw_cross_line(figure, mark, panel)
             case CrossLine(to=float(end)):
-                sides = ("left", "right") if mark.upright else ("bottom", "top")
-                ends = dict(zip(sides, (mark.at, end), strict=True))
                 look: dict[str, Any] = {"fill_color": mark.colour, "line_color": mark.colour}
                 look |= {"fill_alpha": 0.4, "level": "underlay"}
-                figure.add_layout(BoxAnnotation(**ends, **look))
+                sides = ("left", "right") if mark.upright else ("bottom", "top")
+                look |= dict(zip(sides, (mark.at, end), strict=True))
+                figure.add_layout(BoxAnnotation(**look))
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)

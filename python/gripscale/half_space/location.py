@@ -170,10 +170,11 @@ def contact_trace(
     -------
     xarray.Dataset
         Over `piece`: `x`, the middle [m]; `height_low` and `height_high`, `rubber_low` and
-        `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact; `friction`
-        and `load` from the beginning of the line to the end of the piece, over those of the contact
-        [-] (of a map, of its mean line), the friction NaN at rest; `by_height`, if there is a
-        derivative: that by the height of a piece, over its length [1/m^2]. `stretch_start` and
+        `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact;
+        `running_friction` and `running_load` from the beginning of the line to the end of the
+        piece, over those of the contact [-] (of a map, of its mean line), the friction NaN at rest;
+        `by_height`, if there is a derivative: that by the height of a piece, over its length
+        [1/m^2]. `stretch_start` and
         `stretch_end` [m] of the stretch with most friction (at rest, load), `stretch_friction` and
         `stretch_load`, its parts of them. Of a map also `section` [m], the y of the line, and over
         `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of contact, at `field_x`
@@ -201,8 +202,8 @@ def contact_trace(
         "rubber_high": (np.maximum.reduceat(line.rubber, first), "m"),
         "pressure_low": (np.minimum.reduceat(line.pressure, first), "Pa"),
         "pressure_high": (np.maximum.reduceat(line.pressure, first), "Pa"),
-        "friction": (friction[last], "1"),
-        "load": (load[last], "1"),
+        "running_friction": (friction[last], "1"),
+        "running_load": (load[last], "1"),
     }
     if derivative is not None:
         column = derivative if line.column is None else derivative[:, line.column]
