@@ -50,7 +50,6 @@ from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import Store, Task
 from gripscale.half_space.continued import DOWN_TO
-from gripscale.half_space.location import PREFIX
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.location import PREFIX
 from gripscale.half_space.model import JUDGED_TO, DirectContact

@@ -15,7 +15,7 @@ from gripscale.charts.direct_contact import height_figure, height_panels, named_
 from gripscale.charts.page_elements import Chart, Picture
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
-from gripscale.experiment.axis import points
+from gripscale.experiment.axis import dimensions, points
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
