@@ -79,7 +79,7 @@ def _with_basis(
     weights = dict(zip(SHARES, (friction, np.asarray(lengths, dtype=float), area), strict=True))
     for name, text in SHARES.items():
         parts = [contact.shares_by_slope[name].values for contact in contacts]
-        share = np.average(parts, axis=0, weights=weights[name])
+        share = _weighted(weights[name], parts)
         variables[f"total_{name}"] = labelled("slope", share, "1", text, "direct")
     return answer.assign(variables)
 
@@ -90,9 +90,10 @@ def _relative(parts: Array, errors: Sequence[float]) -> float:
     return math.hypot(*(parts * np.asarray(errors))) / total if total > 0.0 else math.nan
 
 
-def _weighted(weight: Array, shares: Sequence[float]) -> float:
-    total = float(weight.sum())
-    return float(weight @ np.asarray(shares)) / total if total > 0.0 else math.nan
+def _weighted(weight: Array, shares: Sequence[float] | Sequence[Array]) -> Array:
+    """Return the mean of shares, or of rows of them; NaN where nothing is shared."""
+    total, mean = float(weight.sum()), weight @ np.asarray(shares)
+    return np.asarray(mean / total if total > 0.0 else mean * math.nan)
 
 
 class DirectContact(Checked, model.Model):
