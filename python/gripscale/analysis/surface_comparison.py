@@ -56,6 +56,7 @@ from gripscale.model import STATUS, STATUS_WORD, Load, Model
 from gripscale.model import TOTALS as OF_ALL
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
+from gripscale.surface.texture import textures
 from gripscale.theory.half_plane import HalfPlane
 
 
@@ -196,9 +197,9 @@ def _by_octave(roads: xr.Dataset) -> xr.DataArray:
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
-    """Return height difference correlation and spectrum of the roads that were measured.
+    """Return texture of the roads, height difference correlation and spectrum of those measured.
 
-    At common places, NaN beyond the ends of each.
+    Curves at common places, NaN beyond the ends of each.
     """
     curves: dict[str, dict[str, tuple[Array, Array]]] = {"correlation": {}, "spectrum": {}}
     for name, surface in surfaces.items():
@@ -207,7 +208,11 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
         if surface.measured is not None:
             spectrum = profile_spectrum(surface.measured.cleaned).averaged()
             curves["spectrum"][name] = (spectrum.wavenumber, spectrum.density)
-    out: dict[str, Any] = {}
+    measured = {
+        name: surface.measured and (surface.measured.map or surface.measured.cleaned)
+        for name, surface in surfaces.items()
+    }
+    out: dict[str, Any] = {**textures(measured, "surface").data_vars}
     for name, axis, unit, units, text in (
         ("correlation", "lag", "m", "m2", "height difference correlation C_z"),
         ("spectrum", "wavenumber", "rad/m", "m3", "one-sided power spectrum of lines"),
@@ -279,8 +284,8 @@ def compare_surfaces(
         the first with its `_low` and `_high`; over `surface` the best estimates `best_friction` and
         so on (`gripscale.analysis.with_best_estimate`) and `friction_ratio` to the first and so on,
         with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
-        the longest wave down, and `friction_difference`; `correlation` over `lag` and `spectrum`
-        over `wavenumber`.
+        the longest wave down, and `friction_difference`; over `surface` the texture
+        (`gripscale.surface.texture`); `correlation` over `lag` and `spectrum` over `wavenumber`.
 
     Raises
     ------

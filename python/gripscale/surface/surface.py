@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
+import xarray as xr
 
 from gripscale.core.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
@@ -24,6 +25,7 @@ from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
+from gripscale.surface.texture import textures
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,15 @@ class Measured:
     def slopes(self) -> SlopeByWavelength:
         """Rms slope of what was measured, down to each wavelength."""
         return slope_by_wavelength(self.cleaned if self.map is None else self.map)
+
+    @cached_property
+    def texture(self) -> xr.Dataset:
+        """Texture of the map, or of each profile and of all together, over `texture_of`."""
+        if self.map is not None:
+            return textures({"map": self.map}, "texture_of")
+        named = {f"profile {i + 1}": line for i, line in enumerate(self.cleaned)}
+        together = {"all profiles": self.cleaned} if len(named) > 1 else {}
+        return textures({**named, **together}, "texture_of")
 
     @property
     def notes(self) -> tuple[str, ...]:
