@@ -197,9 +197,9 @@ def _by_octave(roads: xr.Dataset) -> xr.DataArray:
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
-    """Return texture of the roads, height difference correlation and spectrum of those measured.
+    """Return height difference correlation and spectrum of the roads that were measured.
 
-    Curves at common places, NaN beyond the ends of each.
+    At common places, NaN beyond the ends of each.
     """
     curves: dict[str, dict[str, tuple[Array, Array]]] = {"correlation": {}, "spectrum": {}}
     for name, surface in surfaces.items():
@@ -208,11 +208,7 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
         if surface.measured is not None:
             spectrum = profile_spectrum(surface.measured.cleaned).averaged()
             curves["spectrum"][name] = (spectrum.wavenumber, spectrum.density)
-    measured = {
-        name: surface.measured and (surface.measured.map or surface.measured.cleaned)
-        for name, surface in surfaces.items()
-    }
-    out: dict[str, Any] = {**textures(measured, "surface").data_vars}
+    out: dict[str, Any] = {}
     for name, axis, unit, units, text in (
         ("correlation", "lag", "m", "m2", "height difference correlation C_z"),
         ("spectrum", "wavenumber", "rad/m", "m3", "one-sided power spectrum of lines"),
@@ -332,7 +328,11 @@ def compare_surfaces(
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
-    data = roads_dataset(roads, solved).assign_attrs(
+    measured = {
+        name: surface.measured and (surface.measured.map or surface.measured.cleaned)
+        for name, surface in roads.items()
+    }
+    data = roads_dataset(roads, solved).assign(textures(measured, "surface")).assign_attrs(
         notes="\n".join(notes),
         surfaces=shlex.join(words),
         case_file=str(file.path),
