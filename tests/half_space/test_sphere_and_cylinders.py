@@ -83,7 +83,7 @@ def test_sliding_sphere(row, within, length) -> None:
 def test_slow_sphere_is_the_closed_form() -> None:
     """mu = (1 - E0/E1) v tau/R for v tau << a0.
 
-    Friction is int q_x^2 v tau (1/M0 - 1/M1) 2/|q| |p(q)|^2 d2q/(4 pi^2) with the pressure of Hertz,
+    Friction is int q_x^2 v tau (1/M0 - 1/M1) 2/|q| |p(q)|^2 d2q/(4 pi^2) with Hertz' pressure
     p(q) = 3 F j_1(q a)/(q a), and int j_1(s)^2 ds = pi/6. The next term is of order v tau/a0; the
     grid leaves 1 %.
     """
@@ -108,8 +108,8 @@ WIDTH, ELEMENT, LINE_LOAD = 1.0, 0.16e-3, 6e5
 """Width of the cylinders [m], element of the reference [m], load [N/m]."""
 PERIOD = 2.0 * np.pi * WIDTH
 """The mean plane of a line of this period is where the far field of a strip of this width ends:
-2 asinh(WIDTH/2|x|) of the strip and -2 ln(2 sin(pi |x|/PERIOD)) of the line are both 2 ln(WIDTH/|x|)
-near the contact. So approaches can be compared as they are."""
+2 asinh(WIDTH/2|x|) of the strip and -2 ln(2 sin(pi |x|/PERIOD)) of the line are both
+2 ln(WIDTH/|x|) near the contact. So approaches can be compared as they are."""
 
 
 def cylinders(row: dict[str, str]) -> RoughContact:

@@ -332,12 +332,16 @@ def compare_surfaces(
         name: surface.measured and (surface.measured.map or surface.measured.cleaned)
         for name, surface in roads.items()
     }
-    data = roads_dataset(roads, solved).assign(textures(measured, "surface")).assign_attrs(
-        notes="\n".join(notes),
-        surfaces=shlex.join(words),
-        case_file=str(file.path),
-        **file.attributes,
-        **provenance.attributes(),
+    data = (
+        roads_dataset(roads, solved)
+        .assign(textures(measured, "surface"))
+        .assign_attrs(
+            notes="\n".join(notes),
+            surfaces=shlex.join(words),
+            case_file=str(file.path),
+            **file.attributes,
+            **provenance.attributes(),
+        )
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 

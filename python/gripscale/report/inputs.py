@@ -69,8 +69,8 @@ def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") 
     for name, (symbol, unit, _) in QUANTITIES.items():
         values = data[name].values.astype(float)
         if np.nan_to_num(values).any():
-            length = {"unit": "mm", "size": MILLI} if unit == "m" else {}
-            columns.append(Column(name, values, symbol, **length))
+            printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
+            columns.append(Column(name, values, symbol, printed, size))
     notes = [str(text) for text in data[NOTE].values]
     if any(notes):
         columns.append(Column(NOTE, notes, "no MPD", words=True))

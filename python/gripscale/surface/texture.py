@@ -112,9 +112,11 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     return _dataset(values, "" if depths.size else _no_depth(lines))
 
 
-def textures(
-    surfaces: Mapping[str, Profile | Sequence[Profile] | HeightMap | None], dim: str
-) -> xr.Dataset:
+Heights = Profile | Sequence[Profile] | HeightMap
+"""A profile, several together, or a map."""
+
+
+def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
     """Return the texture of several surfaces by name, over the dimension `dim`.
 
     None is a surface that was not measured.
