@@ -328,20 +328,16 @@ def compare_surfaces(
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
-    measured = {
-        name: surface.measured and (surface.measured.map or surface.measured.cleaned)
-        for name, surface in roads.items()
+    heights = {
+        name: road.measured.heights if road.measured else None for name, road in roads.items()
     }
-    data = (
-        roads_dataset(roads, solved)
-        .assign(textures(measured, "surface"))
-        .assign_attrs(
-            notes="\n".join(notes),
-            surfaces=shlex.join(words),
-            case_file=str(file.path),
-            **file.attributes,
-            **provenance.attributes(),
-        )
+    data = roads_dataset(roads, solved).assign(textures(heights, "surface"))
+    data = data.assign_attrs(
+        notes="\n".join(notes),
+        surfaces=shlex.join(words),
+        case_file=str(file.path),
+        **file.attributes,
+        **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
