@@ -70,7 +70,8 @@ def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") 
         values = data[name].values.astype(float)
         if np.nan_to_num(values).any():
             printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
-            columns.append(Column(name, values, symbol, printed, size))
+            form = whole if name == "depth_segments" else significant
+            columns.append(Column(name, values, symbol, printed, size, format=form))
     notes = [str(text) for text in data[NOTE].values]
     if any(notes):
         columns.append(Column(NOTE, notes, "no MPD", words=True))

@@ -3,16 +3,16 @@
 Heights z stand over the least-squares line or plane of the measured points. With averages < > over
 the N measured points,
 
-    rms height        Rq, Sq    sqrt <z^2>
-    mean deviation    Ra, Sa    <|z|>
-    skewness          Rsk, Ssk  <z^3> / Rq^3
-    kurtosis          Rku, Sku  <z^4> / Rq^4
-    rms slope         Rdq       sqrt <(dz/dx)^2>
+    rms height        Pq, Sq    sqrt <z^2>
+    mean deviation    Pa, Sa    <|z|>
+    skewness          Psk, Ssk  <z^3> / Pq^3
+    kurtosis          Pku, Sku  <z^4> / Pq^4
+    rms slope         Pdq       sqrt <(dz/dx)^2>
     rms gradient      Sdq       sqrt <|grad z|^2>
     developed area    Sdr       <sqrt(1 + |grad z|^2)> - 1
 
-(ISO 21920-2:2021 for profiles, over the whole profile and without filters; ISO 25178-2:2021 for
-maps). Slopes are those between neighbours. A map's cell has a gradient at each corner, that of the
+(ISO 21920-2:2021 for profiles, over the whole profile; behind a filter of long waves the standard
+writes R for P; ISO 25178-2:2021 for maps). Slopes are those between neighbours. A map's cell has a gradient at each corner, that of the
 triangle with both neighbours: their mean is the mean over both ways to divide the cell into two
 triangles. A missing height has no weight, and neither has a slope that needs it.
 
@@ -53,14 +53,14 @@ dropouts and 5 % of spikes."""
 QUANTITIES = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
     "depth_segments": ("segments", "1", "segments of 100 mm in the mean profile depth"),
-    "rms_height": ("Rq, Sq", "m", "root mean square height"),
-    "mean_deviation": ("Ra, Sa", "m", "mean absolute height"),
-    "skewness": ("Rsk, Ssk", "1", "skewness of heights"),
-    "kurtosis": ("Rku, Sku", "1", "kurtosis of heights, 3 if Gaussian"),
-    "peak_height": ("Rp, Sp", "m", "highest point over the mean"),
-    "pit_depth": ("Rv, Sv", "m", "lowest point below the mean"),
-    "total_height": ("Rt, Sz", "m", "highest over lowest point"),
-    "rms_slope": ("Rdq", "1", "root mean square slope of lines"),
+    "rms_height": ("Pq, Sq", "m", "root mean square height"),
+    "mean_deviation": ("Pa, Sa", "m", "mean absolute height"),
+    "skewness": ("Psk, Ssk", "1", "skewness of heights"),
+    "kurtosis": ("Pku, Sku", "1", "kurtosis of heights, 3 if Gaussian"),
+    "peak_height": ("Pp, Sp", "m", "highest point over the mean"),
+    "pit_depth": ("Pv, Sv", "m", "lowest point below the mean"),
+    "total_height": ("Pt, Sz", "m", "highest over lowest point"),
+    "rms_slope": ("Pdq", "1", "root mean square slope of lines"),
     "rms_gradient": ("Sdq", "1", "root mean square gradient of the surface"),
     "developed_area_ratio": ("Sdr", "1", "area of the surface over its projection, less one"),
 }
