@@ -12,9 +12,10 @@ the N measured points,
     developed area    Sdr       <sqrt(1 + |grad z|^2)> - 1
 
 (ISO 21920-2:2021 for profiles, over the whole profile; behind a filter of long waves the standard
-writes R for P; ISO 25178-2:2021 for maps). Slopes are those between neighbours. A map's cell has a gradient at each corner, that of the
-triangle with both neighbours: their mean is the mean over both ways to divide the cell into two
-triangles. A missing height has no weight, and neither has a slope that needs it.
+writes R for P; ISO 25178-2:2021 for maps). Slopes are those between neighbours. A map's cell has a
+gradient at each corner, that of the triangle with both neighbours: their mean is the mean over both
+ways to divide the cell into two triangles. A missing height has no weight, and neither has a slope
+that needs it.
 
 The mean profile depth is that of ISO 13473-1:2019. Missing heights are interpolated, heights
 averaged over 0.5 mm, waves below 2.4 mm taken out (second-order Butterworth filter, forwards and
