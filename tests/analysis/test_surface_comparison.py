@@ -164,6 +164,11 @@ def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Ro
         ratio = (curve.sel(surface="rough") / curve.sel(surface="road")).dropna(curve.dims[-1])
         assert ratio.size > 20
         np.testing.assert_allclose(ratio, 9.0, rtol=1e-3)  # heights are written to a nanometre
+    for name, ratio in {"mean_profile_depth": 3.0, "rms_height": 3.0, "skewness": 1.0}.items():
+        number = made.data[name]
+        assert number.sel(surface="rough") == pytest.approx(
+            ratio * number.sel(surface="road").item(), rel=1e-3
+        )
 
 
 def test_friction_between_waves_is_linear_in_the_logarithm() -> None:
@@ -210,6 +215,8 @@ def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path) -> None
     waves = made.data.sel(surface="waves")
     assert np.isfinite(waves.total_friction.sel(model="chain"))
     assert np.isnan(waves.total_friction.sel(model="direct"))
+    assert waves.depth_note == "not measured"
+    assert np.isnan(waves.rms_height)
 
 
 @pytest.mark.usefixtures("made")
@@ -229,6 +236,8 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
     assert "Roads side by side" in page
     assert page.index("μ of rough") < page.index("Best estimates, from the direct contact")
     assert "direct: rough has" in page
+    assert "Texture: ISO 13473-1" in text
+    assert "MPD" in page
     assert f"gripscale compare-surfaces {given[0]} {given[1]} --case case.toml" in page
 
 

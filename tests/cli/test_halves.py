@@ -20,6 +20,8 @@ def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Pat
     assert lengths[0] / lengths[1] == pytest.approx(3.0, rel=2e-3)
     assert lengths[1] / lengths[2] == pytest.approx(3.0, rel=2e-3)
     assert "stacks tried follow it as well:" in " ".join(result.stdout.split())
+    texture = result.stdout[result.stdout.index("Texture: ISO 13473-1") :]
+    assert texture.index("MPD") < texture.index("profile 1")
     assert {p.name for p in target.iterdir()} == {
         f"{name}.{kind}" for name in ("profile", "correlation") for kind in ("png", "pdf")
     }

@@ -73,6 +73,13 @@ def test_cleaning_is_told_for_each_profile(page: Page) -> None:
         assert rows[0][2] != "0"
 
 
+def test_texture_of_each_profile_and_of_all(page: Page) -> None:
+    rows = page.body("texture")
+    assert [row[0] for row in rows] == ["profile 1", "profile 2", "all profiles"]
+    first, second, both = (float(row[1]) for row in rows)
+    assert min(first, second) <= both <= max(first, second)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_tables_have_every_wave_and_no_empty_cell(page: Page, name: str) -> None:
     rows = page.body(name)

@@ -56,6 +56,7 @@ from gripscale.model import STATUS, STATUS_WORD, Load, Model
 from gripscale.model import TOTALS as OF_ALL
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
+from gripscale.surface.texture import textures
 from gripscale.theory.half_plane import HalfPlane
 
 
@@ -279,8 +280,8 @@ def compare_surfaces(
         the first with its `_low` and `_high`; over `surface` the best estimates `best_friction` and
         so on (`gripscale.analysis.with_best_estimate`) and `friction_ratio` to the first and so on,
         with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
-        the longest wave down, and `friction_difference`; `correlation` over `lag` and `spectrum`
-        over `wavenumber`.
+        the longest wave down, and `friction_difference`; over `surface` the texture
+        (`gripscale.surface.texture`); `correlation` over `lag` and `spectrum` over `wavenumber`.
 
     Raises
     ------
@@ -327,7 +328,11 @@ def compare_surfaces(
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
-    data = roads_dataset(roads, solved).assign_attrs(
+    heights = {
+        name: road.measured.heights if road.measured else None for name, road in roads.items()
+    }
+    data = roads_dataset(roads, solved).assign(textures(heights, "surface"))
+    data = data.assign_attrs(
         notes="\n".join(notes),
         surfaces=shlex.join(words),
         case_file=str(file.path),

@@ -113,6 +113,8 @@ def inputs(results: CaseResults) -> xr.Dataset:
     parts.append(({}, notes | _excited_band(excitation)))
     if surface.measured is not None and surface.correlation is not None:
         parts.append((_profiles(surface.measured), {}))
+        texture = surface.measured.texture.variables
+        parts.append(({str(name): values for name, values in texture.items()}, {}))
         parts.append(_cut_off(surface, surface.measured))
         parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
     data = {name: value for part, _ in parts for name, value in part.items()}

@@ -132,7 +132,7 @@ def fit_surface(
 ) -> None:
     """Clean profiles, find their height difference correlation and fit sine waves to it."""
     from gripscale.case import SurfaceTable, folder, prepare_surface, validate
-    from gripscale.report.inputs import slopes_table, surface_lines, waves_table
+    from gripscale.report.inputs import slopes_table, surface_lines, texture_table, waves_table
 
     values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
     if crop is not None:
@@ -151,8 +151,10 @@ def fit_surface(
         waves_table(sines.wavelength, sines.amplitude),
         *_ambiguity(prepared),
     ]
-    if slopes and prepared.measured is not None:
-        parts.append(slopes_table(prepared.measured.slopes))
+    if prepared.measured is not None:
+        parts.append(texture_table(prepared.measured.texture))
+        if slopes:
+            parts.append(slopes_table(prepared.measured.slopes))
     print_parts(console, parts)
     if output is not None:
         from gripscale.charts.write import surface_figures

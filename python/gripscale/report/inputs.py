@@ -24,6 +24,7 @@ from gripscale.report.elements import Element, Facts, Section, number, percent
 from gripscale.report.record import InputRecord
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
+from gripscale.surface.texture import NOTE, QUANTITIES
 
 if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
@@ -60,6 +61,21 @@ def slopes_table(slopes: SlopeByWavelength) -> Table:
         values = [slopes.down_to(float(length), kind) for length in lengths]
         columns.append(Column(f"{kind}_slope", values, f"rms slope {heading}"))
     return Table("slopes", columns, "Rms slope by the smallest wavelength that counts")
+
+
+def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") -> Table:
+    """Return the texture of surfaces along `dim`, without the numbers that none of them has."""
+    columns = [Column(dim, data[dim].values.astype(str).tolist(), heading)]
+    for name, (symbol, unit, _) in QUANTITIES.items():
+        values = data[name].values.astype(float)
+        if np.nan_to_num(values).any():
+            printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
+            form = whole if name == "depth_segments" else significant
+            columns.append(Column(name, values, symbol, printed, size, format=form))
+    notes = [str(text) for text in data[NOTE].values]
+    if any(notes):
+        columns.append(Column(NOTE, notes, "no MPD", words=True))
+    return Table("texture", columns, "Texture: ISO 13473-1, ISO 21920-2 and ISO 25178-2")
 
 
 def prony_table(times: ArrayLike, moduli: ArrayLike) -> Table:

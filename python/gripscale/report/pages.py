@@ -195,6 +195,8 @@ def _surface(run: Run) -> list[Element]:
     elements: list[Element] = []
     if record.has("profile_name"):
         elements += [*inputs.cleaning_tables(record), *profile_charts(record.data)]
+    if record.has("texture_of"):
+        elements.append(inputs.texture_table(record.data))
     if record.has("lag"):
         facts = inputs.surface_facts(record, run.data.sizes["wave"])
         elements += [*facts, *correlation_charts(record.data)]

@@ -16,6 +16,7 @@ from gripscale.experiment.axis import EFFECTS, MODELS
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, status_words
+from gripscale.report.inputs import texture_table
 from gripscale.report.notices import Failure
 
 RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
@@ -218,9 +219,11 @@ def _ends(data: xr.Dataset, name: str) -> np.ndarray:
 
 
 def roads_tables(data: xr.Dataset) -> list[Table]:
-    """Return best estimates, then for each model the totals and the differences to the first."""
+    """Return best estimates, for each model totals and differences to the first, and texture."""
     models = data.model.values.tolist()
     tables = [totals_table(data.sel(model=name), "surface", "road", name) for name in models]
+    if "rms_height" in data:
+        tables.append(texture_table(data, "surface", "road"))
     return [
         table
         for table in (believed_table(data, "surface", "road"), *tables)

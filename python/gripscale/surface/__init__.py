@@ -30,6 +30,7 @@ from gripscale.surface.spectrum import (
 )
 from gripscale.surface.surface import Measured, Surface, SurfacePart
 from gripscale.surface.synthetic import self_affine_profile, sine_profile
+from gripscale.surface.texture import texture
 
 __all__ = [
     "ArealSpectrum",
@@ -70,4 +71,5 @@ __all__ = [
     "sine_ambiguity",
     "sine_profile",
     "slope_by_wavelength",
+    "texture",
 ]

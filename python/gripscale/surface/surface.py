@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
+import xarray as xr
 
 from gripscale.core.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
@@ -24,6 +25,7 @@ from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
+from gripscale.surface.texture import Heights, textures
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,11 @@ class Measured:
         return [cleaned for _, cleaned in self.profiles]
 
     @property
+    def heights(self) -> list[Profile] | HeightMap:
+        """The profiles as cleaned, or the map."""
+        return self.cleaned if self.map is None else self.map
+
+    @property
     def surfaces(self) -> list[Profile] | list[HeightMap]:
         """What a contact can be solved on: the profiles as cleaned, or the map."""
         return self.cleaned if self.map is None else [self.map]
@@ -63,7 +70,19 @@ class Measured:
     @cached_property
     def slopes(self) -> SlopeByWavelength:
         """Rms slope of what was measured, down to each wavelength."""
-        return slope_by_wavelength(self.cleaned if self.map is None else self.map)
+        return slope_by_wavelength(self.heights)
+
+    @cached_property
+    def texture(self) -> xr.Dataset:
+        """Texture of the map, or of each profile and of all together, over `texture_of`."""
+        if self.map is not None:
+            return textures({"map": self.map}, "texture_of")
+        named: dict[str, Heights | None] = {
+            f"profile {i + 1}": line for i, line in enumerate(self.cleaned)
+        }
+        if len(named) > 1:
+            named["all profiles"] = self.cleaned
+        return textures(named, "texture_of")
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -77,7 +96,7 @@ class Measured:
 
     def bare(self) -> Measured:
         """Return what was measured, without how it was cleaned and what was fitted to it."""
-        return Measured.of(self.cleaned if self.map is None else self.map)
+        return Measured.of(self.heights)
 
 
 SurfacePart = Literal["waves", "measurement", "cut_off"]

@@ -1,0 +1,197 @@
+"""Texture of profiles and maps, in the numbers of the standards.
+
+Heights z stand over the least-squares line or plane of the measured points. With averages < > over
+the N measured points,
+
+    rms height        Pq, Sq    sqrt <z^2>
+    mean deviation    Pa, Sa    <|z|>
+    skewness          Psk, Ssk  <z^3> / Pq^3
+    kurtosis          Pku, Sku  <z^4> / Pq^4
+    rms slope         Pdq       sqrt <(dz/dx)^2>
+    rms gradient      Sdq       sqrt <|grad z|^2>
+    developed area    Sdr       <sqrt(1 + |grad z|^2)> - 1
+
+(ISO 21920-2:2021 for profiles, over the whole profile; behind a filter of long waves the standard
+writes R for P; ISO 25178-2:2021 for maps). Slopes are those between neighbours. A map's cell has a
+gradient at each corner, that of the triangle with both neighbours: their mean is the mean over both
+ways to divide the cell into two triangles. A missing height has no weight, and neither has a slope
+that needs it.
+
+The mean profile depth is that of ISO 13473-1:2019. Missing heights are interpolated, heights
+averaged over 0.5 mm, waves below 2.4 mm taken out (second-order Butterworth filter, forwards and
+backwards, annex D), segments of 100 mm cut and the least-squares line of each subtracted. The
+segment depth is the mean of the highest points of its two halves over its mean height; the mean
+profile depth is the mean of the segment depths. Spikes must have been removed, as
+`gripscale.clean` does by the rule of the standard.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+
+from gripscale.core.arrays import Array
+from gripscale.core.units import in_mm
+from gripscale.surface.cleaning import subtract_form, subtract_trend
+from gripscale.surface.profile import HeightMap, Profile, profile_list
+from gripscale.surface.resampling import filled
+
+SEGMENT = 0.1
+"""Length of a segment [m]."""
+
+SAMPLE, COARSEST = 0.5e-3, 1e-3
+"""Steps to which a finer profile is averaged, and beyond which it has no profile depth [m]."""
+
+SHORTEST_WAVE = 2.4e-3
+"""Wavelength at which the filter of the standard begins [m]."""
+
+MOST_MISSING = 0.15
+"""Share of missing heights beyond which a segment does not count: the standard allows 10 % of
+dropouts and 5 % of spikes."""
+
+QUANTITIES = {
+    "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
+    "depth_segments": ("segments", "1", "segments of 100 mm in the mean profile depth"),
+    "rms_height": ("Pq, Sq", "m", "root mean square height"),
+    "mean_deviation": ("Pa, Sa", "m", "mean absolute height"),
+    "skewness": ("Psk, Ssk", "1", "skewness of heights"),
+    "kurtosis": ("Pku, Sku", "1", "kurtosis of heights, 3 if Gaussian"),
+    "peak_height": ("Pp, Sp", "m", "highest point over the mean"),
+    "pit_depth": ("Pv, Sv", "m", "lowest point below the mean"),
+    "total_height": ("Pt, Sz", "m", "highest over lowest point"),
+    "rms_slope": ("Pdq", "1", "root mean square slope of lines"),
+    "rms_gradient": ("Sdq", "1", "root mean square gradient of the surface"),
+    "developed_area_ratio": ("Sdr", "1", "area of the surface over its projection, less one"),
+}
+"""Symbols of profiles and maps, unit and meaning of each number."""
+
+NOTE = "depth_note"
+"""Why there is no mean profile depth, or empty."""
+
+
+def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
+    """Return the texture of a profile, of several together, or of a map.
+
+    Parameters
+    ----------
+    surface : Profile, sequence of Profile, or HeightMap
+        Cleaned heights, NaN where missing. The line of each profile, or the plane of the map, is
+        subtracted.
+
+    Returns
+    -------
+    Dataset
+        Scalars by the names of `QUANTITIES` in SI units, with attributes `units`, `symbol` and
+        `long_name`. Profiles have no `rms_gradient` and `developed_area_ratio`, a map has no
+        `rms_slope`: NaN. The mean profile depth of a map is that of its lines along x. It is NaN
+        without a whole segment of 100 mm; the text `depth_note` then says why.
+
+    Raises
+    ------
+    InputError
+        If `surface` is none of these.
+    """
+    values = dict.fromkeys(QUANTITIES, np.nan)
+    if isinstance(surface, HeightMap):
+        lines = surface.lines()
+        level, _ = subtract_form(surface, order=1)
+        squares = _squared_gradients(level)
+        values |= _height_numbers(level.z) | {
+            "rms_gradient": _mean(squares) ** 0.5,
+            "developed_area_ratio": _mean(np.sqrt(1.0 + squares) - 1.0),
+        }
+    else:
+        lines = profile_list(surface)
+        levels = [subtract_trend(line)[0] for line in lines]
+        slopes = np.concatenate([np.diff(line.z) / line.step for line in levels])
+        values |= _height_numbers(np.concatenate([line.z for line in levels]))
+        values["rms_slope"] = _mean(slopes**2) ** 0.5
+    depths = np.concatenate([segment_depths(line) for line in lines])
+    values |= {"mean_profile_depth": _mean(depths), "depth_segments": depths.size}
+    return _dataset(values, "" if depths.size else _no_depth(lines))
+
+
+Heights = Profile | Sequence[Profile] | HeightMap
+"""A profile, several together, or a map."""
+
+
+def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
+    """Return the texture of several surfaces by name, over the dimension `dim`.
+
+    None is a surface that was not measured.
+    """
+    empty = _dataset(dict.fromkeys(QUANTITIES, np.nan), "not measured")
+    parts = [empty if surface is None else texture(surface) for surface in surfaces.values()]
+    return xr.concat(parts, dim=dim).assign_coords({dim: list(surfaces)})
+
+
+def _dataset(values: Mapping[str, float], note: str) -> xr.Dataset:
+    """Return numbers by the names of `QUANTITIES`, and the note, as a Dataset."""
+    data = {
+        name: ((), values[name], {"units": unit, "symbol": symbol, "long_name": text})
+        for name, (symbol, unit, text) in QUANTITIES.items()
+    }
+    return xr.Dataset(data).assign({NOTE: note})
+
+
+def segment_depths(profile: Profile) -> Array:
+    """Return the mean segment depths [m] of the whole segments of a profile, along it.
+
+    Empty if the profile is shorter than a segment or its step exceeds 1 mm.
+    """
+    from scipy import signal
+
+    step = max(profile.step, SAMPLE)
+    if step > COARSEST or len(profile) * profile.step < SEGMENT:
+        return np.zeros(0)
+    sample = np.floor(np.arange(len(profile)) * (profile.step / step) + 1e-6).astype(int)
+    samples = int(SEGMENT / step + 1e-6)
+    whole = (sample[-1] + 1) // samples
+    counts = np.bincount(sample)
+    heights = np.bincount(sample, filled(profile.z)) / counts
+    smooth = signal.sosfiltfilt(signal.butter(2, 2.0 * step / SHORTEST_WAVE, output="sos"), heights)
+    missing = np.bincount(sample, np.isnan(profile.z)) / counts
+    segments, gaps = (part[: whole * samples].reshape(whole, -1) for part in (smooth, missing))
+    halves = np.array_split(signal.detrend(segments), 2, axis=1)
+    depths = np.mean([half.max(axis=1) for half in halves], axis=0)
+    return np.asarray(depths[gaps.mean(axis=1) <= MOST_MISSING])
+
+
+def _no_depth(lines: Sequence[Profile]) -> str:
+    """Return why lines have no mean profile depth."""
+    if max(line.length for line in lines) < SEGMENT:
+        return f"shorter than {in_mm(SEGMENT)}"
+    if max(line.step for line in lines) > COARSEST:
+        return f"step above {in_mm(COARSEST)}"
+    return f"more than {MOST_MISSING:.0%} of heights missing"
+
+
+def _height_numbers(z: Array) -> dict[str, float]:
+    """Return the numbers of heights [m], NaN where missing."""
+    heights = z[np.isfinite(z)]
+    rms = _mean(heights**2) ** 0.5
+    shape = heights / rms if rms > 0.0 else np.full(1, np.nan)
+    top, bottom = float(heights.max()), float(heights.min())
+    return {
+        "rms_height": rms,
+        "mean_deviation": _mean(np.abs(heights)),
+        "skewness": _mean(shape**3),
+        "kurtosis": _mean(shape**4),
+        "peak_height": top,
+        "pit_depth": -bottom,
+        "total_height": top - bottom,
+    }
+
+
+def _squared_gradients(surface: HeightMap) -> Array:
+    """Return the squared gradients at the corners of all cells, NaN where a height is missing."""
+    x, y = ((np.diff(surface.z, axis=axis) / surface.step[axis]) ** 2 for axis in (0, 1))
+    return np.array([a + b for a in (x[:, :-1], x[:, 1:]) for b in (y[:-1], y[1:])])
+
+
+def _mean(values: Array) -> float:
+    """Return the mean of the values that are there, NaN without any."""
+    present = values[np.isfinite(values)]
+    return float(present.mean()) if present.size else np.nan
