@@ -8,6 +8,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::contact::sampling::Sampling;
 use crate::contact::{PressedBlock, State};
 use crate::error::{positive, KernelError};
 use crate::executor::Executor;
@@ -46,6 +47,9 @@ pub fn solve(
     let mut model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
     if problem.load.speed > 0.0 {
         model.band = problem.band.in_units_of(passage);
+    }
+    if model.heights.waves() > 1 && std::env::var("NODES").is_err() {
+        model.sampling = Sampling::Patches;
     }
     let mut wave = Wave {
         problem,

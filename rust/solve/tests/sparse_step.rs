@@ -105,7 +105,7 @@ fn add_contact(
     let (nodes, first) = (mesh.layer_nodes(), system.right.len() - active_nodes.len() - 1);
     let approach = system.right.len() - 1;
     let x = pressed.abscissae(&state.field);
-    let gap = pressed.gaps(state, &x);
+    let gap = pressed.gaps(state, &pressed.sampled(&state.field));
     let share = 1.0 / nodes as f64;
     for a in 0..nodes {
         let (along, up) = (mesh.position(a, 0), mesh.position(a, 1));
