@@ -150,6 +150,7 @@ impl ProfileContinuation<'_> {
         let settings = Settings {
             patience: self.settings.roughening_patience,
             max_iterations: self.settings.roughening_iterations,
+            krylov_share: self.settings.roughening_share,
             ..*self.settings
         };
         let rougher = self.model.heights.smoothed(target.waves);
@@ -168,6 +169,9 @@ impl ProfileContinuation<'_> {
             let report = newton::solve(&pressed, &mut trial, self.load, &settings);
             counts.add(&report);
             counts.load_steps += 1;
+            if std::env::var("TRACE").is_ok() {
+                eprintln!("cols {} waves {}->{} share {share} {:?} it {} res {:.1e} products {}", mesh.columns, last.waves, target.waves, report.status, report.iterations, report.residual, report.products);
+            }
             match report.status {
                 Status::Converged if share == 1.0 => {
                     return Ok(Stage {
@@ -179,11 +183,14 @@ impl ProfileContinuation<'_> {
                     })
                 }
                 Status::Converged => {
+                    if report.iterations <= settings.easy_iterations {
+                        part *= 2.0;
+                    }
                     (state, added) = (trial, share);
                     reached = Some((model.heights, report));
                 }
                 status if status.interrupts() => return Err(status),
-                _ => part *= 0.5,
+                _ => part = 0.5 * (share - added),
             }
         }
         match reached {
