@@ -26,6 +26,7 @@ pub struct Model {
     energy: Energy,
     bulk_modulus: f64,
     pub heights: Heights,
+    /// At the nodes, unless changed: what was verified of single waves holds for them.
     pub sampling: Sampling,
 }
 

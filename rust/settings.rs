@@ -100,7 +100,7 @@ settings! {
     smallest_roughening: f64 = 0.01 in 1e-6..=1.0, "Smallest part of the heights of new waves that is added at once [-].";
 
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
-    finest_columns: usize = 2048 in 4..=8192, "Most columns of a mesh that is refined to meet a tolerance.";
+    finest_columns: usize = 2048 in 4..=4096, "Most columns of a mesh that is refined to meet a tolerance.";
     row_exponent: f64 = 0.585 in 0.01..=1.0, "Rows grow with this power of the columns [-]: by 1.5 for every doubling.";
     edge_error: f64 = 0.15 in 1e-6..=10.0, "Uncertainty of both edges together of a contact of many nodes, in node spacings [-].";
     edge_nodes: f64 = 16.0 in 0.0..=1000.0, "Nodes in a contact or gap for which this uncertainty doubles [-].";
@@ -117,8 +117,8 @@ settings! {
     dwell_steps: usize = 40 in 2..=10_000, "Time steps of a dwell; their lengths grow geometrically.";
     dwell_first: f64 = 1e-4 in 1e-12..=0.5, "First time step of a dwell over its duration [-].";
     longest_stage: f64 = 10_000.0 in 1.0..=1e6, "Longest sliding distance of one stage [wavelengths].";
-    path_columns: usize = 128 in 4..=8192, "Most columns of a mesh finer than the problem's, solved only to confirm a solution, on which the load is raised from rest.";
-    rescue_columns: usize = 256 in 4..=8192, "Most columns of a mesh finer than the problem's, solved because the solution on that one failed or cannot be trusted.";
+    path_columns: usize = 128 in 4..=4096, "Most columns of a mesh finer than the problem's, solved only to confirm a solution, on which the load is raised from rest.";
+    rescue_columns: usize = 256 in 4..=4096, "Most columns of a mesh finer than the problem's, solved because the solution on that one failed or cannot be trusted.";
     large_mean_shear: f64 = 2.0 in 0.1..=100.0, "Mean shear of the block beyond which it is the reason why a load path ends [-].";
 
     kept_factor_nodes: usize = 256 in 0..=8192, "Most nodes along the wave of a mesh on which time steps are solved by a sparse factor that is kept from step to step.";

@@ -6,7 +6,7 @@ use super::element::{lagrange, Element};
 use crate::error::{positive, whole, KernelError};
 
 const LEAST_COLUMNS: usize = 4;
-const MOST_COLUMNS: usize = 8192;
+const MOST_COLUMNS: usize = 4096;
 const LEAST_ROWS: usize = 2;
 const MOST_ROWS: usize = 256;
 

@@ -4,7 +4,8 @@
 //! The elasticity of its neighbours keeps a node on a crest from sliding off it, if nodes are so close that
 //! the slope changes little from one to the next. With fewer nodes the block has states that no finer mesh
 //! has, and Newton's method jumps between them. From the solution for a smoother profile on the mesh before,
-//! Newton's method needs some ten steps; if it fails, the new waves are added in smaller parts.
+//! Newton's method needs some ten steps; if it fails, the new waves are added in smaller parts, which grow
+//! again after an easy step: on a sharp crest one part of the way is much harder than the rest.
 
 use super::load_stepping::raise;
 use super::newton;
@@ -169,9 +170,6 @@ impl ProfileContinuation<'_> {
             let report = newton::solve(&pressed, &mut trial, self.load, &settings);
             counts.add(&report);
             counts.load_steps += 1;
-            if std::env::var("TRACE").is_ok() {
-                eprintln!("cols {} waves {}->{} share {share} {:?} it {} res {:.1e} products {}", mesh.columns, last.waves, target.waves, report.status, report.iterations, report.residual, report.products);
-            }
             match report.status {
                 Status::Converged if share == 1.0 => {
                     return Ok(Stage {

@@ -115,7 +115,7 @@ class Mesh(Checked):
     Raises `InputError` if a value is out of its range.
     """
 
-    columns: int = checked(checks.whole, least=4, most=8192, default=128)
+    columns: int = checked(checks.whole, least=4, most=4096, default=128)
     """Elements along the block."""
     rows: int = checked(checks.whole, least=2, most=256, default=20)
     """Elements across the block."""
