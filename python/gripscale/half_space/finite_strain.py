@@ -19,7 +19,6 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
 from gripscale.core.parallel import Stopped, in_threads, worker_count
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
@@ -42,7 +41,7 @@ is the better one: traction depends on the flank under a single node."""
 
 MODELS = ("block", "half_space")
 CARRIED = {
-    "load": "share of the load",
+    "load_share": "share of the load",
     "contact_fraction": "contact fraction",
     "friction": "contribution to the friction from traction",
 }
@@ -80,13 +79,18 @@ class Pair:
         period = len(self.line) * self.line.step
         profile = SampledProfile(period, self.line.z)
         out = np.zeros((len(MODELS), len(CARRIED), lower.size))
-        for model, carried in zip((self.block, self.half_space), out, strict=True):
+        models: tuple[WaveResult | RoughContact, ...] = (self.block, self.half_space)
+        for model, carried in zip(models, out, strict=True):
             inside = model.pressure > 0.0
             around = np.concatenate([model.x[-1:] - period, model.x, model.x[:1] + period])
             width = 0.5 * (around[2:] - around[:-2])
             width, pressure = width[inside], model.pressure[inside]
-            slope = profile.slope(model.x[inside] - (0.0 if model is self.block else self.line.x[0]))
-            number = np.searchsorted(lower, np.abs(slope) if by == "slope" else pressure, "right") - 1
+            slope = profile.slope(
+                model.x[inside] - (0.0 if model is self.block else self.line.x[0])
+            )
+            number = (
+                np.searchsorted(lower, np.abs(slope) if by == "slope" else pressure, "right") - 1
+            )
             load = width * pressure / (width * pressure).sum()
             area = width * model.contact_fraction / width.sum()
             drag = load * slope * model.friction / (load * slope).sum()
@@ -172,8 +176,8 @@ class FiniteStrainPairs:
         -------
         Dataset
             Over `model` (`block`, `half_space`) and `class`, in the means of the converged pairs:
-            `load`, share of the load [-]; `contact_fraction` [-]; and `friction`, contribution to
-            the friction from traction [-]. `load_factor`, `contact_fraction_factor` and
+            `load_share` [-]; `contact_fraction` [-]; and `friction`, contribution to
+            the friction from traction [-]. `load_share_factor`, `contact_fraction_factor` and
             `friction_factor`, block over half-space as by `correction`, with `_low` and `_high`;
             NaN where the half-space has nothing in a class.
 
@@ -195,7 +199,10 @@ class FiniteStrainPairs:
             mean = parts[:, :, at].mean(axis=0) if len(parts) else np.full((2, lower.size), np.nan)
             attrs = {"units": "1", "long_name": words}
             data[name] = xr.Variable(("model", "class"), mean, attrs)
-            ratios = [_ratio_of_means(*parts[:, :, at, k].T, seed) for k in range(lower.size)]
+            ratios = [
+                _ratio_of_means(parts[:, 0, at, k], parts[:, 1, at, k], seed)
+                for k in range(lower.size)
+            ]
             for end, field in (("", "factor"), ("_low", "low"), ("_high", "high")):
                 values = [getattr(ratio, field) for ratio in ratios]
                 long_name = f"{words}, block over half-space{end.replace('_', ', ')}"
