@@ -114,11 +114,14 @@ class Correction:
 
 
 def _ratio_of_means(block: Array, half_space: Array, seed: int) -> Correction:
-    """Return the ratio of the means over pairs; NaN limits for fewer than three."""
+    """Return the ratio of the means over pairs.
+
+    NaN limits for fewer than three pairs, or if the half-space has nothing in one of them.
+    """
     if not half_space.size or not half_space.any():
         return Correction(math.nan, math.nan, math.nan)
     factor = float(block.mean() / half_space.mean())
-    if half_space.size < 3:
+    if half_space.size < 3 or not half_space.all():
         return Correction(factor, math.nan, math.nan)
     from scipy.stats import bootstrap  # 0.5 s and 15 MB, which a run need not pay
 
@@ -179,7 +182,7 @@ class FiniteStrainPairs:
             `load_share` [-]; `contact_fraction` [-]; and `friction`, contribution to
             the friction from traction [-]. `load_share_factor`, `contact_fraction_factor` and
             `friction_factor`, block over half-space as by `correction`, with `_low` and `_high`;
-            NaN where the half-space has nothing in a class.
+            NaN where the half-space has nothing in a class, limits also where a pair has nothing.
 
         Raises
         ------
