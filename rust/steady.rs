@@ -48,8 +48,6 @@ pub fn solve(
     if problem.load.speed > 0.0 {
         model.band = problem.band.in_units_of(passage);
     }
-    if model.heights.waves() > 1 && std::env::var("NODES").is_err() {
-    }
     if model.heights.waves() > 1 {
         model.sampling = Sampling::Patches;
     }
