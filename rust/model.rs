@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 
 use crate::contact::edges::EdgeLaw;
 use crate::contact::profile::{hertz_contact_width, Heights};
+use crate::contact::sampling::Sampling;
 use crate::contact::PressedBlock;
 use crate::executor::Executor;
 use crate::fem::block::{Block, Memory};
@@ -25,6 +26,8 @@ pub struct Model {
     energy: Energy,
     bulk_modulus: f64,
     pub heights: Heights,
+    /// At the nodes, unless changed: what was verified of single waves holds for them.
+    pub sampling: Sampling,
 }
 
 impl Model {
@@ -51,6 +54,7 @@ impl Model {
             energy: rubber.energy,
             bulk_modulus: rubber.bulk_modulus / stress_unit,
             heights: profile.heights.over(profile.wavelength),
+            sampling: Sampling::Nodes,
         }
     }
 
@@ -70,6 +74,7 @@ impl Model {
                 bulk_modulus: self.bulk_modulus,
             },
             heights: &self.heights,
+            sampling: self.sampling,
             executor,
         }
     }

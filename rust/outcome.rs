@@ -29,10 +29,10 @@ impl Outcome {
         let nodes = state.force.len();
         let load: f64 = state.force.iter().sum();
         let rows = pressed.row_states(&state.field)?;
-        let x = pressed.abscissae(&state.field);
-        let pressure = pressures(pressed.block.mesh.order, &x, &state.force);
+        let profile = pressed.sampled(&state.field);
+        let pressure = pressures(pressed.block.mesh.order, &profile.x, &state.force);
         let drag: f64 = (0..nodes)
-            .map(|a| state.force[a] * pressed.heights.slope(x[a]))
+            .map(|a| state.force[a] * profile.slope.row_sum(a))
             .sum();
         let lost = pressed.block.dissipation(&rows, pressed.executor)?;
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
@@ -41,8 +41,8 @@ impl Outcome {
             low = low.min(least);
             high = high.max(most);
         }
-        let gap = pressed.gaps(state, &x);
-        let contacts = contacts(&x, &pressure, &gap, &state.active_set, law);
+        let gap = pressed.gaps(state, &profile);
+        let contacts = contacts(&profile.x, &pressure, &gap, &state.active_set, law);
         let length = contacts
             .iter()
             .fold(0.0, |sum, (from, to)| sum + (to - from));
@@ -54,7 +54,7 @@ impl Outcome {
             lost_by_row: lost.rows.iter().map(|lost| lost / load).collect(),
             min_stretch: low,
             max_stretch: high,
-            x,
+            x: profile.x,
             pressure,
         })
     }

@@ -95,8 +95,9 @@ settings! {
 
     nodes_per_wave: usize = 12 in 3..=1000, "Nodes along a wave for which a mesh is fine enough to begin with this wave.";
     roughening_patience: usize = 4 in 1..=1000, "Newton iterations without a smaller residual after which waves are added in smaller parts.";
-    roughening_iterations: usize = 12 in 1..=1000, "Newton iterations after which waves are added in smaller parts.";
-    smallest_roughening: f64 = 0.1 in 1e-6..=1.0, "Smallest part of the heights of new waves that is added at once [-].";
+    roughening_iterations: usize = 20 in 1..=1000, "Newton iterations after which waves are added in smaller parts.";
+    roughening_share: f64 = 0.03 in 1e-12..=0.9, "Largest share of the residual forces to which the linearised problem is solved while waves are added [-].";
+    smallest_roughening: f64 = 0.01 in 1e-6..=1.0, "Smallest part of the heights of new waves that is added at once [-].";
 
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";
     finest_columns: usize = 2048 in 4..=4096, "Most columns of a mesh that is refined to meet a tolerance.";

@@ -8,6 +8,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::contact::sampling::Sampling;
 use crate::contact::{PressedBlock, State};
 use crate::error::{positive, KernelError};
 use crate::executor::Executor;
@@ -46,6 +47,9 @@ pub fn solve(
     let mut model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
     if problem.load.speed > 0.0 {
         model.band = problem.band.in_units_of(passage);
+    }
+    if model.heights.waves() > 1 {
+        model.sampling = Sampling::Patches;
     }
     let mut wave = Wave {
         problem,
@@ -144,9 +148,9 @@ impl<'w> Wave<'w> {
 
     /// How many of the attempts are worth making on a mesh.
     ///
-    /// Only the first is, if `coarse` is in fact finer and its error estimate is all that the mesh is for, or
-    /// if the mesh is finer than the problem's, only confirms a solution, and is too fine to be worth a load
-    /// path of its own.
+    /// Only the first is, if `coarse` is in fact finer and its error estimate is all that the mesh is for. If
+    /// the mesh is finer than the problem's, only confirms a solution, and is too fine to be worth a load path
+    /// of its own, smoother profiles still are: on a coarse mesh a rough profile may have other solutions.
     fn attempts_worth_making(&self, mesh: &Mesh, coarse: Option<&MeshSolution>) -> usize {
         let Some(coarse) = coarse else {
             return Self::ATTEMPTS.len();
@@ -154,10 +158,10 @@ impl<'w> Wave<'w> {
         let for_estimate = coarse.mesh.columns > mesh.columns;
         let worth_a_path = self.problem.mesh.columns.max(self.settings.path_columns);
         let to_confirm = self.tolerance.is_none() && mesh.columns > worth_a_path;
-        if for_estimate || to_confirm {
-            1
-        } else {
-            Self::ATTEMPTS.len()
+        match (for_estimate, to_confirm) {
+            (true, _) => 1,
+            (false, true) => 2,
+            (false, false) => Self::ATTEMPTS.len(),
         }
     }
 
@@ -244,6 +248,7 @@ impl<'w> Wave<'w> {
                 | Status::NoActiveSet
                 | Status::NotFinite
                 | Status::MeanShear
+                | Status::ProfileTooRough
         );
         let columns = 2 * finest.mesh.columns;
         if !mesh_may_be_the_cause || columns > self.settings.rescue_columns {

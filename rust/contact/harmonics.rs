@@ -16,6 +16,8 @@ const FEWEST_SAMPLES: usize = 8;
 const MOST_SAMPLES: usize = 8192;
 /// Harmonics after the last one with this share of the largest amplitude are round-off.
 const SMALLEST_SHARE: f64 = 1e-9;
+/// Minus the logarithm of what a smoothed profile keeps of its last wave.
+const GAUSSIAN: f64 = 3.0;
 /// Points per smallest wave in the search for extremes, before Newton's method.
 const POINTS_PER_WAVE: usize = 32;
 
@@ -65,10 +67,20 @@ impl Harmonics {
         harmonics
     }
 
-    /// The first `kept` of the waves.
+    /// The first `kept` of the waves, filtered by a Gaussian if they are not all.
+    ///
+    /// Its kernel is positive, so that no crest rises that the heights do not have: without it the waves
+    /// ring beside a step of the heights, by 9 % of the step, at every number of waves elsewhere (Gibbs).
     pub fn smoothed(&self, kept: usize) -> Self {
         let kept = kept.clamp(1, self.len());
-        Self::of(self.coefficients[..kept].to_vec())
+        if kept == self.len() {
+            return self.clone();
+        }
+        let filtered = |(i, &(re, im)): (usize, &(f64, f64))| {
+            let share = (-GAUSSIAN * ((i + 1) as f64 / kept as f64).powi(2)).exp();
+            (share * re, share * im)
+        };
+        Self::of(self.coefficients[..kept].iter().enumerate().map(filtered).collect())
     }
 
     /// Heights between these and `other`, at `share` of the way.

@@ -7,6 +7,7 @@ pub mod harmonics;
 pub mod linear_complementarity;
 mod pivoting;
 pub mod profile;
+pub mod sampling;
 pub mod surface_compliance;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ use crate::fem::block::{Block, Field, RowState};
 use crate::fem::mesh::Mesh;
 use crate::status::Status;
 use profile::Heights;
+use sampling::{SampledProfile, Sampling};
 
 /// The unknowns of the block in contact.
 #[derive(Debug, Clone)]
@@ -53,6 +55,7 @@ impl State {
 pub struct PressedBlock<'a> {
     pub block: Block<'a>,
     pub heights: &'a Heights,
+    pub sampling: Sampling,
     pub executor: &'a Executor<'a>,
 }
 
@@ -70,12 +73,16 @@ impl PressedBlock<'_> {
             .collect()
     }
 
-    /// Gaps of the surface nodes at the abscissae `x`.
-    pub fn gaps(&self, state: &State, x: &[f64]) -> Vec<f64> {
+    /// The profile under the surface nodes.
+    pub fn sampled(&self, field: &Field) -> SampledProfile {
+        SampledProfile::new(self.heights, self.sampling, self.mesh(), self.abscissae(field))
+    }
+
+    /// Gaps of the surface nodes over the `profile` under them.
+    pub fn gaps(&self, state: &State, profile: &SampledProfile) -> Vec<f64> {
         let height = |a: usize| state.field.u[self.mesh().position(a, 1)] - state.approach;
-        (0..x.len())
-            .map(|a| height(a) - self.heights.height(x[a]))
-            .collect()
+        let heights = profile.height.iter().enumerate();
+        heights.map(|(a, profile)| height(a) - profile).collect()
     }
 
     pub fn row_states(&self, field: &Field) -> Result<Vec<RowState>, Status> {

@@ -1,10 +1,11 @@
 //! Compliance of the surface of the laterally averaged block: a convolution.
 //!
-//! A force f_b along the gradient of its gap g_b, (-w'(x_b), 1), displaces the surface by G(a - b), which
-//! is diagonal in the harmonics, and opens gap a by (-w'(x_a), 1) . (G - mean of G along x), because the
-//! profile follows the mean displacement.
+//! A force f_b along the gradient of its gap g_b, (-S_bc, 1) over the nodes c around it, displaces the surface
+//! by G(a - c), which is diagonal in the harmonics, and opens gap a by (-S_ac, 1) . (G - mean of G along x),
+//! because the profile follows the mean displacement.
 
 use super::complementarity_problem::{ApproximateInverse, Compliance};
+use super::sampling::Band;
 use crate::fem::averaged_jacobian::{convolve, AveragedJacobian};
 use crate::fem::harmonic_block::invert_each;
 use crate::fem::mesh::Mesh;
@@ -14,7 +15,7 @@ pub struct SurfaceCompliance<'a> {
     average: &'a AveragedJacobian<'a>,
     mesh: &'a Mesh,
     /// Slope of the profile under every node.
-    slope: &'a [f64],
+    slope: &'a Band,
     lines: Lines,
     /// Displacement in a column by a unit force in another: `[(from, to)][columns between]`.
     by_distance: Vec<f64>,
@@ -23,7 +24,7 @@ pub struct SurfaceCompliance<'a> {
 }
 
 impl<'a> SurfaceCompliance<'a> {
-    pub fn new(average: &'a AveragedJacobian<'a>, slope: &'a [f64]) -> Self {
+    pub fn new(average: &'a AveragedJacobian<'a>, slope: &'a Band) -> Self {
         let mesh = average.mesh;
         let mut lines = Lines::new(mesh.columns);
         let (columns, count) = (mesh.columns, lines.harmonics());
@@ -51,8 +52,9 @@ impl<'a> SurfaceCompliance<'a> {
     /// Nodal forces on the surface layer by contact forces at its nodes.
     pub fn nodal_forces(&self, contact: &[f64]) -> Vec<f64> {
         let mut forces = vec![0.0; self.mesh.layer_size()];
-        for (a, force) in contact.iter().enumerate() {
-            forces[self.mesh.position(a, 0)] = -self.slope[a] * force;
+        let along = self.slope.transposed(contact);
+        for (a, (along, force)) in along.iter().zip(contact).enumerate() {
+            forces[self.mesh.position(a, 0)] = -along;
             forces[self.mesh.position(a, 1)] = *force;
         }
         forces
@@ -67,10 +69,10 @@ impl<'a> SurfaceCompliance<'a> {
     /// What displacements of the surface layer add to the gaps.
     pub fn opening(&self, u: &[f64]) -> Vec<f64> {
         let shift = self.mesh.mean_shift(u);
-        let opening = |(a, slope): (usize, &f64)| {
-            u[self.mesh.position(a, 1)] - slope * (u[self.mesh.position(a, 0)] - shift)
-        };
-        self.slope.iter().enumerate().map(opening).collect()
+        let along = |a: usize| u[self.mesh.position(a, 0)] - shift;
+        let opening =
+            |a: usize| u[self.mesh.position(a, 1)] - self.slope.product(along, a);
+        (0..self.mesh.layer_nodes()).map(opening).collect()
     }
 
     /// Inverse harmonics `[(to, from)][harmonic]` of the compliance divided by 1 + slope^2, as if the
@@ -80,7 +82,7 @@ impl<'a> SurfaceCompliance<'a> {
         let (order, count) = (self.mesh.order, self.lines.harmonics());
         let unknowns = 2 * order;
         let mean = |of: fn(f64) -> f64| {
-            let slopes = active_nodes.iter().map(|&a| of(self.slope[a]));
+            let slopes = active_nodes.iter().map(|&a| of(self.slope.row_sum(a)));
             slopes.sum::<f64>() / active_nodes.len() as f64
         };
         let (slope, square) = (mean(|slope| slope), mean(|slope| slope * slope));
@@ -110,7 +112,7 @@ impl<'a> SurfaceCompliance<'a> {
 
     /// Forces at all nodes, by `inverse_harmonics`, that nearly make an `opening`.
     fn nearly_opening(&self, inverse_harmonics: &[Complex64], opening: &[f64]) -> Vec<f64> {
-        let size = |a: usize| self.slope[a].hypot(1.0);
+        let size = |a: usize| self.slope.row_sum(a).hypot(1.0);
         let mut lines = vec![0.0; opening.len()];
         for (a, opening) in opening.iter().enumerate() {
             lines[self.mesh.position(a, 0)] = opening / size(a);
@@ -136,21 +138,21 @@ fn positive_definite(blocks: &[Complex64], size: usize, count: usize) -> bool {
 impl Compliance for SurfaceCompliance<'_> {
     fn entry(&self, to: usize, from: usize) -> f64 {
         let (order, columns) = (self.mesh.order, self.mesh.columns);
-        let (ahead, behind) = (to / order, from / order);
-        let around = if ahead < behind { columns } else { 0 };
-        let distance = ahead + around - behind;
         let unknowns = 2 * order;
-        let displacement = |direction: usize, by: usize| {
+        let displacement = |(direction, to): (usize, usize), (by, from): (usize, usize)| {
+            let (ahead, behind) = (to / order, from / order);
+            let around = if ahead < behind { columns } else { 0 };
             let source = by * order + from % order;
             let target = direction * order + to % order;
-            self.by_distance[(source * unknowns + target) * columns + distance]
+            self.by_distance[(source * unknowns + target) * columns + ahead + around - behind]
         };
-        let by_force = |direction: usize| {
-            displacement(direction, 1) - self.slope[from] * displacement(direction, 0)
+        let by_force = |direction: usize, to: usize| {
+            let along = |from: usize| displacement((direction, to), (0, from));
+            displacement((direction, to), (1, from)) - self.slope.product(along, from)
         };
-        let shift = |by: usize| self.mean_shift[by * order + from % order];
-        let shifted = shift(1) - self.slope[from] * shift(0);
-        by_force(1) - self.slope[to] * (by_force(0) - shifted)
+        let shift = |by: usize, from: usize| self.mean_shift[by * order + from % order];
+        let shifted = shift(1, from) - self.slope.product(|b| shift(0, b), from);
+        by_force(1, to) - self.slope.product(|b| by_force(0, b) - shifted, to)
     }
 
     fn add_opening(&self, force: &[f64], gap: &mut [f64]) {

@@ -87,7 +87,9 @@ impl Bordered {
     ) -> Result<Tangent, Status> {
         let mesh = pressed.mesh();
         let mut assembled = self.assemble(pressed, state, rows, residual)?;
-        let curvature = residual.curvature_stiffness(pressed, state);
+        let turning = residual.turning_stiffness(pressed, state);
+        let curvature: Vec<f64> = (0..state.force.len()).map(|a| turning.diagonal(a)).collect();
+        let slope = |a| residual.profile.slope.diagonal(a);
         for (a, stiffness) in curvature.iter().enumerate() {
             let [x, z] = [0, 1].map(|d| self.pattern.diagonal_of(mesh.position(a, d)));
             assembled.values[x] += stiffness;
@@ -99,7 +101,7 @@ impl Bordered {
         let mut tangent = Tangent {
             factor: factor.ok_or(Status::NotFinite)?,
             active_set: state.active_set.clone(),
-            slope: residual.slope.clone(),
+            slope: (0..state.force.len()).map(slope).collect(),
             surface: assembled.surface,
             volumes: assembled.volumes,
             borders: Default::default(),
@@ -130,7 +132,8 @@ impl Bordered {
                     for sub in 0..=mesh.order {
                         let a = (column * mesh.order + sub) % mesh.layer_nodes();
                         if state.active_set[a] {
-                            follow_slope(&mut element.stiffness, sub, residual.slope[a]);
+                            let slope = residual.profile.slope.diagonal(a);
+                            follow_slope(&mut element.stiffness, sub, slope);
                         }
                     }
                 }
@@ -176,7 +179,7 @@ impl Bordered {
                 return force[a] >= 0.0;
             }
             let along = u[mesh.position(a, 0)] - solution.shift;
-            let opening = u[mesh.position(a, 1)] - residual.slope[a] * along - solution.approach;
+            let opening = u[mesh.position(a, 1)] - tangent.slope[a] * along - solution.approach;
             residual.gap[a] + opening < 0.0
         };
         let active_set: Vec<bool> = (0..force.len()).map(in_contact).collect();

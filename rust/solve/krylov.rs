@@ -12,6 +12,7 @@ use super::newton_step::{Increment, Iterate};
 use crate::contact::active_set_system::ActiveSetSystem;
 use crate::contact::complementarity_problem::{ComplementarityProblem, Contact};
 use crate::contact::linear_complementarity;
+use crate::contact::sampling::Band;
 use crate::contact::surface_compliance::SurfaceCompliance;
 use crate::contact::{PressedBlock, State};
 use crate::executor::Executor;
@@ -54,8 +55,8 @@ pub fn increment(
         executor,
         jacobian: &jacobian,
         average: &average,
-        compliance: SurfaceCompliance::new(&average, &residual.slope),
-        curvature_stiffness: residual.curvature_stiffness(pressed, state),
+        compliance: SurfaceCompliance::new(&average, &residual.profile.slope),
+        turning_stiffness: residual.turning_stiffness(pressed, state),
         gap: &residual.gap,
         state,
         active_set,
@@ -72,8 +73,8 @@ struct Step<'a> {
     jacobian: &'a Jacobian<'a>,
     average: &'a AveragedJacobian<'a>,
     compliance: SurfaceCompliance<'a>,
-    /// Contact force times curvature of the profile, at every node.
-    curvature_stiffness: Vec<f64>,
+    /// The stiffness of contact forces that turn with the profile.
+    turning_stiffness: Band,
     gap: &'a [f64],
     state: &'a State,
     active_set: Option<&'a [bool]>,
@@ -213,9 +214,9 @@ impl Step<'_> {
     fn product(&self, y: &[f64], forces: &[f64], out: &mut [f64], work: &mut StepWorkspace<'_>) {
         self.jacobian.product(y, out, &mut work.product);
         let shift = self.mesh.mean_shift(y);
-        for (a, stiffness) in self.curvature_stiffness.iter().enumerate() {
-            let at = self.mesh.position(a, 0);
-            out[at] += stiffness * (y[at] - shift);
+        let along = |a: usize| y[self.mesh.position(a, 0)] - shift;
+        for a in 0..self.mesh.layer_nodes() {
+            out[self.mesh.position(a, 0)] += self.turning_stiffness.product(along, a);
         }
         for (out, force) in out.iter_mut().zip(self.compliance.nodal_forces(forces)) {
             *out -= force;

@@ -4,7 +4,8 @@
 //! The elasticity of its neighbours keeps a node on a crest from sliding off it, if nodes are so close that
 //! the slope changes little from one to the next. With fewer nodes the block has states that no finer mesh
 //! has, and Newton's method jumps between them. From the solution for a smoother profile on the mesh before,
-//! Newton's method needs some ten steps; if it fails, the new waves are added in smaller parts.
+//! Newton's method needs some ten steps; if it fails, the new waves are added in smaller parts, which grow
+//! again after an easy step: on a sharp crest one part of the way is much harder than the rest.
 
 use super::load_stepping::raise;
 use super::newton;
@@ -150,6 +151,7 @@ impl ProfileContinuation<'_> {
         let settings = Settings {
             patience: self.settings.roughening_patience,
             max_iterations: self.settings.roughening_iterations,
+            krylov_share: self.settings.roughening_share,
             ..*self.settings
         };
         let rougher = self.model.heights.smoothed(target.waves);
@@ -179,11 +181,14 @@ impl ProfileContinuation<'_> {
                     })
                 }
                 Status::Converged => {
+                    if report.iterations <= settings.easy_iterations {
+                        part *= 2.0;
+                    }
                     (state, added) = (trial, share);
                     reached = Some((model.heights, report));
                 }
                 status if status.interrupts() => return Err(status),
-                _ => part *= 0.5,
+                _ => part = 0.5 * (share - added),
             }
         }
         match reached {

@@ -1,5 +1,6 @@
 //! The residual of a state: forces out of balance, those of the contact included, volumes and gaps.
 
+use crate::contact::sampling::{Band, SampledProfile};
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
 use crate::linear::norm;
@@ -10,9 +11,8 @@ pub struct Residual {
     pub forces: Vec<f64>,
     /// `[row][mode][column]`.
     pub volumes: Vec<f64>,
-    /// Deformed abscissae of the surface nodes, slope of the profile there, and the gap.
-    pub x: Vec<f64>,
-    pub slope: Vec<f64>,
+    /// The profile under the surface nodes, and their gaps.
+    pub profile: SampledProfile,
     pub gap: Vec<f64>,
 }
 
@@ -40,18 +40,17 @@ impl Residual {
             }
             volumes.extend(row_volumes);
         }
-        let x = pressed.abscissae(field);
-        let slope: Vec<f64> = x.iter().map(|&x| pressed.heights.slope(x)).collect();
-        for (a, force) in state.force.iter().enumerate() {
-            forces[mesh.position(a, 0)] += slope[a] * force;
+        let profile = pressed.sampled(field);
+        let along = profile.slope.transposed(&state.force);
+        for (a, (along, force)) in along.iter().zip(&state.force).enumerate() {
+            forces[mesh.position(a, 0)] += along;
             forces[mesh.position(a, 1)] -= force;
         }
         Ok(Self {
             forces,
             volumes,
-            gap: pressed.gaps(state, &x),
-            x,
-            slope,
+            gap: pressed.gaps(state, &profile),
+            profile,
         })
     }
 
@@ -78,13 +77,9 @@ impl Residual {
         forces.chain(&self.volumes).map(|value| -value).collect()
     }
 
-    /// Contact force times curvature of the profile, at every node: the stiffness of forces that turn
-    /// with the profile.
-    pub fn curvature_stiffness(&self, pressed: &PressedBlock<'_>, state: &State) -> Vec<f64> {
-        let nodes = self.x.iter().zip(&state.force);
-        nodes
-            .map(|(&x, force)| force * pressed.heights.curvature(x))
-            .collect()
+    /// The stiffness of contact forces that turn with the profile.
+    pub fn turning_stiffness(&self, pressed: &PressedBlock<'_>, state: &State) -> Band {
+        self.profile.turning_stiffness(pressed.heights, &state.force)
     }
 
     fn free_forces(&self, pressed: &PressedBlock<'_>) -> &[f64] {

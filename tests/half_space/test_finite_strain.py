@@ -108,3 +108,32 @@ def test_no_lines():
 def test_bad_load_is_one_sentence(pairs):
     with pytest.raises(gs.InputError, match="pressure"):
         solve_both_ways(ZENER, [pairs.pairs[0].line], pressure=-1.0, speed=0.1)
+
+
+def test_classes_add_up_to_the_whole(pairs):
+    for by, edges in (("slope", [0.05, 0.1]), ("pressure", [1e5, 4e5])):
+        classes = pairs.by_class(by, edges)
+        assert dict(classes.sizes) == {"model": 2, "class": 3}
+        np.testing.assert_allclose(classes.load_share.sum("class"), 1.0, rtol=1e-12)
+        for model in classes.model.values:
+            parts = classes.sel(model=model)
+            for name in ("contact_fraction", "friction"):
+                assert parts[name].sum() == pytest.approx(pairs.mean(name, model), rel=1e-12)
+    # crests are gentle and carry the load; friction comes from beside them
+    steep = pairs.by_class("slope", [0.05]).isel({"class": 1, "model": 0})
+    assert steep.friction / pairs.mean("friction") > steep.load_share
+
+
+def test_the_whole_in_one_class_has_the_factor_of_all(pairs):
+    classes = pairs.by_class("slope", [10.0])
+    total = pairs.correction("contact_fraction")
+    assert classes.contact_fraction_factor[0] == pytest.approx(total.factor, rel=1e-12)
+    assert classes.contact_fraction_factor_low[0] == pytest.approx(total.low, rel=1e-12)
+    assert np.isnan(classes.friction_factor[1])
+
+
+def test_classes_are_refused_by_name(pairs):
+    with pytest.raises(InputError, match="by must be"):
+        pairs.by_class("height", [1.0])
+    with pytest.raises(InputError, match="edges must increase"):
+        pairs.by_class("slope", [1.0, 0.5])

@@ -1,4 +1,4 @@
-"""Whole profiles: windows of the measured road, and random sums of sines, with their loads."""
+"""Whole profiles with their loads: windows of the measured road, sums of sines, steep stones."""
 
 from __future__ import annotations
 
@@ -89,3 +89,30 @@ def _sum(number: int, random: np.random.Generator, points: int = 512) -> Profile
     z = (amplitude * np.cos(np.outer(period, turn) + phase)).sum(axis=1)
     pressure, speed = 10.0 ** random.uniform(5.0, 6.0), 10.0 ** random.uniform(-2.0, 1.0)
     return ProfileCase(f"sum {number}", gs.Profile(period, z), pressure, speed, True)
+
+
+def steep_stones(count: int = 100, seed: int = 5) -> list[ProfileCase]:
+    """Return two or three stones of different height and width on 8 mm, with flanks of slope 2.
+
+    From 0.3 to 0.5 mm high and 0.1 to 1.5 mm wide, the narrowest of them single peaks; edges are
+    rounded by a Gaussian of 0.05 mm, which leaves slopes of 1.7 to 2 and waves down to 0.1 mm.
+    From 3 to 30 bar, at 0.3 m/s.
+    """
+    random = np.random.default_rng(seed)
+    return [_stones(number, random) for number in range(count)]
+
+
+def _stones(number: int, random: np.random.Generator) -> ProfileCase:
+    period, points, flank = 8e-3, 640, 2.0
+    x = period * np.arange(points) / points
+    stones = random.integers(2, 4)
+    z = np.zeros(points)
+    for stone in range(stones):
+        middle = period * (stone + random.uniform(0.3, 0.7)) / stones
+        height, half_width = random.uniform(0.3e-3, 0.5e-3), 0.5 * random.uniform(0.1e-3, 1.5e-3)
+        outside = np.maximum(np.abs(x - middle) - half_width, 0.0)
+        z = np.maximum(z, height - flank * outside)
+    wave = 2.0 * np.pi * np.fft.rfftfreq(points, period / points)
+    z = np.fft.irfft(np.fft.rfft(z) * np.exp(-0.5 * (wave * 0.05e-3) ** 2), points)
+    pressure = 10.0 ** random.uniform(np.log10(3e5), np.log10(3e6))
+    return ProfileCase(f"stones {number}", gs.Profile(x, z), pressure, 0.3, True, 0.1e-3)

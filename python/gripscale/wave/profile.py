@@ -86,7 +86,8 @@ def solve_profile(
     columns, rows : int, optional
         Elements along and across the block; by default 12 columns along the smallest wave, rounded
         up to a number of few factors, from 128 to 4096, and a number of rows whose heights grow by
-        12 % at most from one to the next.
+        12 % at most from one to the next. Columns are doubled, to 4096 at most, as long as the two
+        frictions differ by more than the `friction_bound` of the result.
     start : WaveResult, optional
         A result of the block to start from, of any profile, load and rubber.
     residual_tolerance : float, optional
@@ -130,6 +131,7 @@ def solve_profile(
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )
+    block = replace(block, settings={**block.settings, "rescue_columns": COLUMNS[-1]})
     problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_load_bearing(rubber, problem.load.pressure, math.inf)

@@ -1,2 +1,3 @@
 mod linear_complementarity;
 mod profile;
+mod sampling;

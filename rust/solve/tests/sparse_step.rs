@@ -5,6 +5,7 @@ use faer::prelude::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::Mat;
 
+use crate::contact::sampling::Sampling;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::{Block, Memory, RowState};
 use crate::fem::element_tangent::ElementTangent;
@@ -104,25 +105,29 @@ fn add_contact(
     let mesh = pressed.block.mesh;
     let (nodes, first) = (mesh.layer_nodes(), system.right.len() - active_nodes.len() - 1);
     let approach = system.right.len() - 1;
-    let x = pressed.abscissae(&state.field);
-    let gap = pressed.gaps(state, &x);
+    let profile = pressed.sampled(&state.field);
+    let gap = pressed.gaps(state, &profile);
+    let turning = profile.turning_stiffness(pressed.heights, &state.force);
     let share = 1.0 / nodes as f64;
     for a in 0..nodes {
         let (along, up) = (mesh.position(a, 0), mesh.position(a, 1));
-        let slope = pressed.heights.slope(x[a]);
-        let bend = state.force[a] * pressed.heights.curvature(x[a]);
-        system.add(along, along, bend);
+        turning.row(a).for_each(|(b, bend)| system.add(along, mesh.position(b, 0), bend));
+        let bend = turning.row_sum(a);
         (0..nodes).for_each(|b| system.add(along, mesh.position(b, 0), -bend * share));
         let Some(k) = active_nodes.iter().position(|&node| node == a) else {
             continue;
         };
         let force = first + k;
-        system.right[along] -= slope * state.force[a];
         system.right[up] += state.force[a];
-        system.add(along, force, slope);
         system.add(up, force, -1.0);
         system.add(force, up, 1.0);
-        system.add(force, along, -slope);
+        for (b, slope) in profile.slope.row(a) {
+            let along = mesh.position(b, 0);
+            system.right[along] -= slope * state.force[a];
+            system.add(along, force, slope);
+            system.add(force, along, -slope);
+        }
+        let slope = profile.slope.row_sum(a);
         (0..nodes).for_each(|b| system.add(force, mesh.position(b, 0), slope * share));
         system.add(force, approach, -1.0);
         system.right[force] = -gap[a];
@@ -155,6 +160,7 @@ fn eliminated(
 /// same by elimination.
 fn compare(
     more: f64,
+    sampling: Sampling,
     mut increment: impl FnMut(&PressedBlock<'_>, &State, &[RowState], f64) -> (Increment, Vec<bool>),
 ) {
     let energies = [
@@ -171,7 +177,8 @@ fn compare(
             let problem = case.problem().unwrap();
             let solved = case.solve(None).unwrap();
             assert_eq!(solved.finest.mesh.columns, columns);
-            let model = Model::new(&problem.rubber, &problem.profile, f64::INFINITY, 1.0);
+            let mut model = Model::new(&problem.rubber, &problem.profile, f64::INFINITY, 1.0);
+            model.sampling = sampling;
             let unit = solved.stress_unit / model.stress_unit;
             let state = &solved.finest.state.in_stress_unit(unit);
             let load = more * case.pressure / model.stress_unit;
@@ -209,28 +216,30 @@ fn compare(
 #[test]
 fn a_step_by_iteration_is_that_of_sparse_elimination() {
     let (share, least) = (1e-12, 1e-15);
-    compare(1.5, |pressed, state, rows, load| {
-        let settings = Settings::default();
-        let residual = Residual::new(pressed, state, rows).unwrap();
-        let iterate = Iterate {
-            state,
-            rows,
-            residual: &residual,
-            residual_norm: residual.norm(pressed, state, load),
-        };
-        let accuracy = Accuracy { share, least };
-        let step = krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
-        assert_ne!(step.contact.active_set, state.active_set);
-        let active_set = step.contact.active_set.clone();
-        (step, active_set)
-    });
+    for sampling in [Sampling::Nodes, Sampling::Patches] {
+        compare(1.5, sampling, |pressed, state, rows, load| {
+            let settings = Settings::default();
+            let residual = Residual::new(pressed, state, rows).unwrap();
+            let iterate = Iterate {
+                state,
+                rows,
+                residual: &residual,
+                residual_norm: residual.norm(pressed, state, load),
+            };
+            let accuracy = Accuracy { share, least };
+            let step = krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
+            assert_ne!(step.contact.active_set, state.active_set);
+            let active_set = step.contact.active_set.clone();
+            (step, active_set)
+        });
+    }
 }
 
 /// The bordered factor, with pressures condensed and active nodes eliminated, keeps the active set. A little
 /// more load pulls no node.
 #[test]
 fn a_step_by_the_bordered_factor_is_that_of_sparse_elimination() {
-    compare(1.3, |pressed, state, rows, load| {
+    compare(1.3, Sampling::Nodes, |pressed, state, rows, load| {
         let residual = Residual::new(pressed, state, rows).unwrap();
         let bordered = Bordered::new(&pressed.block).unwrap();
         let tangent = bordered.factor(pressed, state, rows, &residual).unwrap();
