@@ -51,7 +51,7 @@ def measured_lines() -> list[Line]:
         Line(f"road, station {s}", _clean(folder / f"20211011_aylesbury_dec_station_{s}.dat"))
         for s in (0, 1)
     ]
-    machined = gs.read_profile(ROOT / "tests" / "reference" / "mitutoyo_2_mock.xlsx")
+    machined = gs.read_profile(ROOT / "examples" / "data" / "surfaces" / "mitutoyo_2_mock.xlsx")
     return [*lines, Line("machined", gs.clean(machined)[0], speed=0.01)]
 
 
