@@ -93,6 +93,7 @@ settings! {
     growth_cut: f64 = 0.4 in 0.01..=0.9, "Power that reduces the ratio of pressures after a failed load step [-].";
     easy_iterations: usize = 7 in 1..=1000, "Newton iterations of an easy load step.";
 
+    profile_patches: usize = 1 in 0..=1, "1: a profile touches averaged over the patches of the surface nodes; 0: at the nodes, as a sine does.";
     nodes_per_wave: usize = 12 in 3..=1000, "Nodes along a wave for which a mesh is fine enough to begin with this wave.";
     roughening_patience: usize = 4 in 1..=1000, "Newton iterations without a smaller residual after which waves are added in smaller parts.";
     roughening_iterations: usize = 20 in 1..=1000, "Newton iterations after which waves are added in smaller parts.";

@@ -48,7 +48,7 @@ pub fn solve(
     if problem.load.speed > 0.0 {
         model.band = problem.band.in_units_of(passage);
     }
-    if model.heights.waves() > 1 {
+    if model.heights.waves() > 1 && settings.profile_patches > 0 {
         model.sampling = Sampling::Patches;
     }
     let mut wave = Wave {

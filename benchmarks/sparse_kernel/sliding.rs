@@ -6,6 +6,7 @@ use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::fem::jacobian::Jacobian;
 use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::linear::gmres;
+use gripscale_kernel::material::maxwell::Band;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::bordered::{Bordered, LinearSolution};
@@ -30,7 +31,8 @@ pub fn table(meshes: &[(usize, usize)]) {
                 continue;
             };
             let model = &solved.model;
-            let history = SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0);
+            let history =
+                SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0, &Band::UNCHANGED);
             let (memory, executor) = (Memory::Sliding(history), serial());
             let pressed = model.pressed(&solved.mesh, &memory, &executor);
             let start = &solved.start;
@@ -65,7 +67,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                 let more = solved.load - state.force.iter().sum::<f64>();
                 let tangent = bordered.factor(&pressed, &state, &rows, &residual);
                 let tangent = tangent.expect("a factor");
-                let bend = residual.curvature_stiffness(&pressed, &state);
+                let bend = residual.turning_stiffness(&pressed, &state);
                 let solve = |v: &[f64], gap: &[f64], more: f64| {
                     let (forces, volumes) = v.split_at(jacobian.displacements());
                     let mut forces: Vec<f64> = forces.iter().map(|force| -force).collect();
@@ -73,8 +75,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                     let wrong = Residual {
                         forces,
                         volumes: volumes.iter().map(|volume| -volume).collect(),
-                        x: Vec::new(),
-                        slope: Vec::new(),
+                        profile: residual.profile.clone(),
                         gap: gap.to_vec(),
                     };
                     bordered.solve(&pressed.block, &tangent, &wrong, more)
@@ -85,9 +86,11 @@ pub fn table(meshes: &[(usize, usize)]) {
                     let y = mixed(&jacobian, &change.u, &change.pressure);
                     jacobian.product(&y, out, &mut work);
                     let shift = solved.mesh.mean_shift(&y);
+                    let along = residual.profile.slope.transposed(&change.force);
+                    let moved = |a: usize| y[solved.mesh.position(a, 0)] - shift;
                     for (a, force) in change.force.iter().enumerate() {
                         let [x, z] = [0, 1].map(|d| solved.mesh.position(a, d));
-                        out[x] += bend[a] * (y[x] - shift) + residual.slope[a] * force;
+                        out[x] += bend.product(moved, a) + along[a];
                         out[z] -= force;
                     }
                 };
