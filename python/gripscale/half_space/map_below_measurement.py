@@ -1,0 +1,231 @@
+"""Contact and friction of a map against the cut-off, continued by diffusion below the measurement.
+
+A grid of a map cannot follow roughness over many octaves as that of a line can. So the contact is
+solved with all measured waves, and its pressures start Persson's diffusion
+(`gripscale.theory.diffusion`) through the waves below. These have the power law of the faces that
+touch: its mean square slope is that of the last measured octave on the points in contact of the
+solution without it, as the 68 % quantile of its magnitude, and its exponent H that of the last two
+octaves, h_n/h_(n-1) = 2^(1 - H). A Gaussian map has this quantile equal to its rms; other maps have
+steep edges, of which few touch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import in_mm
+from gripscale.half_space.below_measurement import (
+    LEAST_STEP,
+    LONGEST,
+    ContactByCutOff,
+    HurstExponent,
+    OnContact,
+    OwnFaces,
+    Roughness,
+    typical,
+)
+from gripscale.half_space.grid import periodic_heights
+from gripscale.half_space.result import RoughContact
+from gripscale.half_space.solve import solve_rough_contact
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap
+from gripscale.surface.cut_off import PowerLaw
+from gripscale.surface.profile import RESOLVED_STEPS
+from gripscale.theory.diffusion import ContactPressures, DiffusionResult, diffusion
+
+FEWEST_OCTAVES = 2
+"""Octaves above the measurement whose slopes say how it goes on."""
+
+HURST_LIMITS = 0.5, 1.5
+"""Exponents beyond these are those of noise, or the end of an instrument's band."""
+
+
+@dataclass(frozen=True, eq=False)
+class MapAtCutOff:
+    """The contact of a map with waves down to one cut-off, solved or by diffusion."""
+
+    wavelength: float
+    """Shortest wavelength of the map [m]."""
+    contact: RoughContact = field(repr=False)
+    """The contact of this cut-off or, by diffusion, that of the shortest measured one."""
+    slope: float
+    """Slope of the last octave on the faces that touch [-]; NaN for the first."""
+    diffused: dict[str, float] | None = None
+    """Numbers of the diffusion; None where the contact was solved."""
+
+    @property
+    def contacts(self) -> tuple[RoughContact, ...]:
+        """The contact, as that of all lines of a profile."""
+        return (self.contact,)
+
+    def mean(self, name: str) -> float:
+        """Return a number of the contact."""
+        return float(getattr(self.contact, name) if self.diffused is None else self.diffused[name])
+
+
+def map_by_cut_off(
+    rubber: Rubber,
+    surface: HeightMap,
+    *,
+    pressure: float,
+    speed: float,
+    down_to: float,
+    longest: float = 8e-3,
+    roughness: Roughness | None = None,
+    periodic: bool = False,
+    on_contact: OnContact | None = None,
+    **options: Any,
+) -> ContactByCutOff:
+    """Return contact and friction of a map against the cut-off, down to any wavelength.
+
+    The cut-offs are octaves above and below the shortest wavelength that the map resolves. Above,
+    contacts are solved; below, their pressures diffuse and the numbers have a `band`.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        The half-space.
+    surface : HeightMap
+        The map, sliding along its x.
+    pressure : float
+        Nominal pressure [Pa].
+    speed : float
+        Sliding speed [m/s].
+    down_to : float
+        Last cut-off [m].
+    longest : float
+        About the first cut-off [m]; a quarter of the shorter side at most.
+    roughness : OwnFaces or HurstExponent, optional
+        The exponent of the power law: that of the faces by default. Both have their slope.
+    periodic : bool
+        Take the map as one period as it stands.
+    on_contact : callable, optional
+        Called with each contact as it is solved.
+    options
+        Further arguments of `solve_rough_contact`: conditions, footprint, extrapolate, workers.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range, the roughness is a finer measurement, the map is too
+        short, or conditions change the rubber within the contact; and as `solve_rough_contact`
+        does.
+    """
+    checks.instance("surface", surface, HeightMap)
+    source = OwnFaces() if roughness is None else roughness
+    if not isinstance(source, OwnFaces | HurstExponent):
+        raise InputError(
+            "roughness of a map must be OwnFaces or HurstExponent, because its octaves below the "
+            f"measurement are a power law; got {checks.short_repr(source)}"
+        )
+    resolved = max(RESOLVED_STEPS * max(surface.step), surface.reliable or 0.0)
+    last = checks.positive("down_to", down_to, unit="m")
+    below = resolved / last > 1.0 + LEAST_STEP
+    shortest = resolved if below else max(last, resolved)
+    side = min(surface.length)
+    most = min(checks.positive("longest", longest, unit="m"), LONGEST * side)
+    octaves = max(FEWEST_OCTAVES, math.floor(math.log2(most / shortest) + 1e-9))
+    if 2.0**octaves * shortest > side:
+        raise InputError(
+            f"surface must hold {FEWEST_OCTAVES} octaves above {in_mm(shortest, 3)}, its shortest "
+            f"wavelength; got a map of {in_mm(side, 3)}"
+        )
+    options = {"pressure": pressure, "speed": speed, "tolerance": None, **options}
+    steps: list[MapAtCutOff] = []
+    for cut_off in shortest * 2.0 ** np.arange(octaves, -1, -1):
+        contact = solve_rough_contact(
+            rubber, surface, smallest_wavelength=float(cut_off), periodic=periodic, **options
+        )
+        slope = _octave_slope(surface, contact, steps[-1], periodic) if steps else math.nan
+        steps.append(MapAtCutOff(float(cut_off), contact, slope))
+        if on_contact is not None:
+            on_contact(contact)
+    if not below:
+        return ContactByCutOff(tuple(steps), resolved, math.nan, None, math.nan)
+    law = _power_law(steps, source)
+    result = _diffused(steps[-1].contact, law, last)
+    steps += _diffusion_steps(result, steps[-1], law)
+    return ContactByCutOff(tuple(steps), resolved, 2.0 ** (1.0 - law.hurst), None, math.nan)
+
+
+def _octave_slope(
+    surface: HeightMap, contact: RoughContact, before: MapAtCutOff, periodic: bool
+) -> float:
+    """Return the slope [-] of the last octave on the points in contact of the step before."""
+    shortest, shape = contact.smallest_wavelength, contact.grid.shape
+    heights = periodic_heights(surface, smallest_wavelength=shortest, periodic=periodic)
+    octave = heights.on(shape) - heights.on(shape, before.wavelength)
+    faces = before.contact.active
+    for axis, (coarse, fine) in enumerate(zip(faces.shape, shape, strict=True)):
+        nearest = np.rint(np.arange(fine) * (coarse / fine)).astype(int) % coarse
+        faces = np.take(faces, nearest, axis=axis)
+    return typical(contact.grid.slope(octave)[faces])
+
+
+def _power_law(steps: Sequence[MapAtCutOff], source: OwnFaces | HurstExponent) -> PowerLaw:
+    """Return the mean square gradient below the last step, from the slopes on the faces."""
+    before, last = (step.slope for step in steps[-2:])
+    if not (before > 0.0 and last > 0.0):
+        raise InputError(
+            "surface must be rough on the faces that touch, in the two octaves above its shortest "
+            f"wavelength; got slopes of {before:.3g} and {last:.3g}"
+        )
+    if isinstance(source, HurstExponent):
+        hurst = source.hurst
+    else:
+        hurst = float(np.clip(1.0 - math.log2(last / before), *HURST_LIMITS))
+    octave = -PowerLaw(hurst, 1.0).added(0.5)
+    return PowerLaw(hurst, 2.0 * last**2 / octave)
+
+
+def _diffused(contact: RoughContact, law: PowerLaw, down_to: float) -> DiffusionResult:
+    """Return the diffusion from the pressures of a contact down to a wavelength [m]."""
+    if contact.by_scale is not None:
+        raise InputError(
+            "conditions of a map below its measurement must not change the rubber within the "
+            "contact; got heat or softening: leave them out, or take lines of the map"
+        )
+    start = ContactPressures(
+        contact.pressure[contact.active],
+        min(contact.contact_fraction, 1.0),
+        contact.friction_from_dissipation,
+        contact.smallest_wavelength,
+    )
+    return diffusion(
+        contact.rubber,
+        start,
+        law,
+        pressure=contact.nominal_pressure,
+        speed=contact.speed,
+        smallest_wavelength=down_to,
+    )
+
+
+def _diffusion_steps(
+    result: DiffusionResult, start: MapAtCutOff, law: PowerLaw
+) -> list[MapAtCutOff]:
+    """Return the steps of a diffusion below its start."""
+    steps = []
+    ratios = result.wavelength[0] / result.wavelength
+    # half of the mean square gradient of an isotropic surface is the mean square slope along x
+    squares = np.array([0.5 * law.added(ratio) for ratio in ratios])
+    in_contact = start.mean("slope_in_contact")
+    for at in range(1, ratios.size):
+        friction = float(result.running_friction[at])
+        numbers = {
+            "contact_fraction": float(result.running_contact_fraction[at]),
+            "friction": friction,
+            "friction_from_dissipation": friction,
+            "slope_in_contact": math.hypot(in_contact, math.sqrt(squares[at])),
+        }
+        slope = math.sqrt(squares[at] - squares[at - 1])
+        length = float(result.wavelength[at])
+        steps.append(MapAtCutOff(length, start.contact, slope, numbers))
+    return steps
