@@ -127,19 +127,21 @@ class Withheld:
 
 @dataclass(frozen=True, eq=False)
 class CutOffContact:
-    """The contacts of all lines with waves down to one cut-off."""
+    """The contacts of all lines, or of a map, with waves down to one cut-off."""
 
     wavelength: float
     """Shortest wavelength of the lines [m]."""
     contacts: tuple[RoughContact, ...] = field(repr=False)
     lines: tuple[PeriodicLine, ...] = field(repr=False)
+    """Empty for a map."""
     slope: float
     """Slope of the last octave on the faces that touch [-]; NaN for the first."""
 
     def mean(self, name: str) -> float:
         """Return a number of the contacts, averaged by length."""
         values = [getattr(contact, name) for contact in self.contacts]
-        return float(np.average(values, weights=[line.length for line in self.lines]))
+        lengths = [contact.grid.lengths[0] for contact in self.contacts]
+        return float(np.average(values, weights=lengths))
 
     @property
     def faces(self) -> list[Mask]:

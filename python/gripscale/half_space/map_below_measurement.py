@@ -2,11 +2,11 @@
 
 A grid of a map cannot follow roughness over many octaves as that of a line can. So the contact is
 solved with all measured waves, and its pressures start Persson's diffusion
-(`gripscale.theory.diffusion`) through the waves below. These have the power law of the faces that
-touch: its mean square slope is that of the last measured octave on the points in contact of the
-solution without it, as the 68 % quantile of its magnitude, and its exponent H that of the last two
-octaves, h_n/h_(n-1) = 2^(1 - H). A Gaussian map has this quantile equal to its rms; other maps have
-steep edges, of which few touch.
+(`gripscale.theory.diffusion`) through the waves below. These are a power law that continues the
+last two measured octaves. What counts of an octave is the slope of a Gaussian surface that makes the
+same friction: it is found by diffusion from the contact without the octave, so that steep edges
+that do not touch, and rough places that do, count as they act. With h_n of the last octave,
+h_n/h_(n-1) = 2^(1 - H).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from gripscale.core import checks
 from gripscale.core.errors import InputError
@@ -25,6 +26,7 @@ from gripscale.half_space.below_measurement import (
     LEAST_STEP,
     LONGEST,
     ContactByCutOff,
+    CutOffContact,
     HurstExponent,
     OnContact,
     OwnFaces,
@@ -46,28 +48,23 @@ FEWEST_OCTAVES = 2
 HURST_LIMITS = 0.5, 1.5
 """Exponents beyond these are those of noise, or the end of an instrument's band."""
 
+SLOPES, SLOPE_ERROR = (1e-3, 10.0), 1e-3
+"""Range of the slope of an octave, and the relative error to which it is found."""
+
+USUAL_HURST = 0.8
+"""Exponent within an octave whose slope is sought."""
+
 
 @dataclass(frozen=True, eq=False)
-class MapAtCutOff:
-    """The contact of a map with waves down to one cut-off, solved or by diffusion."""
+class DiffusedContact(CutOffContact):
+    """Numbers of a diffusion down to one cut-off; `contacts` holds what it started from."""
 
-    wavelength: float
-    """Shortest wavelength of the map [m]."""
-    contact: RoughContact = field(repr=False)
-    """The contact of this cut-off or, by diffusion, that of the shortest measured one."""
-    slope: float
-    """Slope of the last octave on the faces that touch [-]; NaN for the first."""
-    diffused: dict[str, float] | None = None
-    """Numbers of the diffusion; None where the contact was solved."""
-
-    @property
-    def contacts(self) -> tuple[RoughContact, ...]:
-        """The contact, as that of all lines of a profile."""
-        return (self.contact,)
+    numbers: dict[str, float] = field(default_factory=dict)
+    """Numbers of `RoughContact` by name."""
 
     def mean(self, name: str) -> float:
-        """Return a number of the contact."""
-        return float(getattr(self.contact, name) if self.diffused is None else self.diffused[name])
+        """Return a number of the diffusion."""
+        return self.numbers[name]
 
 
 def map_by_cut_off(
@@ -138,40 +135,44 @@ def map_by_cut_off(
             f"wavelength; got a map of {in_mm(side, 3)}"
         )
     options = {"pressure": pressure, "speed": speed, "tolerance": None, **options}
-    steps: list[MapAtCutOff] = []
+    steps: list[CutOffContact] = []
     for cut_off in shortest * 2.0 ** np.arange(octaves, -1, -1):
         contact = solve_rough_contact(
             rubber, surface, smallest_wavelength=float(cut_off), periodic=periodic, **options
         )
-        slope = _octave_slope(surface, contact, steps[-1], periodic) if steps else math.nan
-        steps.append(MapAtCutOff(float(cut_off), contact, slope))
+        slope = (
+            _octave_slope(surface, contact, steps[-1].contacts[0], periodic) if steps else math.nan
+        )
+        steps.append(CutOffContact(float(cut_off), (contact,), (), slope))
         if on_contact is not None:
             on_contact(contact)
     if not below:
         return ContactByCutOff(tuple(steps), resolved, math.nan, None, math.nan)
     law = _power_law(steps, source)
-    result = _diffused(steps[-1].contact, law, last)
+    result = _diffused(steps[-1].contacts[0], law, last)
     steps += _diffusion_steps(result, steps[-1], law)
     return ContactByCutOff(tuple(steps), resolved, 2.0 ** (1.0 - law.hurst), None, math.nan)
 
 
 def _octave_slope(
-    surface: HeightMap, contact: RoughContact, before: MapAtCutOff, periodic: bool
+    surface: HeightMap, contact: RoughContact, before: RoughContact, periodic: bool
 ) -> float:
-    """Return the slope [-] of the last octave on the points in contact of the step before."""
+    """Return the slope [-] of the last octave on the points in contact without it."""
     shortest, shape = contact.smallest_wavelength, contact.grid.shape
     heights = periodic_heights(surface, smallest_wavelength=shortest, periodic=periodic)
-    octave = heights.on(shape) - heights.on(shape, before.wavelength)
-    faces = before.contact.active
+    octave = heights.on(shape) - heights.on(shape, before.smallest_wavelength)
+    faces = before.active
     for axis, (coarse, fine) in enumerate(zip(faces.shape, shape, strict=True)):
         nearest = np.rint(np.arange(fine) * (coarse / fine)).astype(int) % coarse
         faces = np.take(faces, nearest, axis=axis)
     return typical(contact.grid.slope(octave)[faces])
 
 
-def _power_law(steps: Sequence[MapAtCutOff], source: OwnFaces | HurstExponent) -> PowerLaw:
-    """Return the mean square gradient below the last step, from the slopes on the faces."""
-    before, last = (step.slope for step in steps[-2:])
+def _power_law(steps: Sequence[CutOffContact], source: OwnFaces | HurstExponent) -> PowerLaw:
+    """Return the mean square gradient below the last step, from the last two octaves."""
+    before, last = (_equivalent_slope(*steps[at : at + 2]) for at in (-3, -2))
+    if math.isnan(before + last):
+        before, last = (step.slope for step in steps[-2:])
     if not (before > 0.0 and last > 0.0):
         raise InputError(
             "surface must be rough on the faces that touch, in the two octaves above its shortest "
@@ -181,8 +182,35 @@ def _power_law(steps: Sequence[MapAtCutOff], source: OwnFaces | HurstExponent) -
         hurst = source.hurst
     else:
         hurst = float(np.clip(1.0 - math.log2(last / before), *HURST_LIMITS))
-    octave = -PowerLaw(hurst, 1.0).added(0.5)
-    return PowerLaw(hurst, 2.0 * last**2 / octave)
+    return _law_of_octave(hurst, 0.5, last)
+
+
+def _law_of_octave(hurst: float, ratio: float, slope: float) -> PowerLaw:
+    """Return the power law with a slope [-] between a wavelength and the `ratio`-th part of it.
+
+    The mean square gradient of an isotropic surface is twice the mean square slope along x.
+    """
+    return PowerLaw(hurst, 2.0 * slope**2 / abs(PowerLaw(hurst, 1.0).added(ratio)))
+
+
+def _equivalent_slope(before: CutOffContact, last: CutOffContact) -> float:
+    """Return the slope [-] of a Gaussian octave with the effect of a measured one.
+
+    The effect is on the friction, at rest on the contact fraction; NaN if no slope has it.
+    """
+    name = "friction_from_dissipation" if last.contacts[0].speed > 0.0 else "contact_fraction"
+    true = last.mean(name)
+
+    def excess(log_slope: float) -> float:
+        law = _law_of_octave(USUAL_HURST, 2.0, math.exp(log_slope))
+        found = _diffused(before.contacts[0], law, last.wavelength)
+        end = found.friction if name != "contact_fraction" else found.contact_fraction
+        return end - true
+
+    logs = np.log(SLOPES)
+    if not (last.slope > 0.0 and excess(logs[0]) * excess(logs[1]) < 0.0):
+        return math.nan
+    return math.exp(brentq(excess, *logs, xtol=SLOPE_ERROR))
 
 
 def _diffused(contact: RoughContact, law: PowerLaw, down_to: float) -> DiffusionResult:
@@ -209,10 +237,10 @@ def _diffused(contact: RoughContact, law: PowerLaw, down_to: float) -> Diffusion
 
 
 def _diffusion_steps(
-    result: DiffusionResult, start: MapAtCutOff, law: PowerLaw
-) -> list[MapAtCutOff]:
+    result: DiffusionResult, start: CutOffContact, law: PowerLaw
+) -> list[CutOffContact]:
     """Return the steps of a diffusion below its start."""
-    steps = []
+    steps: list[CutOffContact] = []
     ratios = result.wavelength[0] / result.wavelength
     # half of the mean square gradient of an isotropic surface is the mean square slope along x
     squares = np.array([0.5 * law.added(ratio) for ratio in ratios])
@@ -227,5 +255,5 @@ def _diffusion_steps(
         }
         slope = math.sqrt(squares[at] - squares[at - 1])
         length = float(result.wavelength[at])
-        steps.append(MapAtCutOff(length, start.contact, slope, numbers))
+        steps.append(DiffusedContact(length, start.contacts, (), slope, numbers))
     return steps

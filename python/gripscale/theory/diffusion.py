@@ -93,7 +93,7 @@ class ContactPressures(Checked, eq=False):
         rising = np.sort(self.pressure) * (pressure / carried)
         ends = np.linspace(0.0, rising.size, min(CLASSES, rising.size) + 1)
         sums = np.interp(ends, np.arange(rising.size + 1.0), np.append(0.0, np.cumsum(rising)))
-        return np.diff(sums) / np.diff(ends)
+        return np.asarray(np.diff(sums) / np.diff(ends))
 
 
 @dataclass(frozen=True)
@@ -185,6 +185,9 @@ class _Integrals:
     def at_nodes(self, intervals: int) -> tuple[Array, Array, Array]:
         """Return P, mu and s at the nodes: Heun's rule for V, the trapezoidal rule for mu."""
         log_q = divided(np.log(self.nodes), intervals)
+        # a narrow distribution of pressures spreads within a small part of the first octave
+        first = log_q[: intervals + 1]
+        first[:] = first[0] + (first[-1] - first[0]) * np.linspace(0.0, 1.0, intervals + 1) ** 3
         q = np.exp(log_q)
         stiff, lossy = over_angles(self.rubber, self.load, q, intervals)
         sine = lossy / (4.0 * np.sqrt(stiff / (2.0 * np.pi)))
