@@ -34,7 +34,7 @@ def uniform(pressure: float) -> ContactPressures:
 
 
 @pytest.mark.parametrize("rubber", [ELASTIC, ZENER, styrene_butadiene()])
-@pytest.mark.parametrize("pressure", [1e4, 1e5, 1e6])
+@pytest.mark.parametrize("pressure", [5e4, 2e5, 1e6])
 def test_a_uniform_pressure_without_corrections_is_the_theory(rubber, pressure):
     load = {"pressure": pressure, "speed": 0.3}
     theory = persson(rubber, HALF, **load)

@@ -38,8 +38,8 @@ class ContinuedContact(DirectContact):
 
     The answer holds the curves of `contact_by_cut_off`, or of `map_by_cut_off`, over `cut_off`, and
     as its estimated errors the standard error of a continuation. The fields are arguments of these
-    functions; a map has no random waves and so no `seed`. Numbers of a map's pressures, such as
-    friction by octave, are those of its measured waves.
+    functions: `seed` is that of lines; `periodic` and `tolerance` are those of maps. Numbers of a
+    map's pressures, such as friction by octave, are those of its measured waves.
     """
 
     name: ClassVar[str] = "continued"
@@ -74,7 +74,8 @@ class ContinuedContact(DirectContact):
         if measured.map is None:
             curve = contact_by_cut_off(rubber, measured.cleaned, seed=self.seed, **options)
         else:
-            curve = map_by_cut_off(rubber, measured.map, periodic=self.periodic, **options)
+            options |= {"periodic": self.periodic, "tolerance": self.tolerance}
+            curve = map_by_cut_off(rubber, measured.map, **options)
         answer = self._answer(curve.steps[-1].contacts, surface, load)
         if answer[STATUS].item() != "converged":
             return answer

@@ -3,10 +3,10 @@
 A grid of a map cannot follow roughness over many octaves as that of a line can. So the contact is
 solved with all measured waves, and its pressures start Persson's diffusion
 (`gripscale.theory.diffusion`) through the waves below. These are a power law that continues the
-last two measured octaves. What counts of an octave is the slope of a Gaussian surface that makes the
-same friction: it is found by diffusion from the contact without the octave, so that steep edges
-that do not touch, and rough places that do, count as they act. With h_n of the last octave,
-h_n/h_(n-1) = 2^(1 - H).
+last two measured octaves. An octave counts as it acts: its slope is that of a Gaussian surface with
+the same friction, found by diffusion from the contact without the octave. Steep edges that do not
+touch make no friction, and rough places that do touch make more than their share. With h_n the
+slope of the last octave, h_n/h_(n-1) = 2^(1 - H).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -106,7 +107,9 @@ def map_by_cut_off(
     on_contact : callable, optional
         Called with each contact as it is solved.
     options
-        Further arguments of `solve_rough_contact`: conditions, footprint, extrapolate, workers.
+        Further arguments of `solve_rough_contact`. With its `tolerance`, None by default, the area
+        of the continuation is more accurate: from four points in the smallest wave of the start it
+        is about 10 % low after an octave, from a start solved to 2 % about 4 %.
 
     Raises
     ------
@@ -170,7 +173,7 @@ def _octave_slope(
 
 def _power_law(steps: Sequence[CutOffContact], source: OwnFaces | HurstExponent) -> PowerLaw:
     """Return the mean square gradient below the last step, from the last two octaves."""
-    before, last = (_equivalent_slope(*steps[at : at + 2]) for at in (-3, -2))
+    before, last = (_equivalent_slope(*pair) for pair in pairwise(steps[-3:]))
     if math.isnan(before + last):
         before, last = (step.slope for step in steps[-2:])
     if not (before > 0.0 and last > 0.0):
@@ -198,19 +201,18 @@ def _equivalent_slope(before: CutOffContact, last: CutOffContact) -> float:
 
     The effect is on the friction, at rest on the contact fraction; NaN if no slope has it.
     """
-    name = "friction_from_dissipation" if last.contacts[0].speed > 0.0 else "contact_fraction"
-    true = last.mean(name)
+    moving = last.contacts[0].speed > 0.0
+    true = last.mean("friction_from_dissipation" if moving else "contact_fraction")
 
     def excess(log_slope: float) -> float:
         law = _law_of_octave(USUAL_HURST, 2.0, math.exp(log_slope))
-        found = _diffused(before.contacts[0], law, last.wavelength)
-        end = found.friction if name != "contact_fraction" else found.contact_fraction
-        return end - true
+        result = _diffused(before.contacts[0], law, last.wavelength)
+        return (result.friction if moving else result.contact_fraction) - true
 
-    logs = np.log(SLOPES)
-    if not (last.slope > 0.0 and excess(logs[0]) * excess(logs[1]) < 0.0):
+    least, most = (math.log(slope) for slope in SLOPES)
+    if not (last.slope > 0.0 and excess(least) * excess(most) < 0.0):
         return math.nan
-    return math.exp(brentq(excess, *logs, xtol=SLOPE_ERROR))
+    return math.exp(brentq(excess, least, most, xtol=SLOPE_ERROR))
 
 
 def _diffused(contact: RoughContact, law: PowerLaw, down_to: float) -> DiffusionResult:
