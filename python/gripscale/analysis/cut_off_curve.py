@@ -73,8 +73,8 @@ def case_cut_off(
     -------
     xarray.Dataset
         Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off`, of a map those of
-        `map_by_cut_off`, with the prefix `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
-        The totals are those of the last cut-off.
+        `map_by_cut_off`, with the prefix `curve_`. Over `rule`: the cut-off that each rule gives,
+        with friction and contact there. The totals are those of the last cut-off.
 
     Raises
     ------
