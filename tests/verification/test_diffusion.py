@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from gripscale.half_space import map_by_cut_off
 from gripscale.rubber import styrene_butadiene
 from tests.samples import MAXWELL, POWER_LAW, ZENER
 from tests.verification.families import tread
 from tests.verification.gaussian_maps import GaussianCase, judged
+from tests.verification.known_surfaces import ISOTROPIC, LOAD, SMALLEST, contact, surface
 
 pytestmark = pytest.mark.verification
 
@@ -34,3 +38,26 @@ def test_four_octaves_of_gaussian_maps():
     area, friction = np.abs(ratios - 1.0).T
     assert area.max() < 0.10
     assert friction.max() < 0.05
+
+
+def withheld(family: str, seed: int, octaves: int) -> tuple[float, float, float]:
+    """Return contact fraction and friction of a continued map over the true ones, and the band."""
+    whole = surface(family, seed)
+    true = contact(whole, None)
+    coarse = replace(whole, reliable=2.0**octaves * SMALLEST)
+    load = {name: LOAD[name] for name in ("pressure", "speed", "periodic", "workers")}
+    curve = map_by_cut_off(tread(), coarse, down_to=SMALLEST, **load)
+    area = curve.values("contact_fraction")[-1] / true.contact_fraction
+    friction = curve.values("friction_from_dissipation")[-1] / true.friction_from_dissipation
+    return float(area), float(friction), float(curve.band[-1])
+
+
+@pytest.mark.parametrize(("octaves", "held"), [(1, 18), (2, 17), (3, 7)])
+def test_withheld_octaves_of_maps(octaves, held):
+    """Four maps of five families; with three octaves withheld a new texture is withheld, too."""
+    results = {(f, seed): withheld(f, seed, octaves) for f in ISOTROPIC for seed in range(4)}
+    for (family, seed), (area, friction, _) in results.items():
+        print(f"{family:12s} {seed} {octaves} octaves: area {area:.2f}, friction {friction:.2f}")
+    ratios = np.array(list(results.values()))
+    inside = np.abs(np.log(ratios[:, :2])) <= np.arcsinh(ratios[:, 2:])
+    assert inside.sum(axis=0).min() >= held

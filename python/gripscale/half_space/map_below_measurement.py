@@ -241,16 +241,17 @@ def _diffused(contact: RoughContact, law: PowerLaw, down_to: float) -> Diffusion
 def _diffusion_steps(
     result: DiffusionResult, start: CutOffContact, law: PowerLaw
 ) -> list[CutOffContact]:
-    """Return the steps of a diffusion below its start."""
+    """Return the steps of a diffusion below its start; NaN if its integrals did not converge."""
     steps: list[CutOffContact] = []
+    usable = 1.0 if result.converged else math.nan
     ratios = result.wavelength[0] / result.wavelength
     # half of the mean square gradient of an isotropic surface is the mean square slope along x
     squares = np.array([0.5 * law.added(ratio) for ratio in ratios])
     in_contact = start.mean("slope_in_contact")
     for at in range(1, ratios.size):
-        friction = float(result.running_friction[at])
+        friction = usable * float(result.running_friction[at])
         numbers = {
-            "contact_fraction": float(result.running_contact_fraction[at]),
+            "contact_fraction": usable * float(result.running_contact_fraction[at]),
             "friction": friction,
             "friction_from_dissipation": friction,
             "slope_in_contact": math.hypot(in_contact, math.sqrt(squares[at])),
