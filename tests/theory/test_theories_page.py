@@ -1,4 +1,4 @@
-"""The example of the page on theories runs and prints what stands below it."""
+"""The examples of the page on theories run and print what stands below them."""
 
 from __future__ import annotations
 
@@ -11,9 +11,12 @@ from tests.samples import ROOT
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 
 
-def test_the_example_prints_what_stands_below_it(monkeypatch, capsys):
-    text = (ROOT / "docs" / "theories.md").read_text(encoding="utf-8")
-    [(example, shown)] = re.findall(r"```python\n(.*?)```.*?```text\n(.*?)```", text, re.DOTALL)
+TEXT = (ROOT / "docs" / "theories.md").read_text(encoding="utf-8")
+EXAMPLES = re.findall(r"```python\n(.*?)```.*?```text\n(.*?)```", TEXT, re.DOTALL)
+
+
+@pytest.mark.parametrize(("example", "shown"), EXAMPLES, ids=["diffusion", "road and tread"])
+def test_an_example_prints_what_stands_below_it(example, shown, monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
     exec(compile(example, "theories.md", "exec"), {"__name__": "theories"})
     printed = capsys.readouterr().out

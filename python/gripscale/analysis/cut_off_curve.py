@@ -59,7 +59,7 @@ def case_cut_off(
     Parameters
     ----------
     case : path or CaseFile
-        The case; its surface must be one or more measured profiles.
+        The case; its surface must be measured profiles or a map.
     folder : path
         Gets `cut_off.nc`, and the solution as soon as it is there.
     down_to : float, optional
@@ -72,14 +72,14 @@ def case_cut_off(
     Returns
     -------
     xarray.Dataset
-        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off`, with the prefix
-        `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
-        The totals are those of the last cut-off.
+        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off`, of a map those of
+        `map_by_cut_off`, with the prefix `curve_`. Over `rule`: the cut-off that each rule gives,
+        with friction and contact there. The totals are those of the last cut-off.
 
     Raises
     ------
     InputError, FileError
-        For what cannot be used; if the case has no measured profile.
+        For what cannot be used; if nothing was measured.
     """
     results = prepare_case(case)
     with bench_in(folder, workers, None, on_task) as bench:

@@ -12,6 +12,7 @@ from .finite_strain import spread_windows as spread_windows
 from .grid_sequence import GridRecord as GridRecord
 from .location import contact_trace as contact_trace
 from .location import shares_by_slope as shares_by_slope
+from .map_below_measurement import map_by_cut_off as map_by_cut_off
 from .maps import MapContact as MapContact
 from .maps import MapOverLines as MapOverLines
 from .maps import map_over_lines as map_over_lines

@@ -98,7 +98,7 @@ class FinerMeasurement(Checked):
     def slope(self, longest: float, shortest: float) -> float:
         """Return the slope [-] of the waves between two wavelengths [m]."""
         periodic = [_periodic(line, shortest) for line in self.lines]
-        return _typical(np.concatenate([line.slope(longest, shortest) for line in periodic]))
+        return typical(np.concatenate([line.slope(longest, shortest) for line in periodic]))
 
 
 Roughness = OwnFaces | HurstExponent | FinerMeasurement
@@ -127,19 +127,21 @@ class Withheld:
 
 @dataclass(frozen=True, eq=False)
 class CutOffContact:
-    """The contacts of all lines with waves down to one cut-off."""
+    """The contacts of all lines, or of a map, with waves down to one cut-off."""
 
     wavelength: float
     """Shortest wavelength of the lines [m]."""
     contacts: tuple[RoughContact, ...] = field(repr=False)
     lines: tuple[PeriodicLine, ...] = field(repr=False)
+    """Empty for a map."""
     slope: float
     """Slope of the last octave on the faces that touch [-]; NaN for the first."""
 
     def mean(self, name: str) -> float:
         """Return a number of the contacts, averaged by length."""
         values = [getattr(contact, name) for contact in self.contacts]
-        return float(np.average(values, weights=[line.length for line in self.lines]))
+        lengths = [contact.grid.lengths[0] for contact in self.contacts]
+        return float(np.average(values, weights=lengths))
 
     @property
     def faces(self) -> list[Mask]:
@@ -363,7 +365,7 @@ def _periodic(line: Profile, shortest: float, finest: float | None = None) -> Pe
     return PeriodicLine(length, points, np.asarray(scipy.fft.rfft(heights.on((points,)))))
 
 
-def _typical(slopes: Array) -> float:
+def typical(slopes: Array) -> float:
     """Return the slope [-] that stands for an octave."""
     return float(np.quantile(np.abs(slopes), QUANTILE))
 
@@ -374,7 +376,7 @@ def _octave_slope(
     """Return the slope of the waves down to `shortest` [m] on faces [-]."""
     longest = 2.0**octaves * shortest
     slopes = [line.slope(longest, shortest)[on] for line, on in zip(lines, faces, strict=True)]
-    return _typical(np.concatenate(slopes))
+    return typical(np.concatenate(slopes))
 
 
 @dataclass(frozen=True)

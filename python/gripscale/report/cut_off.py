@@ -57,7 +57,7 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
         for name in ("pressure", "speed")
     ]
-    yield f"for {' and '.join(load)}; direct contact of the lines, without factors"
+    yield f"for {' and '.join(load)}; direct contact of the measured surface, without factors"
     if bool(data.curve_measured[-1]):
         return
     measured = ", ".join(
@@ -93,7 +93,7 @@ def _source(data: xr.Dataset) -> str:
         return f"with the slopes of the finer measurement{compared}"
     text = f"with slopes {significant(float(data.slope_ratio), 3)} times as steep each octave"
     if "withheld_friction_error" not in data:
-        return f"{text}, as stated or as constant slopes"
+        return f"{text}, as stated or as the octaves above"
     errors = ", ".join(
         f"{words} {change(float(data[f'withheld_{name}_error']))}"
         for name, words in (("friction", "friction"), ("contact_fraction", "contact area"))

@@ -169,7 +169,7 @@ _VARIABLES = (
 )
 """Variables of a result: name, dimension, unit, meaning."""
 
-_COARSEST, _FINEST = 4, 128
+COARSEST, FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
 
 _WIDEST = 0.25
@@ -268,7 +268,7 @@ def persson(
     load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
     integrals = _Integrals(rubber, spectrum, load, share, nodes)
     (area, friction), (area_error, friction_error) = refined(
-        integrals.at_nodes, _COARSEST, _FINEST, TOLERANCE
+        integrals.at_nodes, COARSEST, FINEST, TOLERANCE
     )
     return PerssonResult(
         rubber=rubber,
@@ -300,7 +300,7 @@ class _Integrals:
 
         log_q = divided(np.log(self.nodes), intervals)
         q = np.exp(log_q)
-        stiff, lossy = self.over_angles(q, _ANGLES + intervals)
+        stiff, lossy = over_angles(self.rubber, self.load, q, intervals)
         weight = q**4 * self.spectrum.at(q)  # q^3 C dq with dq = q d(log q)
         with np.errstate(divide="ignore"):
             area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
@@ -308,19 +308,18 @@ class _Integrals:
         friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
         return area[::intervals], friction[::intervals]
 
-    def over_angles(self, q: Array, count: int) -> tuple[Array, Array]:
-        """Return int |M/p_0|^2 dphi and int cos(phi) Im M/p_0 dphi over a turn, at each `q`.
 
-        Both are four times a quarter turn. With cos(phi) = sin(psi) and psi = pi/2 s^4 Gauss points
-        in s are dense where the frequency q v sin(psi) runs through many decades.
-        """
-        abscissae, weights = np.polynomial.legendre.leggauss(count)
-        s = 0.5 * (1.0 + abscissae)
-        stiff, lossy = np.zeros(q.size), np.zeros(q.size)
-        for cosine, width in zip(
-            np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True
-        ):
-            modulus = self.rubber.plane_strain_modulus(q * self.load.speed * cosine)
-            stiff += width * np.abs(modulus / self.load.pressure) ** 2
-            lossy += width * cosine * modulus.imag / self.load.pressure
-        return stiff, lossy
+def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[Array, Array]:
+    """Return int |M/p_0|^2 dphi and int cos(phi) Im M/p_0 dphi over a turn, at each `q`.
+
+    Both are four times a quarter turn. With cos(phi) = sin(psi) and psi = pi/2 s^4 Gauss points
+    in s are dense where the frequency q v sin(psi) runs through many decades.
+    """
+    abscissae, weights = np.polynomial.legendre.leggauss(_ANGLES + intervals)
+    s = 0.5 * (1.0 + abscissae)
+    stiff, lossy = np.zeros(q.size), np.zeros(q.size)
+    for cosine, width in zip(np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True):
+        modulus = rubber.plane_strain_modulus(q * load.speed * cosine)
+        stiff += width * np.abs(modulus / load.pressure) ** 2
+        lossy += width * cosine * modulus.imag / load.pressure
+    return stiff, lossy
