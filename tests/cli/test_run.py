@@ -33,10 +33,11 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
+    drawn = {f"figures/direct_contact.{kind}" for kind in ("png", "pdf")}
     of_conditions = {"effects_chain.nc", "cut_off.nc"} | {
         name for name in RESULTS if any(f"/{figure}." in name for figure in AT_TIMES)
     }
-    assert written == {*RESULTS, "inputs/road.txt", "inputs/dma.txt"} - of_conditions
+    assert written == {*RESULTS, *drawn, "inputs/road.txt", "inputs/dma.txt"} - of_conditions
 
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:

@@ -95,14 +95,18 @@ class Store:
     """The columns that the outlines of a chart are drawn from, each array once."""
 
     def __init__(self) -> None:
-        self.source = ColumnDataSource()
+        self._sources: dict[int, Any] = {}
         self._names: dict[int, str] = {}
+
+    def source(self, length: int) -> Any:
+        """Return the source of the columns of a length: all its columns must be equally long."""
+        return self._sources.setdefault(length, ColumnDataSource())
 
     def name(self, values: ArrayLike) -> str:
         """Return the name of the column of an array."""
         if id(values) not in self._names:
             self._names[id(values)] = name = f"c{len(self._names)}"
-            self.source.data[name] = np.asarray(values)
+            self.source(np.size(values)).data[name] = np.asarray(values)
         return self._names[id(values)]
 
 
@@ -276,7 +280,7 @@ def _draw_outline(figure: Any, outline: Outline, store: Store) -> None:
     x, y = outline.drawn(COLUMNS)
     columns = [store.name(values) for values in (outline.x, outline.low, outline.high)]
     source = ColumnDataSource({"x": _stored(x), "y": _stored(y)})
-    source.tags = ["outline", store.source, *columns]
+    source.tags = ["outline", store.source(np.size(outline.x)), *columns]
     width = PIXELS * outline.width
     figure.line("x", "y", source=source, color=outline.colour, line_width=width,
                 **_labelled(outline.label))  # fmt: skip

@@ -28,15 +28,18 @@ profile depth is the mean of the segment depths. Spikes must have been removed, 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from gripscale.core.arrays import Array
 from gripscale.core.units import in_mm
 from gripscale.surface.cleaning import subtract_form, subtract_trend
 from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.resampling import filled
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SEGMENT = 0.1
 """Length of a segment [m]."""
@@ -122,6 +125,8 @@ def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
 
     None is a surface that was not measured.
     """
+    import xarray as xr  # slow to import: not for reading a surface
+
     empty = _dataset(dict.fromkeys(QUANTITIES, np.nan), "not measured")
     parts = [empty if surface is None else texture(surface) for surface in surfaces.values()]
     return xr.concat(parts, dim=dim).assign_coords({dim: list(surfaces)})
@@ -129,6 +134,8 @@ def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
 
 def _dataset(values: Mapping[str, float], note: str) -> xr.Dataset:
     """Return numbers by the names of `QUANTITIES`, and the note, as a Dataset."""
+    import xarray as xr
+
     data = {
         name: ((), values[name], {"units": unit, "symbol": symbol, "long_name": text})
         for name, (symbol, unit, text) in QUANTITIES.items()
