@@ -25,7 +25,7 @@ from gripscale.core.units import in_mm
 from gripscale.experiment.design import attributes, surface_numbers
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task
-from gripscale.half_space.below_measurement import BAND, FACTS, cut_off_at
+from gripscale.half_space.below_measurement import FACTS, cut_off_at
 from gripscale.half_space.continued import DOWN_TO, QUANTILE_90
 from gripscale.io import netcdf
 from gripscale.model import STATUS, Load
@@ -120,8 +120,7 @@ def cut_off_curve(
 def continuation_factor(data: xr.Dataset, cut_off: float) -> Factor:
     """Return the factor of the roughness below a cut-off [m], with the error of a continuation."""
     end = float(data.cut_off[-1])
-    below = math.log2(float(data.resolved) / end)
-    sigma = math.asinh(BAND * math.sqrt(max(below, 0.0))) / QUANTILE_90
+    sigma = math.log(float(data[f"{AREA}_upper"][-1] / data[AREA][-1])) / QUANTILE_90
 
     def grown(curve: str) -> LogNormalValue:
         ratio = float(data[curve][-1]) / at_cut_off(data, curve, cut_off)

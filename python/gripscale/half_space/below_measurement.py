@@ -46,8 +46,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 BAND = 0.20
-"""Half width of the 90 % band of a number one octave below the measurement, relative to it; it
-grows with the root of the octaves. Measured on withheld octaves, see docs/below-measurement.md."""
+"""Half width of the 90 % band of a number one octave below the measurement, relative to it.
+Measured on withheld octaves, see docs/below-measurement.md."""
+
+GROWTH_OF_LINES = 0.5
+"""Power of the octaves that the band of continued lines grows with."""
 
 QUANTILE = 0.68
 """Share of the points in contact whose slope is below that of an octave."""
@@ -169,6 +172,8 @@ class ContactByCutOff:
     """How well the last measured octave is found from those above; None where it was not tried."""
     overlap: float
     """Slope of the faces over that of the finer measurement where both are measured [-]."""
+    growth: float = GROWTH_OF_LINES
+    """Power of the octaves below the measurement that the band grows with [-]."""
 
     @property
     def wavelength(self) -> Array:
@@ -183,7 +188,7 @@ class ContactByCutOff:
     @property
     def band(self) -> Array:
         """Half width of the 90 % band of each step, relative to its number."""
-        return BAND * np.sqrt(self.octaves_below)
+        return BAND * self.octaves_below**self.growth
 
     def values(self, name: str) -> Array:
         """Return a number of `RoughContact` at each step, averaged by length."""

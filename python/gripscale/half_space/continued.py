@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.checks import checked
 from gripscale.core.errors import InputError
 from gripscale.half_space.below_measurement import (
-    BAND,
     ContactByCutOff,
     OwnFaces,
     Roughness,
@@ -81,7 +81,7 @@ class ContinuedContact(DirectContact):
             return answer
         if measured.map is not None:
             answer = _with_diffusion(answer, curve, load)
-        error = BAND * math.sqrt(curve.octaves_below[-1]) / QUANTILE_90
+        error = float(np.arcsinh(curve.band[-1])) / QUANTILE_90
         for name in ("contact_fraction", "friction"):
             about = answer[f"{name}_error"].attrs
             answer[f"{name}_error"] = (error * answer[name]).assign_attrs(about)
