@@ -10,6 +10,7 @@ import gripscale as gs
 from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import ContinuedContact, FinerMeasurement, HurstExponent, map_by_cut_off
+from gripscale.half_space.map_below_measurement import GROWTH_OF_MAPS
 from gripscale.model import Load
 from gripscale.surface import HeightMap, Measured, Surface
 from gripscale.theory import ContactPressures, diffusion
@@ -103,7 +104,7 @@ def test_the_model_answers_with_curve_and_band():
     exponent = np.log2(curve().values("friction")[-2:])
     assert float(answer.total_friction_cut_off_exponent) == pytest.approx(exponent[0] - exponent[1])
     assert float(answer.friction_error[0]) == pytest.approx(
-        0.2 * np.sqrt(2) / 1.645 * last.mean("friction")
+        np.arcsinh(0.2 * 2.0**GROWTH_OF_MAPS) / 1.645 * last.mean("friction")
     )
 
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import xarray as xr
 
 from gripscale.core.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
@@ -26,6 +25,9 @@ from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.texture import Heights, textures
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
