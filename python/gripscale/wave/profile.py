@@ -7,6 +7,7 @@ separation of scales, no random phases, and no small strain.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -57,6 +58,7 @@ def solve_profile(
     start: WaveResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
+    settings: Mapping[str, float] | None = None,
 ) -> WaveResult:
     """Press a rubber block on one period of a profile, slide it, and find contact and friction.
 
@@ -92,6 +94,8 @@ def solve_profile(
         A result of the block to start from, of any profile, load and rubber.
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over half the range of heights [-].
+    settings : mapping, optional
+        Further settings of the kernel by name, see `gripscale.wave.default_settings`.
 
     Returns
     -------
@@ -131,7 +135,8 @@ def solve_profile(
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )
-    block = replace(block, settings={**block.settings, "rescue_columns": COLUMNS[-1]})
+    thorough = {"rescue_columns": COLUMNS[-1]}
+    block = replace(block, settings={**block.settings, **thorough, **(settings or {})})
     problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_load_bearing(rubber, problem.load.pressure, math.inf)
