@@ -84,7 +84,6 @@ def case_cut_off(
     results = prepare_case(case)
     with bench_in(folder, workers, None, on_task) as bench:
         data = cut_off_curve(results, results.load, bench, down_to=down_to, hurst=hurst)
-    assert data is not None
     return save_curve(data, results, folder)
 
 

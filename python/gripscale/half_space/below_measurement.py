@@ -35,7 +35,8 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
-from gripscale.half_space.grid import periodic_heights
+from gripscale.half_space.grid import nearest, periodic_heights
+from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
@@ -62,7 +63,6 @@ MOST_OCTAVES = 8
 LEAST_STEP = 0.05
 """Rest of an octave, over the last cut-off, that is not a step of its own."""
 
-POINTS_IN_WAVE = 4
 LONGEST = 0.25
 """Longest cut-off over the length of the shortest line."""
 
@@ -149,12 +149,10 @@ class CutOffContact:
     @property
     def faces(self) -> list[Mask]:
         """Where each line is in contact, on the points of the line."""
-        masks = []
-        for line, contact in zip(self.lines, self.contacts, strict=True):
-            coarse = contact.active.size
-            nearest = np.rint(np.arange(line.points) * (coarse / line.points)).astype(int) % coarse
-            masks.append(contact.active[nearest])
-        return masks
+        return [
+            nearest(contact.active, (line.points,))
+            for line, contact in zip(self.lines, self.contacts, strict=True)
+        ]
 
 
 @dataclass(frozen=True, eq=False)

@@ -133,6 +133,14 @@ def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, .
     return np.asarray(scipy.fft.irfftn(out, s=onto, overwrite_x=True)) * scale
 
 
+def nearest(mask: Mask, shape: tuple[int, ...]) -> Mask:
+    """Return a periodic mask at the points of another grid, each that of the nearest point."""
+    for axis, (old, new) in enumerate(zip(mask.shape, shape, strict=True)):
+        index = np.rint(np.arange(new) * (old / new)).astype(int) % old
+        mask = np.take(mask, index, axis=axis)
+    return mask
+
+
 def doubled(values: Array) -> Array:
     """Return `values` on the grid with half the spacing each way, linear between points."""
     for axis in range(values.ndim):
@@ -232,11 +240,7 @@ class PeriodicHeights:
 
     def measured_on(self, shape: tuple[int, ...]) -> Mask:
         """Return where the nearest height was measured."""
-        mask = self.measured
-        for axis, (old, new) in enumerate(zip(self.grid.shape, shape, strict=True)):
-            nearest = np.rint(np.arange(new) * (old / new)).astype(int) % old
-            mask = np.take(mask, nearest, axis=axis)
-        return mask
+        return nearest(self.measured, shape)
 
 
 def surface_axes(surface: Profile | HeightMap) -> list[Array]:

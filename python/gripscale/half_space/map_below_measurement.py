@@ -34,7 +34,7 @@ from gripscale.half_space.below_measurement import (
     Roughness,
     typical,
 )
-from gripscale.half_space.grid import periodic_heights
+from gripscale.half_space.grid import nearest, periodic_heights
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
@@ -169,11 +169,7 @@ def _octave_slope(
     shortest, shape = contact.smallest_wavelength, contact.grid.shape
     heights = periodic_heights(surface, smallest_wavelength=shortest, periodic=periodic)
     octave = heights.on(shape) - heights.on(shape, before.smallest_wavelength)
-    faces = before.active
-    for axis, (coarse, fine) in enumerate(zip(faces.shape, shape, strict=True)):
-        nearest = np.rint(np.arange(fine) * (coarse / fine)).astype(int) % coarse
-        faces = np.take(faces, nearest, axis=axis)
-    return typical(contact.grid.slope(octave)[faces])
+    return typical(contact.grid.slope(octave)[nearest(before.active, shape)])
 
 
 def _power_law(steps: Sequence[CutOffContact], source: OwnFaces | HurstExponent) -> PowerLaw:
