@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import shlex
 import shutil
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
 from gripscale.report.calibration import calibration_lines
+from tests.report.reading import Page
 from tests.samples import EXAMPLES, Shell
 
 FOLDER = EXAMPLES / "measured_friction"
@@ -97,6 +100,35 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     # with its own area term in the case, the fit is the same
     again = calibrate_case(written, model="chain", folder=target)
     assert again.law == fitted
+
+
+def test_the_page_names_the_command_that_makes_it_again(
+    shell: Shell, case: Path, tmp_path: Path
+) -> None:
+    """Word for word, options included: run again, it prints the same answer."""
+    measured, page = tmp_path / "mu.csv", tmp_path / "page.html"
+    shutil.copy(case.with_name("synthetic_friction.csv"), measured)
+    words = ["calibrate", case, "--model", "chain", "--law", "constant", "--measured", measured]
+    first = shell(*words, "--output", tmp_path / "first")
+    assert shell("report", tmp_path / "first", "--output", page).exit_code == 0
+    command = re.search(r"Command Copy (gripscale .*?) Case file", Page(page).text)[1]
+    again = shell(*shlex.split(command)[1:-1], tmp_path / "second")
+    assert "Answer: " in first.stdout
+    answers = (run.stdout.partition("Answer: ")[2].partition("\n\n")[0] for run in (first, again))
+    assert len(set(answers)) == 1
+
+
+def test_what_needs_no_prediction_is_refused_before_any(case: Path, tmp_path: Path) -> None:
+    few = tmp_path / "few.csv"
+    few.write_text("speed [m/s],friction\n0.1,0.9\n1,0.9\n")
+    short = case.with_name("short.toml")
+    short.write_text(case.read_text().replace("synthetic_friction.csv", str(few)))
+    for options, sentence in (
+        ({}, "fitting stress_0, width, speed_0 needs more than 3 measured points; got 2"),
+        ({"law": "constant", "hold_out": "temperature"}, "needs the temperature of every point"),
+    ):
+        with pytest.raises(InputError, match=sentence):
+            calibrate_case(short, model="chain", on_task=pytest.fail, **options)
 
 
 def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:

@@ -20,12 +20,16 @@ from gripscale.analysis.comparison import FILE, VARIED, reference_totals
 from gripscale.analysis.samples import curve_at
 from gripscale.case import prepare_case, read_case
 from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
+from gripscale.charts.ladder import rows_of
 from gripscale.charts.view import PredictionView
+from gripscale.charts.write import draw_comparison
 from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
 from gripscale.report.comparison import comparison_table, judgement, remarks
+from gripscale.report.pages import page_of
+from gripscale.report.source import Compared
 from tests.samples import Shell
 
 FORMATS = ("png", "pdf")
@@ -93,6 +97,19 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     at, line = [(at, line) for at, line in enumerate(lines) if line.startswith("Best")][-1]
     assert re.fullmatch(rf"Best estimate \(90 %\): {numbers}; not to be relied on", line)
     assert lines[at + 1].startswith("Tables, figures and result"), "nothing else comes after it"
+
+
+@pytest.mark.parametrize("group", ["waves", "measured", "theory", "windows", "map"])
+def test_rungs_of_any_group_alone_are_drawn(
+    comparison: tuple[str, Path], tmp_path: Path, group: str
+) -> None:
+    data = netcdf.load(comparison[1] / "comparison.nc").isel(rung=[4])
+    data = data.assign_coords(group=("rung", [group]))
+    for octaves in (data, data.isel(wavelength=slice(0))):  # maps and blocks have no octaves
+        draw_comparison(octaves, tmp_path)
+        labels = [row.label for row in rows_of(octaves, "friction")]
+        assert labels[0].startswith(str(data.label.item(0)))
+        assert len(page_of(Compared.holding([octaves])).charts) >= 2
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(
@@ -224,7 +241,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
         ("--rungs", "persion", "unknown rung persion; did you mean persson?"),
         ("--seeds", "0", "seeds must be a whole number from 1 to 1000; got 0"),
         ("--measured", "none.csv", "none.csv: cannot be read (no such file)"),
-        ("--rungs", "klueppel_heinrich", "has anything to say of this case"),
+        ("--rungs", "klueppel_heinrich", "no rung of klueppel_heinrich applies to this case"),
     ],
 )
 def test_what_cannot_be_compared_is_one_sentence(

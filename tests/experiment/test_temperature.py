@@ -211,7 +211,7 @@ def test_what_cannot_be_varied_is_one_sentence(
 def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -> None:
     case.write_text(case.read_text().replace("shift =", "# shift ="))
     study = Study(case, {"temperature": "20 C, 40 C"})
-    with pytest.raises(InputError, match="shift and reference_temperature must be those of the"):
+    with pytest.raises(InputError, match="time-temperature shift is missing"):
         study.run(case.parent / "out")
     assert not list((case.parent / "out").rglob("*.nc"))
 

@@ -316,10 +316,11 @@ def calibrate_case(
     """
     checks.one_of("model", model, MODELS)
     fit.check_names(law, fixed or ())
-    if hold_out is not None:
-        checks.one_of("hold_out", hold_out, likelihood.WAYS)
     results = case if isinstance(case, CaseResults) else prepare_case(case)
     friction = measured or measured_of(results.file)
+    fit.refuse_unfit(friction, law, fixed or {})
+    if hold_out is not None:
+        likelihood.groups_of(hold_out, friction.speed, friction.temperature)
     rubber, surface = results.rubber.rubber, results.surface
     if results.file.case.rubber.extrapolate == "refuse":
         for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):

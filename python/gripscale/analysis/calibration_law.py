@@ -81,19 +81,38 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
             f"{difference.size} points, by up to {-difference.min():.3g}: the shear stress of an "
             "area term would be negative; expected a hysteresis below what was measured"
         )
-    temperature = _all_or_none("temperature", predicted.temperature[answered])
-    spread = measured.spread[answered]
+    return Points(
+        measured.speed[answered],
+        _all_or_none("temperature", predicted.temperature[answered]),
+        difference,
+        predicted.leverage[answered],
+        _spread(measured.spread[answered]),
+    )
+
+
+def refuse_unfit(measured: MeasuredFriction, kind: str, fixed: Mapping[str, float]) -> None:
+    """Raise `InputError` for a law that no prediction can fit to the measurement.
+
+    A missing temperature, which a case may know, counts as one that was measured.
+    """
+    kelvin = measured.temperature
+    known = kelvin[~np.isnan(kelvin)]
+    kelvin = np.where(np.isnan(kelvin), known.mean() if known.size else ZERO_CELSIUS, kelvin)
+    unit = np.ones_like(measured.friction)
+    family_of(
+        kind,
+        Points(measured.speed, kelvin, measured.friction, unit, _spread(measured.spread)),
+        fixed,
+    )
+
+
+def _spread(spread: Array) -> Array | None:
+    """Return the spreads of points if known; else as `_all_or_none`."""
     if (spread == 0.0).any():
         raise InputError(
             "spread must be above zero to weigh a point; got 0: leave it empty if unknown"
         )
-    return Points(
-        measured.speed[answered],
-        temperature,
-        difference,
-        predicted.leverage[answered],
-        _all_or_none("spread", spread),
-    )
+    return _all_or_none("spread", spread)
 
 
 def _all_or_none(name: str, values: Array) -> Array | None:

@@ -245,7 +245,8 @@ def _compared(
         design, rungs = _design(setups, list(tasks), rungs, axis)
         if not rungs:
             raise InputError(
-                f"no rung of {', '.join(choice.rungs)} has anything to say of this case"
+                f"no rung of {', '.join(choice.rungs)} applies to this case; windows and maps "
+                "need measured profiles, klueppel_heinrich the parameters of [compare]"
             )
         numbers = partial(reduce.sample_numbers, conditions=setups[0].conditions)
         comparison = make(setups=setups, rungs=rungs, samples=solve_design(design, bench, numbers))

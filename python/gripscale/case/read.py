@@ -16,7 +16,7 @@ from pydantic import BaseModel, ValidationError
 from gripscale.case.schema import first_complaint, sentence
 from gripscale.case.tables import Case
 from gripscale.core.errors import FileError, InputError, about_keys
-from gripscale.core.provenance import software, versions
+from gripscale.core.provenance import COMMAND, software, versions
 from gripscale.core.units import DISPLAY_UNITS, stated_units
 from gripscale.io.text_table import read_bytes
 
@@ -35,8 +35,9 @@ class CaseFile:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """What every result of the case carries: its text, and the units it states."""
-        return {"case": self.text, DISPLAY_UNITS: json.dumps(self.units)}
+        """What every result of the case carries: its text, the units it states, the command."""
+        command = {"command": COMMAND.get()} if COMMAND.get() else {}
+        return {"case": self.text, DISPLAY_UNITS: json.dumps(self.units)} | command
 
     def resolve(self, name: str) -> Path:
         """Return the path of a file named in the case, relative to the case file."""

@@ -77,13 +77,16 @@ def varied(comparison: xr.Dataset) -> str:
 def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
     """Return for each octave whether a rung has friction or lost area down to it."""
     friction, area = comparison.running_friction, comparison.running_contact_fraction
+    if not friction.size:  # maps and windows at finite strain have no octaves
+        return np.zeros(0, dtype=np.bool_)
     begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
     return np.asarray((begun | (area < 1.0 - SEEN)).any("rung").values)
 
 
 def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
-    """Return the comparison without the rungs that are not of the surface itself."""
-    return comparison.isel(rung=[str(group) not in ASIDE for group in comparison.group.values])
+    """Return the comparison without the rungs of other surfaces, unless it has no others."""
+    own = [str(group) not in ASIDE for group in comparison.group.values]
+    return comparison.isel(rung=own) if any(own) else comparison
 
 
 MARKERS = "osD^v"

@@ -6,9 +6,12 @@ once.
 
 from __future__ import annotations
 
-from typing import Annotated
+import shlex
+import sys
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
 from gripscale.cli.cut_off import cut_off
@@ -19,15 +22,27 @@ from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.run import PASS_ON, report, reproduce, run
 from gripscale.cli.run import app as app_command
 from gripscale.cli.sensitivity import sensitivity
-from gripscale.core.provenance import version_of
+from gripscale.core.provenance import COMMAND, version_of
 
 EPILOGUE = (
     "To start: `gripscale init FOLDER` writes an example, `gripscale keys` lists what a case may "
     "say. The documentation is in docs of the source, `make docs` builds its pages."
 )
 
+
+
+class Commands(TyperGroup):
+    """The commands, which results are to name as they were typed."""
+
+    def main(self, args: Any = None, *rest: Any, **options: Any) -> Any:
+        """Note the words of the command and run it."""
+        COMMAND.set(shlex.join(["gripscale", *(sys.argv[1:] if args is None else args)]))
+        return super().main(args, *rest, **options)
+
+
 app = typer.Typer(
     name="gripscale",
+    cls=Commands,
     epilog=EPILOGUE,
     add_completion=False,
     pretty_exceptions_enable=False,

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import platform
+from contextvars import ContextVar
 from functools import lru_cache
 from importlib import metadata
 from pathlib import Path
 
 from gripscale import _kernel
+
+COMMAND: ContextVar[str] = ContextVar("command", default="")
+"""The command that makes a result, as it was typed; empty in Python."""
 
 
 def versions() -> dict[str, str]:

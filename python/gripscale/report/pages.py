@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shlex
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
@@ -174,7 +173,7 @@ def run_page(run: Run) -> Page:
             Section("comparison", "Models side by side", _comparison(run)),
             Section("verification", "Verification", _verification(run, tables)),
             method_section(),
-            rerun_section(run.attrs, shlex.join(["gripscale", "run", case or "case.toml"])),
+            rerun_section(run.attrs),
         ],
         run.direct,
     )
@@ -271,8 +270,8 @@ def method_section() -> Section:
     return Section("method", "Method", [Text(METHOD), *equations()])
 
 
-def rerun_section(attrs: dict[object, object], command: str) -> Section:
-    """Return versions, and the case file with the command that runs it."""
+def rerun_section(attrs: dict[object, object]) -> Section:
+    """Return versions, and the command that made the result with its case file."""
     names = sorted(str(name) for name in attrs if str(name).startswith("version_"))
     solved = [(name.removeprefix("version_"), str(attrs[name])) for name in names]
     solved += [("Key of the result", str(attrs[KEY]))] if KEY in attrs else []
@@ -285,7 +284,7 @@ def rerun_section(attrs: dict[object, object], command: str) -> Section:
                 f"Save the text below as {name}; the files it names are sought from its own "
                 "folder, and their checksums are among the inputs."
             ),
-            Code("command", "Command", command),
+            *([Code("command", "Command", str(attrs["command"]))] if "command" in attrs else []),
             Code("case", f"Case file {name}", str(attrs["case"])),
         ]
     return Section("again", "Software, and how to run it again", elements)
@@ -306,7 +305,7 @@ def study_page(source: Study) -> Page:
             Section("axes", "What was varied", axes),
             *_study_sections(source),
             method_section(),
-            rerun_section(data.attrs, study.command(data)),
+            rerun_section(data.attrs),
         ],
     )
 
@@ -364,7 +363,7 @@ def comparison_page(compared: Compared) -> Page:
         [*comparison.ladder_cards(compared.ladder), *uncertainty.uncertainty_cards(sampled)],
         [
             Section("comparison", "Models side by side", elements),
-            rerun_section(first.attrs, shlex.join(["gripscale", "compare", case])),
+            rerun_section(first.attrs),
         ],
         compared.ladder,
     )
@@ -406,7 +405,6 @@ def comparison_elements(compared: Compared) -> list[Element]:
 def roads_page(source: Study) -> Page:
     """Return the report of roads side by side."""
     data = source.data
-    case = case_name(data.attrs) or "case.toml"
     statistics, friction = map(image, road_pictures(data))
     sentences = [
         *side_by_side.roads_sentences(data),
@@ -424,9 +422,7 @@ def roads_page(source: Study) -> Page:
                 [Text(ROADS), *side_by_side.roads_tables(data), *map(Text, sentences), friction],
             ),
             Section("statistics", "The roads", [statistics]),
-            rerun_section(
-                data.attrs, f"gripscale compare-surfaces {data.attrs['surfaces']} --case {case}"
-            ),
+            rerun_section(data.attrs),
         ],
     )
 
@@ -440,7 +436,6 @@ def compounds_page(source: Study) -> Page:
     rubbers = inputs.rubbers_of(data)
     moduli = dict(zip(names, rubbers, strict=True)) if len(rubbers) == len(names) else {}
     elements += map(image, compound_pictures(data, moduli))
-    options = shlex.join(names)
     return _page(
         f"Compounds side by side: {', '.join(names)}",
         str(data.attrs.get("title", "")),
@@ -450,7 +445,7 @@ def compounds_page(source: Study) -> Page:
             Section("compounds", "Contact and friction", elements),
             *_study_sections(source),
             method_section(),
-            rerun_section(data.attrs, f"gripscale compare-rubbers {options} --case case.toml"),
+            rerun_section(data.attrs),
         ],
     )
 
@@ -466,9 +461,7 @@ def uncertainty_page(source: Study) -> Page:
         uncertainty.page_cards(data),
         [
             *uncertainty.page_sections(data),
-            rerun_section(
-                data.attrs, shlex.join(["gripscale", "uncertainty", case or "case.toml"])
-            ),
+            rerun_section(data.attrs),
         ],
         data,
     )
@@ -492,7 +485,7 @@ def calibration_page(source: Study) -> Page:
             Section("law", "The law", [Text(CALIBRATION), facts, *tables[1:]]),
             Section("points", "Point by point", [fit, residuals, tables[0]]),
             Section("profiles", "How well the data determine the law", [profiles]),
-            rerun_section(data.attrs, shlex.join(["gripscale", "calibrate", case or "case.toml"])),
+            rerun_section(data.attrs),
         ],
     )
 
@@ -512,9 +505,7 @@ def sensitivity_page(source: Study) -> Page:
                 "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
             ),
             Section("heights", "Which heights count", height_charts(data)),
-            rerun_section(
-                data.attrs, f"gripscale sensitivity {case_name(data.attrs) or 'case.toml'}"
-            ),
+            rerun_section(data.attrs),
         ],
     )
 
@@ -542,7 +533,7 @@ def cut_off_page(source: Study) -> Page:
         cut_off.cards(data),
         [
             Section("cut-off", "Against the cut-off", cut_off_elements(data)),
-            rerun_section(data.attrs, shlex.join(["gripscale", "cut-off", case])),
+            rerun_section(data.attrs),
         ],
     )
 
@@ -562,7 +553,7 @@ def design_page(source: Study) -> Page:
                 "curve", "Friction over rolling resistance", [*map(image, design_pictures(data))]
             ),
             Section("points", "Points of the curve", [each for each in tables if each is not None]),
-            rerun_section(data.attrs, shlex.join(["gripscale", "design", case or "case.toml"])),
+            rerun_section(data.attrs),
         ],
     )
     return replace(page, basis=[line.strip() for line in basis])

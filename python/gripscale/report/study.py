@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -13,8 +12,7 @@ import xarray as xr
 from gripscale.charts.page_elements import is_evidence, telling, words_of
 from gripscale.charts.view import CONVERGED, SYMBOLS, believed
 from gripscale.core.units import MILLI
-from gripscale.experiment.axis import COUNTS, axis_shown, dimensions, name_of, of_numbers, places
-from gripscale.experiment.inputs import NAMED_MODELS
+from gripscale.experiment.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, PER_DECADE
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
@@ -241,37 +239,3 @@ def failures(data: xr.Dataset) -> Iterator[Failure]:
                 yield Failure(f"{where}: NOT converged: {status or NONE}", word)
         if not states and any(math.isnan(float(row[name])) for name in totals):
             yield Failure(f"{where}: no total")
-
-
-def command(data: xr.Dataset) -> str:
-    """Return the command that makes a study of these axes."""
-    words = ["gripscale", "study", "case.toml"]
-    for name in dimensions(data):
-        unit = " K" if name == "temperature" else ""
-        texts = (
-            f"{value:.12g}{unit}" if isinstance(value, float) else f"{value or NONE}{unit}"
-            for value in _values(data, name)
-        )
-        words += ["--vary", f"{name}={_spacing(data, name) or ','.join(texts)}"]
-    model = str(data.attrs.get("model", ""))
-    return shlex.join([*words, *["--model", model] * (model in NAMED_MODELS)])
-
-
-def _values(data: xr.Dataset, name: str) -> Sequence[Any]:
-    """Return the coordinate of an axis, or its numbers where it has none."""
-    return list(data[name].values) if name in data.coords else list(range(1, data.sizes[name] + 1))
-
-
-def _spacing(data: xr.Dataset, name: str) -> str:
-    """Return evenly spaced values as `--vary` takes them, such as 0.01:10:log9; else nothing."""
-    values = _values(data, name)
-    if len(values) < 3 or not of_numbers(data, name) or name in COUNTS:
-        return ""
-    first, last = float(values[0]), float(values[-1])
-    unit = " K" if name == "temperature" else ""
-    for word, spaced in (("log", np.geomspace), ("lin", np.linspace)):
-        if word == "log" and not first > 0.0:
-            continue
-        if np.allclose(values, spaced(first, last, len(values)), rtol=1e-11, atol=0.0):
-            return f"{first:.12g}{unit}:{last:.12g}{unit}:{word}{len(values)}"
-    return ""

@@ -417,8 +417,10 @@ class Rubber(Checked, eq=False):
         kelvin = checks.positive("temperature", temperature, unit="K")
         if self.shift is None or self.reference_temperature is None:
             raise InputError(
-                "shift and reference_temperature must be those of the rubber for it to be had at "
-                f"{kelvin:g} K; got none with {self.name or 'this rubber'}"
+                f"{self.name or 'this rubber'} is known at one temperature, not at "
+                f"{kelvin - ZERO_CELSIUS:g} C: its time-temperature shift is missing; expected "
+                "sweeps at several temperatures, or a shift such as "
+                '{ kind = "wlf", c1 = 8.0, c2 = "120 K" } with its reference_temperature'
             )
         a = float(self.shift.a(kelvin, self.reference_temperature))
         b = float(self.shift.b(kelvin, self.reference_temperature))

@@ -108,7 +108,7 @@ def test_a_model_without_conditions_gets_the_rubber_at_the_temperature(tmp_path:
 
 def test_another_temperature_needs_a_shift(tmp_path: Path) -> None:
     plain = gs.Rubber(5e6, [3e6], [1e-3])
-    with pytest.raises(InputError, match="shift and reference_temperature"):
+    with pytest.raises(InputError, match="time-temperature shift is missing"):
         predictions_at(
             MEASURED,
             Chain(HalfPlane(points=64)),
