@@ -72,7 +72,7 @@ def test_nothing_is_overwritten(name: str, tmp_path: Path) -> None:
 
 
 def test_other_words_are_refused_in_one_sentence(shell: Shell, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="example must be one of road, synthetic, map"):
+    with pytest.raises(InputError, match="example must be one of road, synthetic, sweeps, map"):
         write_example(tmp_path, "tyre")
     (tmp_path / "file").write_text("")
     result = shell("init", tmp_path / "file" / "new")

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import signal
 import threading
 import time
 
+import numpy as np
 import pytest
+
+import gripscale as gs
+from gripscale.half_space.grid import Grid
+from gripscale.half_space.grid_sequence import GridSequence
+from gripscale.half_space.response import Response, half_space
 
 from .rough_cases import isotropic_map, solve
 
@@ -63,3 +70,33 @@ def test_a_keyboard_interrupt_is_heeded_at_once_and_leaves_nothing_behind():
     assert 0.0 <= late < LATE
     assert told[-1].points == 256  # what was told stays with the caller
     assert solve(isotropic_map(64), tolerance=None).converged
+
+
+def test_a_time_limit_keeps_the_last_grid_that_was_solved(monkeypatch):
+    """A clock that ticks with every product: the limit ends the third of four grids."""
+    surface, whole = isotropic_map(128), solve(isotropic_map(128), tolerance=None)
+    ticks = itertools.count()
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(ticks)))
+    limit = sum(grid.products for grid in whole.grids[:2]) + 5
+    ended = solve(surface, tolerance=None, time_limit=limit)
+    assert ended.status == "time limit"
+    assert not ended.converged
+    assert ended.grids == whole.grids[:2]
+    assert ended.pressure.shape == (64, 64)
+    with pytest.raises(gs.ConvergenceError, match="before its first grid was solved"):
+        solve(surface, tolerance=None, time_limit=1e-9)
+    with pytest.raises(gs.InputError, match="time_limit must be greater than zero"):
+        solve(surface, time_limit=0.0)
+
+
+def test_products_of_all_steps_towards_a_lossy_rubber_are_counted():
+    """Where the contact does not settle at once, the loss angle is raised in steps."""
+    body, grid = half_space(gs.rubber.styrene_butadiene(), 1.0), Grid((64,), (1e-3,))
+    height, start = 1e-4 * np.cos(2.0 * np.pi * np.arange(64) / 64), np.full(64, 1e4)
+    sequence = GridSequence(body, None, 1e4, 1, 60)
+    response = Response.of(body, grid, 1)
+    alone = sequence._contact(response, height, start)
+    stepped = sequence._through_losses(response, height, start, alone)
+    assert stepped.products > alone.products + 8
+    assert stepped.iterations >= alone.iterations + 8  # of each of the eight steps at least one
+    assert np.array_equal(stepped.active, alone.active)

@@ -11,9 +11,12 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
+
 from gripscale.case.folder import nearest_existing, write_bytes
 from gripscale.core import checks
 from gripscale.core.errors import FileError
+from gripscale.core.units import ZERO_CELSIUS
 
 
 def road_text() -> str:
@@ -25,6 +28,29 @@ def road_text() -> str:
     )
     rows = (f"{x * 1e3:.2f}\t{z * 1e3:.4f}" for x, z in zip(road.x, road.z, strict=True))
     return "\n".join(["x [mm]\tz [mm]", *rows]) + "\n"
+
+
+def sweeps_text() -> str:
+    """Return frequency sweeps [C, Hz, MPa] at 13 temperatures of an unfilled SBR, with 1 % of noise.
+
+    The moduli at 20 C are those of `styrene_butadiene`. They are shifted by the universal constants
+    of M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, for a glass
+    transition at -50 C: c1 = 17.44 and c2 = 51.6 K there are 7.4 and 121.6 K at 20 C.
+    """
+    from gripscale.rubber import WLF
+    from gripscale.rubber.named import springpot_modulus
+
+    shift, noise = WLF(c1=7.4, c2=121.6), np.random.default_rng(11)
+    frequency = np.geomspace(0.1, 50.0, 15)
+    rows = ["temperature [C]\tfrequency [Hz]\tE' [MPa]\tE'' [MPa]"]
+    for celsius in range(-40, 81, 10):
+        factor = shift.a(celsius + ZERO_CELSIUS, 20.0 + ZERO_CELSIUS)
+        for hertz, modulus in zip(
+            frequency, springpot_modulus(2.0 * np.pi * frequency * factor), strict=True
+        ):
+            parts = 1e-6 * np.array([modulus.real, modulus.imag]) * noise.normal(1.0, 0.01, 2)
+            rows.append(f"{celsius}\t{hertz:.4g}\t{parts[0]:.4g}\t{parts[1]:.4g}")
+    return "\n".join(rows) + "\n"
 
 
 CASE = "case.toml"
@@ -61,6 +87,10 @@ EXAMPLES: dict[str, Example] = {
     "synthetic": Example(
         "an unfilled rubber known by name on a made-up self-affine road",
         made=(("road.txt", road_text),),
+    ),
+    "sweeps": Example(
+        "an unfilled rubber in sweeps at 13 temperatures on a made-up road, both imitated",
+        made=(("road.txt", road_text), ("sweeps.csv", sweeps_text)),
     ),
     "map": Example(
         "an unfilled rubber known by name on a measured map of a ground surface",

@@ -30,7 +30,6 @@ EPILOGUE = (
 )
 
 
-
 class Commands(TyperGroup):
     """The commands, which results are to name as they were typed."""
 

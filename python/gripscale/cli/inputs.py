@@ -36,6 +36,7 @@ class Choice(StrEnum):
 
     road = "road"
     synthetic = "synthetic"
+    sweeps = "sweeps"
     map = "map"
 
 
@@ -46,7 +47,8 @@ def init(
         Choice,
         typer.Option(
             help="road: a measured road and a measured tread rubber; synthetic: a made-up road "
-            "and a named rubber; map: a measured map, which needs gripscale[formats] to be read."
+            "and a named rubber; sweeps: the same road with a rubber in sweeps at 13 temperatures; "
+            "map: a measured map, which needs gripscale[formats] to be read."
         ),
     ] = Choice.road,
 ) -> None:

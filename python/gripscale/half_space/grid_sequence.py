@@ -229,6 +229,8 @@ class GridSequence:
     solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
     on_iteration: OnIteration | None = None
+    deadline: float = math.inf
+    """When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s]."""
 
     def solve(self, level: Level, tolerance: float = TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before.
@@ -237,7 +239,7 @@ class GridSequence:
         """
         self.last = self.start.get(level.key, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
-        response = Response.of(self.body, level.grid, self.workers)
+        response = Response.of(self.body, level.grid, self.workers, self.deadline)
         following = response.full_contact(height, self.pressure)
         full = bool(following.min() >= 0.0)
         if full:
@@ -251,7 +253,7 @@ class GridSequence:
             )
             contact = self._contact(response, height, start, tolerance)
             if not contact.settled and np.iscomplex(response.compliance).any():
-                contact = self._through_losses(response, height, start)
+                contact = self._through_losses(response, height, start, contact)
         lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
         record = GridRecord(
             points=level.grid.shape[0],
@@ -276,12 +278,24 @@ class GridSequence:
         limit = self.most_iterations
         return solve_grid(response, height, start, limit, tolerance, self.on_iteration)
 
-    def _through_losses(self, response: Response, height: Array, start: Array) -> GridContact:
-        """Return the contact, reached by raising the loss angle of the rubber step by step."""
+    def _through_losses(
+        self, response: Response, height: Array, start: Array, contact: GridContact
+    ) -> GridContact:
+        """Return the contact, reached by raising the loss angle of the rubber step by step.
+
+        It counts the products and iterations of every step, and of `contact`, which did not settle.
+        """
         for loss in LOSSES:
-            body = replace(self.body, loss=loss)
-            part = response if loss == 1.0 else Response.of(body, response.grid, self.workers)
-            contact = self._contact(part, height, start)
+            part = response
+            if loss != 1.0:
+                body = replace(self.body, loss=loss)
+                part = Response.of(body, response.grid, self.workers, self.deadline)
+            step = self._contact(part, height, start)
+            contact = replace(
+                step,
+                iterations=contact.iterations + step.iterations,
+                products=contact.products + step.products,
+            )
             start = self._loaded(np.where(contact.active, contact.pressure, 0.0))
         return contact
 

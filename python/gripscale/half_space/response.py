@@ -14,6 +14,8 @@ is the rigid approach). A wavenumber along x that is its own opposite on the gri
 
 from __future__ import annotations
 
+import math
+import time
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -79,6 +81,10 @@ class HalfSpace:
         return compliance
 
 
+class OutOfTime(Exception):
+    """The time of a solution is over."""
+
+
 @dataclass(frozen=True)
 class Response:
     """Products with the response of the half-space on one grid, and with its inverse.
@@ -92,11 +98,14 @@ class Response:
     compliance: ComplexArray = field(repr=False)
     compliance_single: SingleComplex = field(repr=False)
     stiffness: SingleComplex = field(repr=False)
+    deadline: float = math.inf
+    """When, on the clock of `time.monotonic`, displacements raise `OutOfTime` [s]."""
 
     @classmethod
-    def of(cls, body: HalfSpace, grid: Grid, workers: int) -> Response:
+    def of(cls, body: HalfSpace, grid: Grid, workers: int, deadline: float = math.inf) -> Response:
         """Return the response of `body` on `grid`."""
-        return cls.with_compliance(body.compliance(grid), grid, workers)
+        made = cls.with_compliance(body.compliance(grid), grid, workers)
+        return replace(made, deadline=deadline)
 
     @classmethod
     def with_compliance(cls, compliance: ComplexArray, grid: Grid, workers: int) -> Response:
@@ -131,6 +140,8 @@ class Response:
 
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
+        if time.monotonic() > self.deadline:
+            raise OutOfTime
         if pressure.dtype != np.float32:
             return self._filtered(pressure, self.compliance)
         if self._line_displacement is not None:

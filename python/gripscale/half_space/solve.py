@@ -9,6 +9,7 @@ meet the tolerance.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -17,7 +18,7 @@ import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import worker_count
 from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
@@ -33,7 +34,7 @@ from gripscale.half_space.grid_sequence import (
     finer,
     levels,
 )
-from gripscale.half_space.response import check_magnitudes, half_space
+from gripscale.half_space.response import OutOfTime, check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
@@ -72,6 +73,7 @@ def solve_rough_contact(
     workers: int | None = None,
     most_points: int = 2**22,
     most_iterations: int = 60,
+    time_limit: float | None = None,
     on_grid: Callable[[GridRecord], None] | None = None,
     on_iteration: OnIteration | None = None,
     conditions: Conditions | None = None,
@@ -113,6 +115,9 @@ def solve_rough_contact(
         10 to 60, in very lossy rubber 240.
     most_iterations : int
         Active-set iterations allowed on each grid.
+    time_limit : float, optional
+        Time [s] after which the status is "time limit" and the numbers are those of the last grid
+        that was solved. Contacts of very lossy rubber take minutes.
     on_grid : callable, optional
         Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
         at the next return from compiled code; only these records remain of a stopped solution.
@@ -137,6 +142,8 @@ def solve_rough_contact(
     ------
     ExtrapolationError
         An `InputError`: the rubber would be extrapolated and `extrapolate` is "refuse".
+    ConvergenceError
+        If the time limit ends before any grid is solved.
     InputError
         If an argument is out of its range, the first full grid has more than `most_points`, a size
         is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
@@ -169,6 +176,9 @@ def solve_rough_contact(
         if hook is not None and not callable(hook):
             raise InputError(f"{name} must be a function or None; got {checks.short_repr(hook)}")
     first = {} if start is None else _known_level(start, heights)
+    deadline = math.inf
+    if time_limit is not None:
+        deadline = time.monotonic() + checks.positive("time_limit", time_limit, unit="s")
 
     def solve(
         by_scale: RubberByScale | None, earlier: KnownLevels, reach: float
@@ -181,21 +191,22 @@ def solve_rough_contact(
             iterations,
             earlier,
             on_iteration=on_iteration,
+            deadline=deadline,
         )
         return _solve_sequence(sequence, most, reach, on_grid)
 
     if not effects.iterated:
         contact = solve(None, first, goal).contact
         return replace(contact, conditions=conditions, status=_judged(contact, goal))
-    time = 0.0
+    heated = 0.0
     if effects.heat is not None and body.speed > 0.0:
         if footprint is None:
             raise InputError(
                 "footprint must be the length of the nominal contact [m] with heat; got none"
             )
-        time = checks.positive("footprint", footprint, unit="m") / body.speed
+        heated = checks.positive("footprint", footprint, unit="m") / body.speed
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
-    contact = solve_coupled_contact(whole, quick, rubber, effects, time)
+    contact = solve_coupled_contact(whole, quick, rubber, effects, heated)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
 
 
@@ -237,9 +248,18 @@ def _solve_sequence(
     ]
     plan = whole[-(1 if math.isinf(goal) else ERROR_GRIDS) :] or levels(heights)
     grids: list[GridRecord] = []
+    in_time = True
     while plan:
         level = plan.pop(0)
-        solved = sequence.solve(level, START_TOLERANCE if plan else TOLERANCE)
+        try:
+            solved = sequence.solve(level, START_TOLERANCE if plan else TOLERANCE)
+        except OutOfTime:
+            if not grids:
+                raise ConvergenceError(
+                    "the time limit ended the direct contact before its first grid was solved"
+                ) from None
+            in_time = False
+            break
         grids.append(solved.record)
         if on_grid is not None:
             on_grid(solved.record)
@@ -261,7 +281,7 @@ def _solve_sequence(
         friction_from_dissipation=record.friction_from_dissipation,
         contact_fraction_error=area_error,
         friction_error=friction_error,
-        status=_status(solved, grids, goal),
+        status=_status(solved, grids, goal) if in_time else Status.TIME_LIMIT,
         residuals={
             "pressure": contact.missing,
             "gap": float(violation.max() / rms) if rms > 0.0 else 0.0,
