@@ -31,7 +31,7 @@ def road_text() -> str:
 
 
 def sweeps_text() -> str:
-    """Return frequency sweeps [C, Hz, MPa] at 13 temperatures of an unfilled SBR, with 1 % of noise.
+    """Return sweeps [C, Hz, MPa] of an unfilled SBR at 13 temperatures, with 1 % of noise.
 
     The moduli at 20 C are those of `styrene_butadiene`. They are shifted by the universal constants
     of M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, for a glass

@@ -35,20 +35,19 @@ from gripscale.wave.result import harmonics
 #
 # between the neighbours a and b, with the difference to the polynomial through four points at the
 # middle of this interval and the two beside it: that of the coarser one, and no accident of a
-# change of sign. At a point the curves share it is nothing. Only points where it is at most
-# `TRUSTED` count, and between points further apart than `WIDEST` it counts as infinite: friction of
-# a series of one relaxation time a decade may ripple by the decade, which coarser points do not
-# show. So curves that are one are found to lie less than 1e-3 apart, however coarse their points.
+# change of sign. At a point the curves share it is nothing. Points count where it is at most 4e-4,
+# with six points in a power of ten: friction of a series of one relaxation time a decade may ripple
+# by the decade, which coarser points do not show. So curves that are one lie less than 1e-3 apart.
+# Where no point counts, those with e up to 1 % count, with two points in a power of ten. Curves with
+# such ripples that are one then lie up to 5.2 % apart: that is taken as the error.
 
 Curve = tuple[Array, Array]
 
-TRUSTED = 4e-4
-"""Relative error of the interpolation up to which two curves are compared."""
+PRECISE, ROUGH = (4e-4, 6, 0.0), (0.01, 2, 0.052)
+"""Largest e at which two curves are compared, points of a curve in a power of ten of its abscissa
+that this needs, and the least relative error of the interpolation."""
 NEAREST, FEWER = 6, 4
 """Points of the interpolation, and of the one that tells its error."""
-PER_DECADE = 6
-"""Points of a curve in a power of ten of its abscissa, at least, to be interpolated."""
-WIDEST = math.log(10.0) / PER_DECADE
 SAME = 1e-9
 """Difference of two logarithms that is rounding."""
 
@@ -76,15 +75,17 @@ def collapse(curves: Sequence[tuple[ArrayLike, ArrayLike]]) -> Collapse:
             logs = np.log(both[:, ((both > 0.0) & np.isfinite(both)).all(axis=0)])
         abscissas, values = logs[:, np.argsort(logs[0])]
         usable.append((abscissas, values))
-    pairs = [point for two in permutations(usable, 2) for point in _apart(*two)]
-    counted = [(distance, error) for distance, error in pairs if error <= TRUSTED]
-    if not counted:
-        return Collapse(math.nan, math.nan, 0, len(pairs))
-    distances, errors = zip(*counted, strict=True)
-    return Collapse(max(distances), max(errors), len(counted), len(pairs))
+    for trusted, per_decade, least in (PRECISE, ROUGH):
+        widest = math.log(10.0) / per_decade
+        pairs = [point for two in permutations(usable, 2) for point in _apart(*two, widest)]
+        counted = [(distance, error) for distance, error in pairs if error <= trusted]
+        if counted:
+            distances, errors = zip(*counted, strict=True)
+            return Collapse(max(distances), max(least, *errors), len(counted), len(pairs))
+    return Collapse(math.nan, math.nan, 0, len(pairs))
 
 
-def _apart(first: Curve, other: Curve) -> Iterator[tuple[float, float]]:
+def _apart(first: Curve, other: Curve, widest: float) -> Iterator[tuple[float, float]]:
     """Yield distance and error of the interpolation at the points of `first` along `other`."""
     (x, y), (nodes, values) = first, other
     inside = np.zeros(x.size, dtype=bool)
@@ -92,18 +93,18 @@ def _apart(first: Curve, other: Curve) -> Iterator[tuple[float, float]]:
         inside = (x >= nodes[0] - SAME) & (x <= nodes[-1] + SAME)
     for here, value in zip(x[inside], y[inside], strict=True):
         apart = abs(math.expm1(_interpolated(here, nodes, values, NEAREST) - value))
-        yield apart, math.expm1(_error(here, nodes, values))
+        yield apart, math.expm1(_error(here, nodes, values, widest))
 
 
-def _error(x: float, nodes: Array, values: Array) -> float:
-    """Return e(x); infinite where points are too few or too far apart to tell."""
+def _error(x: float, nodes: Array, values: Array, widest: float) -> float:
+    """Return e(x); infinite where points are too few, or neighbours further apart than `widest`."""
     if np.abs(nodes - x).min() <= SAME:
         return 0.0
     if nodes.size < NEAREST:
         return math.inf
     at = int(np.searchsorted(nodes, x)) - 1
     low, high = nodes[at : at + 2]
-    if high - low > WIDEST + SAME:
+    if high - low > widest + SAME:
         return math.inf
     middles = (nodes[1:] + nodes[:-1])[max(at - 1, 0) : at + 2] / 2.0
     apart = max(

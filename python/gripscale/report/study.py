@@ -13,7 +13,7 @@ from gripscale.charts.page_elements import is_evidence, telling, words_of
 from gripscale.charts.view import CONVERGED, SYMBOLS, believed
 from gripscale.core.units import MILLI
 from gripscale.experiment.axis import axis_shown, dimensions, name_of, of_numbers, places
-from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED, PER_DECADE
+from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
 from gripscale.report.notices import Failure, study_sentence
@@ -134,8 +134,8 @@ def _collapse(collapsed: xr.DataArray) -> str:
     distance = float(collapsed)
     if np.isnan(distance):
         return (
-            "cannot be compared: the temperatures do not overlap, or the speeds are less than "
-            f"{PER_DECADE} in a power of ten"
+            "cannot be compared: the temperatures do not overlap, or the speeds are too far apart "
+            "to interpolate"
         )
     attrs = collapsed.attrs
     reached = (
@@ -143,7 +143,7 @@ def _collapse(collapsed: xr.DataArray) -> str:
         f"{attrs['overlapping_points']} points that interpolation reaches to "
         f"{percent(float(attrs['interpolation_error']))}"
     )
-    if distance <= ONE_CURVE:
+    if distance <= max(ONE_CURVE, float(attrs["interpolation_error"])):
         return f"one curve, {reached}"
     return f"{reached}; one curve would be below {100.0 * ONE_CURVE:g} % but for errors of the mesh"
 
