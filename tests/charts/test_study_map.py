@@ -99,9 +99,7 @@ def test_both_are_among_the_figures_of_a_study(study: xr.Dataset, tmp_path: Path
     assert {path.stem for path in alone.glob("*.png")} == {"totals", "friction_master_curve"}
 
 
-def test_page_shows_celsius_and_the_curve_of_all_temperatures(
-    study: xr.Dataset, tmp_path: Path
-) -> None:
+def test_page_shows_celsius_and_one_curve(study: xr.Dataset, tmp_path: Path) -> None:
     page = write_report(netcdf.save(study, tmp_path / "study.nc")).read_text(encoding="utf-8")
     assert "40 °C lies beyond the temperatures that the shift" in page
     assert "friction over a_T v" in page

@@ -84,6 +84,24 @@ def test_errors_grow_where_sweeps_hardly_overlap():
     assert narrow.horizontal_error[0] > 2.0 * wide.horizontal_error[0]
 
 
+def test_sweeps_that_may_not_meet_have_a_bound_for_a_shift():
+    """With c1 = 7.4, c2 = 121.6 K sweeps of 2.7 decades at -50 and -40 C are 2.8 decades apart."""
+    law, celsius = WLF(7.4, 121.6, ROOM), [-50.0, -40.0, -30.0, -20.0, -10.0, 0.0, 10.0, 20.0]
+    kelvin = 273.15 + np.array(celsius)
+    rows = []
+    for at, shift in zip(kelvin, law.a(kelvin, ROOM), strict=True):
+        value = springpot_modulus(2 * np.pi * HERTZ * shift)
+        rows.append([np.full(HERTZ.size, at), HERTZ, value.real, value.imag])
+    master, report = superpose_report(Sweeps(*np.hstack(rows)), reference_temperature=ROOM)
+    table = master.shift
+    off = np.abs(table.log_a(kelvin, ROOM) - law.log_a(kelvin, ROOM))
+    assert off[0] > 0.3
+    assert off[0] < table.horizontal_error[0] < 3.0 * off[0]
+    assert off[1:].max() < 0.05
+    assert table.horizontal_error[1:].max() < 0.05
+    assert "or not at all" in report.summary()
+
+
 def test_reference_between_two_sweeps():
     sweeps = measured(TRANSITION, 0.0)
     at = 273.15 - 7.3

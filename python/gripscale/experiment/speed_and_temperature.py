@@ -38,8 +38,8 @@ from gripscale.wave.result import harmonics
 # change of sign. At a point the curves share it is nothing. Points count where it is at most 4e-4,
 # with six points in a power of ten: friction of a series of one relaxation time a decade may ripple
 # by the decade, which coarser points do not show. So curves that are one lie less than 1e-3 apart.
-# Where no point counts, those with e up to 1 % count, with two points in a power of ten. Curves with
-# such ripples that are one then lie up to 5.2 % apart: that is taken as the error.
+# Where no point counts, those with e up to 1 % count, with two points in a power of ten. Curves
+# with such ripples that are one then lie up to 5.2 % apart: that is taken as the error.
 
 Curve = tuple[Array, Array]
 

@@ -9,7 +9,9 @@ Huber, Ann. Math. Stat. 35 (1964) 73, doi:10.1214/aoms/1177703732).
 
 The covariance of s and v is that of the least squares, times (1 + r)/(1 - r) where r is the
 correlation of neighbouring residuals: where a sweep as a whole does not follow the curve, its rows
-are no independent evidence.
+are no independent evidence. Neighbours are never taken farther apart than where they still overlap
+a little. A step at this limit is a bound, of sweeps that perhaps do not meet at all: its error is a
+decade.
 
 Smooth curves through scattered points are cubic B-splines with penalised second differences (P. H.
 C. Eilers & B. D. Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655). The weight of the
@@ -139,6 +141,8 @@ def rows_of(sweeps: Sweeps, moduli: str) -> Rows:
     return Rows(x, y, np.repeat(np.arange(len(counts)), counts), lifts)
 
 
+_AT = 1e-9
+"""Distance from a limit that is rounding [decades]."""
 _SPACING = 0.5
 """Of the knots [decades]."""
 _MOST_ITERATIONS = 60
@@ -149,12 +153,17 @@ _LARGEST_STEP = 0.3
 _CONVERGED = 1e-4
 _FAR = 2.0
 """Standard deviations from which a row counts less."""
-_LEAST_SCATTER = 1e-5
+_LEAST_SCATTER = 2e-3
+"""Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a pair
+that does not meet moved sweeps of exact moduli by decades."""
 _MOST_CORRELATED = 0.9
 _LIFT = 0.02
 """How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""
 _LEAST_SHARE = 0.1
 """Least overlap of neighbours, over the shorter of them."""
+_BOUND_ERROR = 1.0
+"""Standard error of a step that is a bound [decades]: sweeps of 2.7 decades with a true step of 2.8
+were taken 0.4 decades too near."""
 _SOFT = 1e-6
 """Weight that keeps a shift no row determines from being infinite: its error is 1000 decades."""
 
@@ -201,6 +210,12 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     r = min(max(r, 0.0), _MOST_CORRELATED)
     covariance = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
     covariance[np.ix_(free, free)] = last.covariance * (1.0 + r) / (1.0 - r)
+    log_a = shifts[: rows.sweeps]
+    low, high = _step_limits(rows)
+    for colder in np.flatnonzero((-np.diff(log_a) <= low + _AT) | (-np.diff(log_a) >= high - _AT)):
+        # all sweeps beyond the step, seen from the middle one
+        beyond = others[(others <= colder) if colder < held else (others > colder)]
+        covariance[np.ix_(beyond, beyond)] += _BOUND_ERROR**2
     middle = np.median(scatter, axis=1)
     return Joint(shifts[: rows.sweeps], shifts[rows.sweeps :], covariance, middle, r)
 
@@ -258,13 +273,19 @@ def _gauss_newton_step(
     return _Step(inverse @ right, inverse, np.array(residuals), freedoms, weight)
 
 
-def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
-    """Return the shifts, no neighbours farther apart than where they hardly overlap."""
+def _step_limits(rows: Rows) -> tuple[Array, Array]:
+    """Return the limits of log_a of the colder less that of the warmer, by pair of neighbours.
+
+    Neither may begin where the other ends.
+    """
     ends = np.array([rows.of(sweep)[0][[0, -1]] for sweep in range(rows.sweeps)])
     least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
-    # Of the colder less the warmer: neither may begin where the other ends.
-    low = ends[1:, 0] - ends[:-1, 1] + least
-    high = ends[1:, 1] - ends[:-1, 0] - least
+    return ends[1:, 0] - ends[:-1, 1] + least, ends[1:, 1] - ends[:-1, 0] - least
+
+
+def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
+    """Return the shifts, no neighbours farther apart than where they hardly overlap."""
+    low, high = _step_limits(rows)
     total = np.append(np.cumsum(np.clip(-np.diff(log_a), low, high)[::-1])[::-1], 0.0)
     return np.asarray(total - total[held])
 

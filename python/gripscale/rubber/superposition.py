@@ -218,7 +218,10 @@ def superposition_warnings(overlaps: tuple[Overlap, ...], shift: Shift) -> Itera
     """Yield what is doubtful about how sweeps meet, a sentence each."""
     little = [str(pair) for pair in overlaps if pair.decades < _LITTLE]
     if little:
-        yield f"neighbours hardly overlap, so that their shift is uncertain: {'; '.join(little)}"
+        yield (
+            f"neighbours hardly overlap, or not at all, so that their shift may be a bound: "
+            f"{'; '.join(little)}"
+        )
     for name, words in (("storage", "E'"), ("loss", "E''")):
         apart = [pair for pair in overlaps if getattr(pair, name) > _MISFIT]
         if apart:
