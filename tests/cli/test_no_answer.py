@@ -111,7 +111,7 @@ def test_what_cannot_be_solved_is_an_error_before_all_else(shell: Shell, case: P
     replaced(case, 'footprint = "100 mm"', 'footprint = "100 mm"\nstatic = true')
     result = shell("run", case)
     assert (result.exit_code, result.stdout) == (2, "")
-    assert "at rest the rubber is a melt, which the pressure squeezes flat" in result.stderr
+    assert "the pressure squeezes the rubber, a melt at rest, flat" in result.stderr
     assert "must be at least 1/10 of the pressure, 3e+04; got" in result.stderr
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import random
+import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -68,3 +70,23 @@ def test_a_result_changed_on_purpose(path: Path) -> None:
     found = netcdf.load(path)
     assert found.title.endswith("by hand")
     assert found.friction[0] == 7.0
+
+
+def test_a_full_disk_is_a_sentence_whatever_the_library_raises(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """HDF5 raises a RuntimeError, Matplotlib an AttributeError; what was there stays whole."""
+    path = netcdf.save(xr.Dataset({"a": 1.0}), tmp_path / "a.nc")
+    before = path.read_bytes()
+
+    def write(temporary: Path) -> None:
+        temporary.write_bytes(b"half")
+        raise RuntimeError("NetCDF: HDF error")
+
+    with pytest.raises(RuntimeError, match="HDF error"):  # no full disk: a defect to be seen
+        netcdf.write_whole(path, write)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=0))
+    with pytest.raises(FileError, match=r"a\.nc cannot be written: the disk is full"):
+        netcdf.write_whole(path, write)
+    assert path.read_bytes() == before
+    assert [file.name for file in tmp_path.iterdir()] == ["a.nc"]

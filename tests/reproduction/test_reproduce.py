@@ -126,3 +126,4 @@ def test_the_wheel_alone_says_where_the_reproduction_is(
     done = shell("fig2")
     assert done.exit_code == 2
     assert re.fullmatch(r"error: .* in the source of gripscale, .*\n", done.stderr)
+    assert shell("--help").exit_code == 0

@@ -287,7 +287,11 @@ PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_optio
 def reproduce(context: typer.Context) -> None:
     """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
     root = Path(__file__).resolve().parents[3]
-    if not (root / "reproduction" / "__main__.py").is_file():
+    clone = (root / "reproduction" / "__main__.py").is_file()
+    if not clone and "--help" in context.args:
+        typer.echo(context.get_help())
+        return
+    if not clone:
         raise FileError(
             "the reproduction is in the source of gripscale, not in the package: "
             "run `python -m reproduction` in a clone of it"

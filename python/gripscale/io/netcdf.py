@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -113,6 +114,10 @@ def _reading(path: str | Path) -> Iterator[Path]:
         raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
 
 
+_FULL = 2**16
+"""Free bytes below which a disk counts as full: a file system keeps some for itself."""
+
+
 def write_whole(path: str | Path, write: Callable[[Path], object]) -> Path:
     """Let `write` fill a temporary neighbour of `path`, then rename it into place.
 
@@ -125,8 +130,12 @@ def write_whole(path: str | Path, write: Callable[[Path], object]) -> Path:
             raise IsADirectoryError(21, "it is a folder")
         write(temporary)
         temporary.replace(path)
-    except OSError as error:
-        reason = error.strerror or str(error)
+    except Exception as error:
+        # libraries turn a full disk into errors of their own
+        full = path.parent.is_dir() and shutil.disk_usage(path.parent).free < _FULL
+        if not full and not isinstance(error, OSError):
+            raise
+        reason = "the disk is full" if full else getattr(error, "strerror", None) or str(error)
         raise FileError(f"{path} cannot be written: {reason}") from error
     finally:
         temporary.unlink(missing_ok=True)

@@ -154,8 +154,8 @@ _CONVERGED = 1e-4
 _FAR = 2.0
 """Standard deviations from which a row counts less."""
 _LEAST_SCATTER = 2e-3
-"""Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a pair
-that does not meet moved sweeps of exact moduli by decades."""
+"""Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a
+pair that does not meet moved sweeps of exact moduli by decades."""
 _MOST_CORRELATED = 0.9
 _LIFT = 0.02
 """How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""

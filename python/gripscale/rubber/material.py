@@ -537,10 +537,10 @@ def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> N
         return
     name, what, instead = f"the relaxation modulus after {load_time:.3g} s", "the rubber", ""
     if math.isinf(load_time):
-        name, what = "equilibrium_modulus", "at rest the rubber is a melt, which"
+        name, what = "equilibrium_modulus", "the rubber, a melt at rest,"
         instead = "; leave out the static contact, in a case by a speed and static = false"
     raise InputError(
-        f"no contact to be solved: {what} the pressure squeezes flat. {name} [Pa] must be at least "
+        f"the pressure squeezes {what} flat: {name} [Pa] must be at least "
         f"1/{MOST_PRESSURE:g} of the pressure, {pressure / MOST_PRESSURE:.3g}; "
         f"got {modulus:.3g}{instead}"
     )
