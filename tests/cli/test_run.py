@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-from gripscale.case.folder import AT_TIMES, RESULTS
+from gripscale.case.folder import AT_TIMES, NOTE, RESULTS
 from gripscale.charts import write
 from gripscale.cli import app
 from gripscale.io import netcdf
@@ -167,8 +168,41 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
-    written = {"case.toml", "dynamic.nc", "direct.nc", "report.txt", "road.txt", "dma.txt"}
+    written = {"case.toml", "dynamic.nc", "direct.nc", "report.txt", "road.txt", "dma.txt", NOTE}
     assert left == written | {"notes.txt", "mine.png"}
+
+
+def test_a_finished_run_is_shown_again_and_not_made_again(
+    shell: Shell, inputs: Path, tmp_path: Path
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text((inputs / "case.toml").read_text())
+    for path in inputs.iterdir():
+        if path.is_file() and path.name != case.name:
+            shutil.copy(path, tmp_path)
+    figure = tmp_path / "results" / "figures" / "profile.png"
+
+    def drawn(*options: str) -> bool:
+        """Run the case; return whether its figures were drawn."""
+        before = figure.stat().st_mtime_ns if figure.is_file() else 0
+        result = shell("run", case, *options)
+        assert result.exit_code == 0, result.output
+        assert "Answer" in result.stdout
+        new = figure.stat().st_mtime_ns != before
+        assert ("nothing was solved again" in " ".join(result.stdout.split())) != new
+        return new
+
+    assert drawn()
+    assert not drawn()
+    assert drawn("--fresh")
+    assert not drawn()
+    figure.unlink()
+    assert drawn()
+    case.write_text(case.read_text() + "# a remark\n")
+    assert drawn()
+    (tmp_path / "results" / "uncertainty").mkdir()
+    (tmp_path / "results" / "uncertainty" / "uncertainty.nc").write_text("none")
+    assert drawn()
 
 
 def test_waves_by_hand_and_a_named_rubber_need_no_files(

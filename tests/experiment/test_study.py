@@ -17,7 +17,7 @@ import gripscale as gs
 from gripscale.case import read_case
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.provenance import fingerprint
+from gripscale.core.provenance import FACES, fingerprint
 from gripscale.core.units import display_unit_of
 from gripscale.experiment import Progress, Study, Task, task
 from gripscale.experiment import study as study_module
@@ -232,11 +232,12 @@ def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_p
     (home / module).parent.mkdir(parents=True)
     (home / module).write_text("number = 1\n")
     kernel.write_bytes(b"compiled")
-    before = fingerprint(home, kernel)
+    before, whole = fingerprint(home, kernel, FACES), fingerprint(home, kernel)
     (home / module).write_text("number = 2\n")
-    assert (fingerprint(home, kernel) != before) == counts
+    assert (fingerprint(home, kernel, FACES) != before) == counts
+    assert fingerprint(home, kernel) != whole
     kernel.write_bytes(b"compiled anew")
-    assert fingerprint(home, kernel) != before
+    assert fingerprint(home, kernel, FACES) != before
 
 
 def test_study_found_whole_is_not_prepared_again(

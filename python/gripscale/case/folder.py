@@ -117,7 +117,10 @@ BLOCKS = ("blocks_dynamic", "blocks_static")
 FIGURES = ("profile", "correlation", "master_curve", "contact_and_friction", *BLOCKS)
 AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
+NOTE = ".finished.json"
+"""What a finished run was made from, see `gripscale.case.finished`."""
 RESULTS = (
+    NOTE,
     "dynamic.nc",
     "static.nc",
     "direct.nc",

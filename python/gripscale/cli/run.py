@@ -7,6 +7,7 @@ import shlex
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
+from datetime import datetime
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 REPORT, REPORT_WIDTH = "report.txt", 110
 """The text a run leaves, and the characters of its lines."""
+CLOSING = "Results, report and figures are in"
 
 
 class ProgressFormat(StrEnum):
@@ -59,6 +61,8 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
+    if progress == ProgressFormat.TEXT and not fresh and _print_finished(case, output):
+        return
     with _json_events(progress) as emit:
         _run(terminal.screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
 
@@ -80,6 +84,28 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     emit(RunFinished())
 
 
+def _print_finished(case: Path, output: Path | None) -> bool:
+    """Print the report of a run that is finished; return whether it is."""
+    from gripscale.case.finished import is_finished
+    from gripscale.case.read import read_case
+
+    file = read_case(case)
+    target = output if output is not None else file.resolve(file.case.output.folder)
+    if not is_finished(file, target, _shown_too(target)):
+        return False
+    report, console = target / REPORT, terminal.screen()
+    date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
+    typer.echo(report.read_text(encoding="utf-8"))
+    words = f"Finished {date}; case, files and software are the same, so that nothing was solved "
+    terminal.print_wrapped(console, f"{words}again (--fresh does). {CLOSING} {target}")
+    return True
+
+
+def _shown_too(target: Path) -> tuple[Path, ...]:
+    """Return the files of other commands that a run shows."""
+    return (target / "uncertainty" / "uncertainty.nc",)
+
+
 def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh: bool) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
     from gripscale.analysis.comparison import FILE as DIRECT
@@ -90,6 +116,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import folder, prepare_case, read_case, record, run_case
     from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
+    from gripscale.case.finished import note_finished
     from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
@@ -156,7 +183,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
             target,
             parts,
             text=REPORT,
-            closing="Results, report and figures are in",
+            closing=CLOSING,
             opening=opening,
             width=REPORT_WIDTH,
             draw=draw_conditions,
@@ -174,6 +201,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
         terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
+    note_finished(file, target, _shown_too(target))
 
 
 def _inputs(results: CaseResults) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import platform
+from collections.abc import Collection
 from contextvars import ContextVar
 from functools import lru_cache
 from importlib import metadata
@@ -43,16 +44,21 @@ FACES = ("app", "charts", "cli", "report")
 def software() -> str:
     """Return version and fingerprint of the compiled kernel and the numeric modules."""
     home = Path(__file__).parents[1]
-    digest = fingerprint(home, Path(str(_kernel.__file__)))
+    digest = fingerprint(home, Path(str(_kernel.__file__)), FACES)
     return f"gripscale {version_of('gripscale')} {digest[:16]}"
 
 
-def fingerprint(home: Path, kernel: Path) -> str:
-    """Return a hash of the package at `home`, without the faces, and of the `kernel`."""
+def whole_package() -> str:
+    """Return the fingerprint of the compiled kernel and all modules, the faces included."""
+    return fingerprint(Path(__file__).parents[1], Path(str(_kernel.__file__)))
+
+
+def fingerprint(home: Path, kernel: Path, without: Collection[str] = ()) -> str:
+    """Return a hash of the package at `home`, `without` some rooms, and of the `kernel`."""
     digest = hashlib.sha256(kernel.read_bytes())
     for path in sorted(home.rglob("*.py")):
         name = path.relative_to(home)
-        if name.parts[0] not in FACES:
+        if name.parts[0] not in without:
             digest.update(f"{name.as_posix()} {path.stat().st_size}\n".encode())
             digest.update(path.read_bytes())
     return digest.hexdigest()
