@@ -19,15 +19,7 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
     written = {
         str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
     }
-    figures = {
-        "totals",
-        *(
-            f"{name}_{end}"
-            for end in ("1_bar", "3_bar")
-            for name in ("wavelength", "stacked", "shares", "decades")
-        ),
-    }
-    files = {f"figures/{name}.{kind}" for name in figures for kind in ("png", "pdf")}
+    files = {f"figures/totals.{kind}" for kind in ("png", "pdf")}
     assert written == files | {"case.toml", "study.nc", "study.txt"}
     for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
         assert words in result.stdout
@@ -45,7 +37,16 @@ def test_names_are_drawn_as_points(shell: Shell, case: Path, tmp_path: Path) -> 
     )
     assert result.exit_code == 0, result.output
     names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
-    assert names == {"totals", "wavelength_3_3", "wavelength_4_4"}
+    assert names == {"totals", "wavelength"}
+
+
+def test_over_one_axis_of_numbers_every_wave_is_drawn(
+    shell: Shell, case: Path, tmp_path: Path
+) -> None:
+    vary = ("--vary", "speed=0.01:1:log3")
+    assert shell("study", case, *vary, "--output", tmp_path).exit_code == 0
+    names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert names == {"totals", "wavelength", "stacked", "decades"}
 
 
 def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_path: Path) -> None:

@@ -102,8 +102,10 @@ def _curves(
     if thinned and len(points) > MOST_CURVES:
         chosen = np.linspace(0, len(points) - 1, MOST_CURVES).round().astype(int)
         points = [points[i] for i in chosen]
-    ordered = len(over) == 1 and over[0] in numeric(data)
-    for point, colour in zip(points, style.colours(len(points), ordered=ordered), strict=True):
+    colours = style.colours(len(points), ordered=len(over) == 1 and over[0] in numeric(data))
+    if over == ["temperature"]:
+        colours = style.shades(len(points), "Plasma")
+    for point, colour in zip(points, colours, strict=True):
         at = dict(zip(over, point, strict=True))
         names = [
             name_of(data, name, i) if name in data.coords else f"{name.replace('_', ' ')} {i + 1}"
@@ -240,8 +242,8 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
         marks.append(Series(x, y, colour, label or words_of(data, name), marker="o", size=3.0,
                             beyond=beyond, listed=i % every == 0))  # fmt: skip
     area = "fraction" in name
-    running = ", running" * name.startswith("running")
-    label = f"relative contact area{running} [-]" if area else f"friction coefficient{running} [-]"
+    down = " down to each wave" if name.startswith("running") else " of each wave"
+    label = f"{AREA if area else 'friction coefficient'}{down} [-]"
     return Panel(
         chart.wavelength_axis(lengths.values),
         Axis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
@@ -253,29 +255,20 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     )
 
 
-def wavelength_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
+def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     """Draw running contact area and running friction against wavelength over one axis.
 
     Dashed is what rests on the rubber beyond its measured band.
     """
     assert axis in result.dims
     panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
-    return draw.on_paper(Sheet(panels, legend="beside", title=title))
+    return draw.on_paper(Sheet(panels, legend="beside"))
 
 
 HEIGHT = 3.4
+AREA = "real contact area $A_r/A_0$"
 LEAST_SHARE = 0.005
 """Decades of relaxation time that never reach this share of the friction are not drawn."""
-
-
-def pieces(result: xr.Dataset, keep: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield name and Dataset over `keep` alone, for each value of the other axis."""
-    others = [name for name in dimensions(result) if name != keep]
-    if not others:
-        yield "", result
-        return
-    for i in range(result.sizes[others[0]]):
-        yield name_of(result, others[0], i), result.isel({others[0]: i})
 
 
 def wavelength_names(result: xr.Dataset) -> list[str]:
@@ -290,64 +283,33 @@ def wavelength_names(result: xr.Dataset) -> list[str]:
     return names
 
 
-def stacked_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
-    """Draw friction as the sum, and contact area as the product, of its waves over one axis.
+def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
+    """Draw friction as the sum of its waves, and contact area down to each of them, over one axis.
 
-    Each band of friction is the friction coefficient of a wave; each band of area is the part of
-    the contact a wave takes away, the lowest line what is left after all of them. Waves beyond the
-    measured band of the rubber are hatched.
-    """
-    x, beyond = varied_axis(result, axis)[1], _waves_beyond(result, axis)
-    friction = result.friction.transpose("scale", axis).values
-    running = result.running_contact_fraction.transpose("scale", axis).values
-    upper = [np.ones_like(x)]
-    for row in running:
-        upper.append(np.where(np.isnan(row), upper[-1], row))
-    total = Series(
-        x, result.total_friction, INK, width=1.2, beyond=style.predictions_beyond(result)
-    )
-    area = Series(x, upper[-1], INK, width=1.2, beyond=beyond.any(axis=0))
-    panels = [
-        Panel(
-            varied_axis(result, axis)[0],
-            Axis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
-            [*_wave_bands(result, x, *_stack(friction), beyond), total],
-        ),
-        Panel(
-            varied_axis(result, axis)[0],
-            Axis("relative contact area after each wave [-]", log=True, high=1.0,
-                 low=0.7 * float(np.nanmin(running))),
-            [*_wave_bands(result, x, running, np.array(upper[:-1]), beyond), area],
-        ),
-    ]  # fmt: skip
-    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
-                          title=title))  # fmt: skip
-
-
-def shares_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
-    """Draw the share of each wave in the friction over one axis, and its friction alone.
-
-    Waves beyond the measured band of the rubber are hatched, and dashed.
+    Each band of friction is the friction coefficient of a wave. Waves beyond the measured band of
+    the rubber are hatched, and dashed.
     """
     abscissa, x = varied_axis(result, axis)
     beyond = _waves_beyond(result, axis)
     friction = result.friction.transpose("scale", axis).values
-    shares = _stack(friction / result.total_friction.values)
-    looks = zip(friction, style.shades(len(friction)), beyond, strict=True)
+    running = result.running_contact_fraction.transpose("scale", axis).values
+    looks = zip(running, style.shades(len(running)), beyond, strict=True)
+    total = Series(
+        x, result.total_friction, INK, width=1.2, beyond=style.predictions_beyond(result)
+    )
     panels = [
         Panel(
             abscissa,
-            Axis("share of each wave in $\\mu$ [-]", low=0.0, high=1.0),
-            _wave_bands(result, x, *shares, beyond),
+            Axis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
+            [*_wave_bands(result, x, *_stack(friction), beyond), total],
         ),
         Panel(
             abscissa,
-            Axis("friction coefficient of each wave $\\mu_i$ [-]", low=0.0),
+            Axis(f"{AREA} down to each wave [-]", log=True, high=1.0),
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
-    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength",
-                          title=title))  # fmt: skip
+    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength"))
 
 
 def _waves_beyond(result: xr.Dataset, axis: str) -> Flags:
@@ -373,7 +335,7 @@ def _wave_bands(result: xr.Dataset, x: Array, low: Array, high: Array, beyond: F
     return bands[::-1]
 
 
-def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
+def decades_figure(result: xr.Dataset, axis: str) -> Figure:
     """Draw the share of each decade of relaxation time in the friction over one axis.
 
     The split is that of small strain (see
@@ -392,11 +354,7 @@ def decades_figure(result: xr.Dataset, axis: str, title: str = "") -> Figure:
                    beyond=style.predictions_beyond(result))  # fmt: skip
     ordinate = Axis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
     panel = Panel(abscissa, ordinate, [*marks[::-1], total])
-    look: dict[str, Any] = {
-        "legend": "beside",
-        "legend_title": "relaxation\ntime from [s]",
-        "title": title,
-    }
+    look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
     return draw.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
 
 
@@ -455,11 +413,38 @@ def map_figure(result: xr.Dataset) -> Figure:
         Panel(
             replace(abscissa, grid=False),
             replace(ordinate, grid=False),
-            [chart.ValueMap(speeds, celsius, result[name].values, TITLES[name], levels=9), *points],
+            [
+                chart.ValueMap(
+                    *_finer(abscissa.log, speeds, celsius, result[name].values),
+                    TITLES[name],
+                    levels=9,
+                ),
+                *points,
+            ],
         )
         for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES))
     ]
     return draw.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
+
+
+FINE = 120
+"""Points along each side of a map between those that were solved."""
+
+
+def _finer(log: bool, x: Array, y: Array, values: Array) -> tuple[Array, Array, Array]:
+    """Return a map at more points, without new extremes; as it is where points are missing or few.
+
+    Monotone cubics along one side, then the other: F. N. Fritsch & J. Butland, SIAM J. Sci. Stat.
+    Comput. 5 (1984) 300, doi:10.1137/0905021.
+    """
+    if min(values.shape) < 2 or not np.isfinite(values).all():
+        return x, y, values
+    from scipy.interpolate import PchipInterpolator
+
+    along = np.log(x) if log else x
+    fine_x, fine_y = (np.linspace(ends[0], ends[-1], FINE) for ends in (along, y))
+    across = PchipInterpolator(along, values, axis=1)(fine_x)
+    return np.exp(fine_x) if log else fine_x, fine_y, PchipInterpolator(y, across)(fine_y)
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:

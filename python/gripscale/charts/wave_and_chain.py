@@ -35,7 +35,7 @@ Views = Sequence[PredictionView]
 
 
 def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
-    """Draw relative contact area and friction of each named prediction, such as dynamic and static.
+    """Draw real contact area and friction of each named prediction, such as dynamic and static.
 
     Filled symbols are the running values, open symbols and thin lines those of each wave; a model
     without waves is a level line at its total. Friction leaves out what is at rest, which has none;
@@ -90,7 +90,7 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
 def _total_panel(views: Views, name: str) -> Panel:
     """Return the panel of the contact fraction or the friction, of and down to each wave."""
     if name == "contact_fraction":
-        words, sum_of, title = "relative contact area", "A_r/A_0", "contact-area"
+        words, sum_of, title = "real contact area $A_r/A_0$", "A_r/A_0", "contact-area"
         axis = Axis(f"{words} [-]", log=True, high=1.15)
     else:
         words, sum_of, title = HEADINGS[name], "sum", name

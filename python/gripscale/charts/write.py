@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,9 +27,6 @@ if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
     from gripscale.case.results import CaseResults
     from gripscale.surface import Surface
-
-MOST_PIECES = 8
-"""Values of a second axis of a study up to which each gets figures of its own."""
 
 
 def draw(pictures: Iterable[Picture], folder: Path) -> list[Path]:
@@ -109,25 +105,24 @@ def draw_effects(results: Sequence[xr.Dataset], folder: Path) -> None:
 
 
 def draw_study(result: xr.Dataset, folder: Path) -> None:
-    """Draw totals, and for each value of the second axis what the waves do along the first."""
+    """Draw totals and, over a single axis, what the waves do; over two axes the page does."""
     save_figure(study.totals_figure(result), folder, "totals")
     if REDUCED_SPEED in result.coords and np.isfinite(result.total_friction.values).any():
         save_figure(study.friction_master_figure(result), folder, "friction_master_curve")
         if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
             save_figure(study.map_figure(result), folder, "map")
-    numbers = numeric(result)
-    axis = (numbers or dimensions(result))[0]
-    for title, piece in list(study.pieces(result, axis))[:MOST_PIECES]:
-        end = f"_{re.sub(r'[^A-Za-z0-9.]+', '_', title)}" if title else ""
-        if "wavelength" not in piece or not (piece.prediction_status == "converged").any():
-            continue
-        save_figure(study.wavelength_figure(piece, axis, title), folder, f"wavelength{end}")
-        if not numbers:
-            continue
-        save_figure(study.stacked_figure(piece, axis, title), folder, f"stacked{end}")
-        save_figure(study.shares_figure(piece, axis, title), folder, f"shares{end}")
-        if "friction_by_decade" in piece:
-            save_figure(study.decades_figure(piece, axis, title), folder, f"decades{end}")
+    several = [name for name in dimensions(result) if result.sizes[name] > 1]
+    if len(several) != 1 or "wavelength" not in result:
+        return
+    axis = several[0]
+    result = result.isel({name: 0 for name in dimensions(result) if name != axis})
+    if not (result.prediction_status == "converged").any():
+        return
+    save_figure(study.wavelength_figure(result, axis), folder, "wavelength")
+    if axis in numeric(result):
+        save_figure(study.stacked_figure(result, axis), folder, "stacked")
+        if "friction_by_decade" in result:
+            save_figure(study.decades_figure(result, axis), folder, "decades")
 
 
 def draw_comparison(data: xr.Dataset, folder: Path) -> None:
