@@ -96,8 +96,9 @@ def refuse_unfit(measured: MeasuredFriction, kind: str, fixed: Mapping[str, floa
     A missing temperature, which a case may know, counts as one that was measured.
     """
     kelvin = measured.temperature
-    known = kelvin[~np.isnan(kelvin)]
-    kelvin = np.where(np.isnan(kelvin), known.mean() if known.size else ZERO_CELSIUS, kelvin)
+    missing = np.isnan(kelvin)
+    mean = ZERO_CELSIUS if missing.all() else kelvin[~missing].mean()
+    kelvin = np.where(missing, mean, kelvin)
     unit = np.ones_like(measured.friction)
     family_of(
         kind,

@@ -85,8 +85,8 @@ def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
 
 def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
     """Return the comparison without the rungs of other surfaces, unless it has no others."""
-    own = [str(group) not in ASIDE for group in comparison.group.values]
-    return comparison.isel(rung=own) if any(own) else comparison
+    chosen = [str(group) not in ASIDE for group in comparison.group.values]
+    return comparison.isel(rung=chosen) if any(chosen) else comparison
 
 
 MARKERS = "osD^v"

@@ -305,7 +305,7 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
         ),
         Panel(
             abscissa,
-            Axis(f"{AREA} down to each wave [-]", log=True, high=1.0),
+            Axis(f"{AREA} down to each wave [-]", log=True),
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
