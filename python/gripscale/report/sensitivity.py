@@ -9,6 +9,7 @@ import xarray as xr
 
 from gripscale.analysis.first_order import QUANTITIES
 from gripscale.analysis.friction_sensitivity import CARRIED, FEEDBACK, LOSS, RULE_FREQUENCY, STORAGE
+from gripscale.analysis.sources import LABELS, STATED
 from gripscale.chain import Chain
 from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.core.units import display_unit_of
@@ -165,6 +166,9 @@ def carried_table(data: xr.Dataset) -> Table:
         values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
         columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
     notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
+    missing = [LABELS[name] for name in STATED if name not in data.source]
+    if missing:
+        notes.append(f"Not in it, for want of a standard error in the case: {', '.join(missing)}.")
     return Table("carried", columns, "What the errors of the inputs carry", notes, keys=1)
 
 

@@ -240,7 +240,11 @@ def warning_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield which sources were not sampled, and why."""
-    yield from (f"Not sampled: {why}." for why in json.loads(data.attrs["left_out"]))
+    labels: dict[str, list[str]] = {}
+    for sentence in json.loads(data.attrs["left_out"]):
+        label, why = sentence.split(": ", 1)
+        labels.setdefault(why, []).append(label)
+    yield from (f"Not sampled: {', '.join(each)}: {why}." for why, each in labels.items())
 
 
 def quantile_table(data: xr.Dataset) -> Table:
