@@ -17,6 +17,7 @@ from gripscale.analysis.profile_blocks import ProfileBlocks
 from gripscale.analysis.sampled_inputs import CleanedProfiles, Inputs, Measurement, Range
 from gripscale.analysis.series_scatter import SeriesScatter, with_series
 from gripscale.case.tables import pressure_error
+from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
@@ -227,6 +228,14 @@ STATED = ("height_noise", "temperature", "pressure")
 NOT_STATED = "standard error not stated"
 
 
+def _standard_error(name: str, value: Any, quantity: Callable[[Any], float]) -> float:
+    """Return the standard error of a source [SI]; raise `InputError` for what is none."""
+    try:
+        return quantity(value)
+    except ValueError as wrong:
+        raise InputError(f"{name}: {checks.short_repr(value)}: {wrong}") from wrong
+
+
 def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the noise of the instrument once more, before the profiles are cleaned.
 
@@ -240,7 +249,7 @@ def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable("a map is taken as measured")
     if options.values is None:
         raise SourceNotApplicable(NOT_STATED)
-    size = quantities.length(options.values)
+    size = _standard_error("height_noise", options.values, quantities.length)
     usual = _rms_step(measurement.profiles)
 
     def noisy(seed: int) -> list[Profile]:
@@ -270,7 +279,7 @@ def _temperature(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable(NOT_STATED)
     if measurement.rubber.shift is None or measurement.temperature is None:
         raise SourceNotApplicable("the rubber has no temperature shift")
-    error = quantities.kelvins(options.values)
+    error = _standard_error("temperature", options.values, quantities.kelvins)
 
     def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
         warming = error * NormalDist().inv_cdf(quantile)
@@ -283,10 +292,8 @@ def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the nominal pressure, normally in its logarithm about that of the case."""
     if options.values is None:
         raise SourceNotApplicable(NOT_STATED)
-    try:
-        error = pressure_error(options.values, measurement.pressure)
-    except ValueError as wrong:
-        raise InputError(f"pressure: {options.values!r}: {wrong}") from wrong
+    of_load = partial(pressure_error, pressure=measurement.pressure)
+    error = _standard_error("pressure", options.values, of_load)
 
     def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
         change = error * NormalDist().inv_cdf(quantile)
