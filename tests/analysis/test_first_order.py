@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gripscale.analysis import Uncertainty, first_order
-from gripscale.analysis.first_order import FEW_DRAWS, Tangent
+from gripscale.analysis.first_order import SOLVED, Tangent
 from gripscale.analysis.sampled_inputs import CleanedProfiles, Measurement
 from gripscale.analysis.sampling import draws
 from gripscale.analysis.sources import SOURCES
@@ -100,7 +100,7 @@ def test_noise_of_the_heights_is_one_way(results, tangent):
     names = [name for name in SOURCES if name != "height_noise"]
     noise = Uncertainty(names, {"height_noise": "120 um"})
     sources = noise.of(Measurement.of(results), ["direct"]).sources
-    drawn = [each.inputs for each in draws(tangent.case, sources, FEW_DRAWS, 0)]
+    drawn = [each.inputs for each in draws(tangent.case, sources, SOLVED["height_noise"], 0)]
     changes = np.array([tangent.solved_change(inputs) for inputs in drawn])
     mean, scatter = changes.mean(axis=0), changes.std(axis=0)
     assert mean[0] > 1.5 * scatter[0]
