@@ -56,8 +56,8 @@ DRAWS = 64
 SOLVED = {"height_noise": 16, "cleaning": 8}
 """The sources whose draws are solved, and how many. Levels of the cleaning are spread evenly."""
 FEW_DRAWS = 8
-"""Draws of each other source for the contact area. On the shipped road 8 draws of the moduli give
-1.0 % of area, 48 draws 1.1 %."""
+"""Draws of another rubber for the contact area. On the shipped road 8 draws of the moduli give
+1.0 %, 48 draws 1.1 %."""
 QUANTITIES = ("friction", "contact_fraction")
 
 
@@ -255,6 +255,8 @@ def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
             every = drawn(SOLVED[source.name])
             changes = np.array([tangent.solved_change(inputs) for inputs in every])
             return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))
-        few = drawn(FEW_DRAWS)
-        friction = [tangent.change(inputs) for inputs in drawn(count)]
-        return np.array([np.std(friction), np.std([tangent.area_change(inputs) for inputs in few])])
+        of_friction = of_area = drawn(count)
+        if of_area[0].rubber is not tangent.case.rubber:
+            of_area = drawn(FEW_DRAWS)  # each is a difference of contacts
+        friction = [tangent.change(inputs) for inputs in of_friction]
+        return np.array([np.std(friction), np.std(list(map(tangent.area_change, of_area)))])
