@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.analysis import first_order
-from gripscale.analysis.first_order import Tangent
-from gripscale.analysis.sampled_inputs import CleanedProfiles
+from gripscale.analysis import Uncertainty, first_order
+from gripscale.analysis.first_order import SOLVED, Tangent
+from gripscale.analysis.sampled_inputs import CleanedProfiles, Measurement
+from gripscale.analysis.sampling import draws
+from gripscale.analysis.sources import SOURCES
 from gripscale.case import prepare_case
 from gripscale.case.results import CaseResults
 from gripscale.core.errors import InputError
@@ -77,6 +79,34 @@ def test_another_cut_off(results, tangent):
     assert tangent.change(changed) < 0.0
     assert tangent.area_change(changed) == pytest.approx(area, abs=0.02)
     assert tangent.area_change(changed) > 0.0
+
+
+def test_another_temperature_and_pressure(folder):
+    shift = 'reference_temperature = "20 C"\nshift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }'
+    (folder / "shifted.toml").write_text(CASE.replace("terms = 4", f"terms = 4\n{shift}"))
+    shifted = Tangent.of(prepare_case(folder / "shifted.toml"))
+    for change in ({"warming": 0.5}, {"log_pressure": 0.1}):
+        inputs = replace(shifted.case, **change)
+        expected = shifted.solved_change(inputs)
+        derived = [shifted.change(inputs), shifted.area_change(inputs)]
+        assert np.abs(expected).max() > 0.02
+        # the second order, and single points of a contact of 82
+        assert derived == pytest.approx(expected, abs=0.015), change
+
+
+def test_noise_of_the_heights_is_one_way(results, tangent):
+    """It makes the road rougher, by the square of its size: the error is what it moves, and not its
+    scatter alone."""
+    names = [name for name in SOURCES if name != "height_noise"]
+    noise = Uncertainty(names, {"height_noise": "120 um"})
+    sources = noise.of(Measurement.of(results), ["direct"]).sources
+    drawn = [each.inputs for each in draws(tangent.case, sources, SOLVED["height_noise"], 0)]
+    changes = np.array([tangent.solved_change(inputs) for inputs in drawn])
+    mean, scatter = changes.mean(axis=0), changes.std(axis=0)
+    assert mean[0] > 1.5 * scatter[0]
+    assert mean[1] < -1.5 * scatter[1]
+    error = float(first_order(results, noise).friction_error[0])
+    assert error == pytest.approx(np.hypot(mean, scatter)[0])
 
 
 def test_errors_of_each_source(results):

@@ -135,6 +135,25 @@ def test_bands_as_another_prony_series(data, term):
         assert together == pytest.approx(value, abs=TOLERANCE + scatter)
 
 
+@pytest.mark.parametrize("term", range(3))
+def test_terms_as_waves_solved_from_nothing(data, term):
+    """The same step on the same mesh: only starts and residuals differ."""
+
+    def logs(by: float) -> np.ndarray:
+        moduli = np.array([FAST_RUBBER.equilibrium_modulus, *FAST_RUBBER.moduli])
+        moduli[term] *= np.exp(by)
+        rubber = replace(FAST_RUBBER, equilibrium_modulus=moduli[0], moduli=moduli[1:])
+        wave = gs.solve_scale(rubber, **WAVE, **JUDGE)
+        return np.log([wave.friction, wave.contact_fraction])
+
+    expected = (logs(STEP) - logs(-STEP)) / (2.0 * STEP)
+    assert np.abs(expected).max() > 0.1
+    for quantity, value in zip(QUANTITIES, expected, strict=True):
+        by_term = data[f"d_ln_{quantity}_d_ln_modulus"]
+        assert float(by_term[term]) == pytest.approx(value, abs=1e-3)
+    assert data.relaxation_time.values[1:] == pytest.approx(FAST_RUBBER.relaxation_times)
+
+
 @pytest.mark.parametrize("solver", ["finite_strain", "half_plane"])
 def test_full_contact_of_a_flat_sine_in_closed_form(solver):
     """mu of full contact is proportional to Im M / p: by E'' one, by E' none, by pressure minus

@@ -66,6 +66,7 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
     assert "finite strain, assumed (± 5.0 %)" in text
     assert "isotropic surface over its lines (0.950, 0.680)" in text
     assert "a road without direction is assumed" in text
+    assert "errors of the inputs are not in the interval" in text
     assert [line.strip() for line in below] == list(basis_lines(answered()))
 
 

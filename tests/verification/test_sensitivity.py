@@ -21,9 +21,10 @@ from tests.half_space.rough_cases import isotropic_map
 pytestmark = pytest.mark.verification
 
 LINES, MAPS = 30, 10
-STEP = 0.003
-"""Of ln M and ln p_0. On a line an asperity that comes into contact bends mu(p_0): with 0.03 the
-differences of a few contacts are off by tens of per cent, and the derivative is not."""
+STEP = 3e-4
+"""Of ln M and ln p_0. On a line an asperity that comes into contact within the step bends mu(p_0):
+with 3e-3 the difference of six patches by pressure is off by 21 %, on a grid eight times finer by
+20 %, and with 3e-4 by 0.6 and 0.06 %."""
 
 
 def random_rubber(random: np.random.Generator) -> gs.Rubber:
@@ -128,7 +129,8 @@ def test_derivatives_as_central_differences(dimensions, count):
     rows = np.array(table)
     print("median", np.median(rows, axis=0), "nine of ten", np.quantile(rows, 0.9, axis=0))
     assert len(rows) >= 0.8 * count
-    # measured 0.16 % and 1.4 % on lines, 0.08 % and 0.2 % on maps; the rest are lines whose few
-    # contacts change within the step, and friction below 0.001
-    assert (np.median(rows, axis=0) <= 0.003).all()
-    assert (np.quantile(rows, 0.9, axis=0) <= 0.02).all()
+    # measured 0.02, 0.18 and 0.56 % on lines, 0.02, 0.12 and 0.45 % on maps: the worst has six
+    # patches, and 0.06 % on a grid eight times finer
+    assert (np.median(rows, axis=0) <= 0.001).all()
+    assert (np.quantile(rows, 0.9, axis=0) <= 0.003).all()
+    assert (rows <= 0.01).all()

@@ -3,17 +3,19 @@
 A source of `gripscale.analysis.sources` draws other inputs; the tangent of the direct contact says
 what they change. With the adjoint of `gripscale.half_space.sensitivity`
 
-    ln mu' - ln mu = (sum_q Re c(q) ln(M'/M) + sum_x dmu/dh (h' - h)) / mu + e ln(l'/l),
+    ln mu' - ln mu = (sum_q Re c(q) ln(M'/M) + sum_x dmu/dh (h' - h)) / mu + e ln(l'/l)
+                     + a ln(p_0'/p_0) + b (T' - T),
 
-M' being the moduli of another rubber, h' other heights, and e the exponent of the cut-off l over
-its last octave. The standard deviation over draws is the error of the source. The contact area has
-no adjoint: of another rubber a few draws are differences of contacts that start from the solved
-one.
+M' being the moduli of another rubber, h' other heights, e the exponent of the cut-off l over its
+last octave, and a and b the derivatives by nominal pressure and temperature. The standard deviation
+over draws is the error of the source. The contact area has no adjoint: a few draws of another
+rubber, and a and b, are differences of contacts that start from the solved one.
 
-Two sources are no small change. Another stretch of road has the error of the pieces of the profiles
-(`gripscale.half_space.sampling_error`). Where spikes are removed or kept, heights change by
-millimetres: on the shipped road the tangent gives 4.7 % of friction and contacts solved anew 3.0 %.
-A few draws of the cleaning are therefore solved.
+Three sources are no small change. Another stretch of road has the error of the pieces of the
+profiles (`gripscale.half_space.sampling_error`). Where spikes are removed or kept, heights change
+by millimetres: on the shipped road the tangent gives 4.7 % of friction and contacts solved anew
+3.4 %. Noise of the heights averages out in the tangent: what it does is of second order, one way in
+each draw. A few draws of both are therefore solved, and the error is their rms change.
 """
 
 from __future__ import annotations
@@ -22,6 +24,7 @@ import math
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import xarray as xr
@@ -39,16 +42,22 @@ from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
-from gripscale.half_space.sensitivity import ContactFractionDifferences, FrictionAdjoint
+from gripscale.half_space.sensitivity import (
+    ContactFractionDifferences,
+    FrictionAdjoint,
+    scalar_changes,
+)
 from gripscale.model import SAMPLING_ERRORS
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
 
 DRAWS = 64
 """Draws of each source: the standard deviation is known to a tenth. A draw costs no contact."""
-SOLVED, FEW_DRAWS = "cleaning", 8
-"""The source whose draws are solved, and how many of them, and of all sources for the contact area.
-On the shipped road 8 draws of the moduli give 1.0 % of area, 48 draws 1.1 %."""
+SOLVED = {"height_noise": 16, "cleaning": 8}
+"""The sources whose draws are solved, and how many. Levels of the cleaning are spread evenly."""
+FEW_DRAWS = 8
+"""Draws of another rubber for the contact area. On the shipped road 8 draws of the moduli give
+1.0 %, 48 draws 1.1 %."""
 QUANTITIES = ("friction", "contact_fraction")
 
 
@@ -94,7 +103,7 @@ class Tangent:
     def solved_change(self, inputs: Inputs) -> Array:
         """Return the changes of ln mu and ln A_r/A_0 by a contact with the other inputs [-]."""
         surface, model = inputs.for_model(_model(self.results))
-        answer = model.predict(inputs.rubber, surface, self.results.load)
+        answer = model.predict(inputs.rubber, surface, inputs.under(self.results.load))
         return np.log(_totals(answer) / self.totals)
 
     def change(self, inputs: Inputs) -> float:
@@ -110,7 +119,7 @@ class Tangent:
             if inputs.end != case.end:
                 exponent = contact.cut_off_exponents.friction
                 parts[at] += exponent * math.log(inputs.end / case.end)
-        return float(self.share[0] @ parts)
+        return float(self.share[0] @ (parts + self._by_conditions(inputs, 0)))
 
     def area_change(self, inputs: Inputs) -> float:
         """Return what another rubber or cut-off changes in ln A_r/A_0, to first order [-]."""
@@ -121,7 +130,25 @@ class Tangent:
                 parts[at] += ContactFractionDifferences(contact).by_modulus(change)
             exponent = contact.cut_off_exponents.contact_fraction
             parts[at] += exponent * math.log(inputs.end / self.case.end)
-        return float(self.share[1] @ parts)
+        return float(self.share[1] @ (parts + self._by_conditions(inputs, 1)))
+
+    def _by_conditions(self, inputs: Inputs, quantity: int) -> Array | float:
+        """Return what pressure and temperature change in ln mu or ln A_r/A_0 of each contact."""
+        change = [inputs.log_pressure, inputs.warming]
+        return self._by_pressure_and_kelvin[quantity] @ change if any(change) else 0.0
+
+    @cached_property
+    def _by_pressure_and_kelvin(self) -> tuple[Array, Array]:
+        """Derivatives of ln mu and ln A_r/A_0 by ln p_0 and T [1/K], each (contacts, 2)."""
+        friction, area = [], []
+        for contact, adjoint in zip(self.contacts, self.adjoints, strict=True):
+            differences = ContactFractionDifferences(contact)
+            change = scalar_changes(contact).get("temperature", np.zeros(1, complex))
+            by_kelvin = float(adjoint.by_modulus(change).sum())
+            pair = np.array([adjoint.by_log_pressure, by_kelvin])
+            friction.append(pair / contact.friction_from_dissipation)
+            area.append([differences.by_log_pressure(), differences.by_modulus(change)])
+        return np.array(friction), np.array(area)
 
 
 def _totals(answer: xr.Dataset) -> Array:
@@ -216,7 +243,7 @@ def first_order(
 
 
 def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
-    """Return the standard deviations of ln mu and ln A_r/A_0 over draws of a source [-]."""
+    """Return the standard errors of ln mu and ln A_r/A_0 by draws of a source [-]."""
 
     def drawn(count: int) -> list[Inputs]:
         every = (each.inputs for each in draws(tangent.case, [source], count, seed))
@@ -224,8 +251,12 @@ def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        few = drawn(FEW_DRAWS)
-        if source.name == SOLVED:
-            return np.asarray(np.std([tangent.solved_change(inputs) for inputs in few], axis=0))
-        friction = [tangent.change(inputs) for inputs in drawn(count)]
-        return np.array([np.std(friction), np.std([tangent.area_change(inputs) for inputs in few])])
+        if source.name in SOLVED:
+            every = drawn(SOLVED[source.name])
+            changes = np.array([tangent.solved_change(inputs) for inputs in every])
+            return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))
+        of_friction = of_area = drawn(count)
+        if of_area[0].rubber is not tangent.case.rubber:
+            of_area = drawn(FEW_DRAWS)  # each is a difference of contacts
+        friction = [tangent.change(inputs) for inputs in of_friction]
+        return np.array([np.std(friction), np.std(list(map(tangent.area_change, of_area)))])

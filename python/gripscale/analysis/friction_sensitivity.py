@@ -33,7 +33,7 @@ from gripscale.case.prepare import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.run import prepare_case
 from gripscale.chain import Chain
-from gripscale.chain.sensitivity import sensitivity
+from gripscale.chain.sensitivity import sensitivity, wave_sensitivity
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
@@ -183,7 +183,7 @@ class ChainSensitivity(Chain):
         answer = super().predict(rubber, surface, load, on_progress=keep)
         if answer[STATUS].item() != CONVERGED:
             return answer
-        derivatives = sensitivity(
+        derivatives = wave_sensitivity(
             last[0],
             bands_per_decade=self.bands_per_decade,
             reference_temperature=_shifted_to(rubber),

@@ -99,6 +99,10 @@ class Measurement:
     fit: PronyFit | None = None
     speed: float = 0.0
     """Sliding speed of the case [m/s]."""
+    pressure: float = math.nan
+    """Nominal pressure of the case [Pa]."""
+    temperature: float | None = None
+    """Before the contact [K]; None where it is not known."""
     load_time: LoadTime = "passage"
     cleaning: Mapping[str, Any] = field(default_factory=dict)
     """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
@@ -108,8 +112,18 @@ class Measurement:
         """Return what a prepared case is known from."""
         rubber, load = case.rubber, case.load
         cleaning = cleaning_options(case.file.case.surface)
-        parts = rubber.rubber, rubber.master, rubber.fit
-        return cls(case.surface, *parts, load.speed, load.load_time, cleaning)
+        kelvin = (case.conditions or Conditions()).temperature_of(rubber.rubber)
+        return cls(
+            case.surface,
+            rubber.rubber,
+            rubber.master,
+            rubber.fit,
+            load.speed,
+            load.pressure,
+            kelvin,
+            load.load_time,
+            cleaning,
+        )
 
     @property
     def profiles(self) -> list[Profile]:
@@ -149,6 +163,8 @@ class Inputs:
     rubber: Rubber
     fit: Mapping[str, Any] = field(default_factory=dict)
     """Arguments of `fit_sines`."""
+    raw: Callable[[], Sequence[Profile]] | None = None
+    """Gives profiles before cleaning, where their heights are not those measured."""
     cleaned: CleanedProfiles | None = None
     """The profiles, where they are not cleaned as in the case."""
     recorrelated: Callable[[], HeightDifference] | None = None
@@ -159,6 +175,10 @@ class Inputs:
     """Whether gaps of the profiles are filled by cubics without a kink, not by straight lines."""
     load_time_factor: float = 1.0
     """How much longer each wave is loaded than the model says [-]."""
+    warming: float = 0.0
+    """Above the temperature before the contact [K]."""
+    log_pressure: float = 0.0
+    """Logarithm of the nominal pressure over that of the load [-]."""
 
     @classmethod
     def of(cls, measurement: Measurement) -> Inputs:
@@ -210,6 +230,8 @@ class Inputs:
         Without waves only where they end is kept of them. Raises `InputError` if no waves fit.
         """
         surface = self.surface
+        if self.warming:
+            model = self._warmed(model)
         if "waves" not in model.needs:
             return Surface(None, surface.source, measured=self.measured, end=self.end), model
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
@@ -227,7 +249,18 @@ class Inputs:
         """
         surface, changed = self.for_model(model)
         relevant = surface.only(changed.needs)
-        return [Task(self.rubber, relevant, load, FailSafeModel(changed)) for load in loads]
+        solved = FailSafeModel(changed)
+        return [Task(self.rubber, relevant, self.under(load), solved) for load in loads]
+
+    def under(self, load: Load) -> Load:
+        """Return a load with the pressure of this sample."""
+        return replace(load, pressure=load.pressure * math.exp(self.log_pressure))
+
+    def _warmed(self, model: Model) -> Model:
+        conditions = model.conditions or Conditions()
+        kelvin = conditions.temperature_of(self.rubber)
+        assert kelvin is not None  # the source has asked for it
+        return model.with_conditions(replace(conditions, temperature=kelvin + self.warming))
 
 
 class Range(Checked):
@@ -325,6 +358,7 @@ def _quantity(text: Any, kind: str, unit: str) -> float:
 
 modulus = partial(_quantity, kind="pressure", unit="Pa")
 length = partial(_quantity, kind="length", unit="m")
+kelvins = partial(_quantity, kind="temperature difference", unit="K")
 
 
 @dataclass(frozen=True)

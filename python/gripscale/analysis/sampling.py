@@ -30,14 +30,15 @@ class Uncertainty:
     Parameters
     ----------
     without : sequence of str
-        Sources to be left out: cleaning, profile, grid, modulus, bulk_modulus,
-        equilibrium_modulus, load_time, cut_off, waves.
+        Sources to be left out: height_noise, cleaning, profile, grid, modulus, bulk_modulus,
+        equilibrium_modulus, temperature, pressure, load_time, cut_off, waves.
     ranges : mapping
         Values of a source by its name, in place of its default: two ends as `"1 GPa:3 GPa"` or a
         pair of numbers [SI], or several equally likely values as `"1 GPa,2 GPa"` or three numbers
         and more. Of cleaning (limits of the change of height per step), bulk_modulus,
         equilibrium_modulus (moduli), cut_off (lengths), load_time (factors on that of the case)
-        and waves (numbers of them).
+        and waves (numbers of them). Of height_noise [m], temperature [K] and pressure (`"3 %"` or
+        [Pa]) one standard error: without it they are not drawn.
     block_length : float, optional
         Length of the blocks of profiles [m]; by default four of the largest waves.
 

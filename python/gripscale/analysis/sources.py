@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
+from statistics import NormalDist
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -14,18 +16,20 @@ from gripscale.analysis import sampled_inputs as quantities
 from gripscale.analysis.profile_blocks import ProfileBlocks
 from gripscale.analysis.sampled_inputs import CleanedProfiles, Inputs, Measurement, Range
 from gripscale.analysis.series_scatter import SeriesScatter, with_series
+from gripscale.case.tables import pressure_error
+from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.surface import SineStack, clean, sine_ambiguity
+from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
 from gripscale.surface.sine_fit import FACTOR_RANGE
 
 
 class Coordinate(NamedTuple):
     """A number that says what a source drew: its unit and meaning.
 
-    A factor is told by its logarithm, and is `logarithm` then; any other number is above zero and
-    its logarithm is taken where the effect of a source is estimated.
+    A factor is told by its logarithm, and is `logarithm` then, as is a number of either sign; of
+    any other, above zero, the logarithm is taken where the effect of a source is estimated.
     """
 
     unit: str
@@ -92,7 +96,10 @@ class BlockDraw:
     """Draws another stretch of the same road, see `ProfileBlocks`; blocks have no order."""
 
     blocks: ProfileBlocks
-    _recut: dict[CleanedProfiles, ProfileBlocks] = field(default_factory=dict)
+    _recut: MutableMapping[CleanedProfiles, ProfileBlocks] = field(
+        default_factory=WeakKeyDictionary
+    )
+    """Of profiles that many samples share."""
 
     @property
     def freedom(self) -> float:
@@ -139,6 +146,13 @@ SPIKE_LEVELS = 8
 """Limits a range is drawn at: the profiles are cleaned once for each."""
 
 
+def _cleaned(lines: Sequence[Profile], measurement: Measurement, **changed: Any) -> CleanedProfiles:
+    """Return profiles cleaned as in the case but for what is changed."""
+    options = {**measurement.cleaning, **changed}
+    after = tuple(clean(line, **options)[0] for line in lines)
+    return CleanedProfiles(after, measurement.surface.counted)
+
+
 def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the limit of spikes, and how the gaps they leave are filled.
 
@@ -152,21 +166,23 @@ def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable("a map is cleaned as the case states")
     scale = usual["spike_slope"] / USUAL_SPIKE
     values = Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
+    raw = [line for line, _ in measured.profiles]
     if options.values is not None:
         values = Range.read("cleaning", options.values, quantities.factor)
     elif not usual["remove_spikes"]:
         raise SourceNotApplicable("the case leaves spikes in")
     levels = values.levels(SPIKE_LEVELS)
 
-    @cache
-    def cleaned(slope: float) -> CleanedProfiles:
+    def cleaned(lines: Sequence[Profile], slope: float) -> CleanedProfiles:
         changed = {"remove_spikes": True, "spike_slope": slope}
-        lines = tuple(clean(raw, **{**usual, **changed})[0] for raw, _ in measured.profiles)
-        return CleanedProfiles(lines, measurement.surface.counted)
+        return _cleaned(lines, measurement, **changed)
+
+    as_measured = cache(partial(cleaned, raw))
 
     def draw(quantile: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
         slope, smooth = levels.at(quantile), bool(random.integers(2))
-        changed = replace(inputs, cleaned=cleaned(slope), smooth_gaps=smooth)
+        lines = as_measured(slope) if inputs.raw is None else cleaned(inputs.raw(), slope)
+        changed = replace(inputs, cleaned=lines, smooth_gaps=smooth)
         return changed, [math.log(slope / usual["spike_slope"]), float(smooth)]
 
     return draw
@@ -205,6 +221,85 @@ def _log_ratios(rubber: Rubber, omega: Array) -> Array:
     modulus = rubber.complex_modulus(omega)
     parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
     return np.asarray(np.log(parts))
+
+
+STATED = ("height_noise", "temperature", "pressure")
+"""Sources whose standard error a case must state: nothing in it says how large it is."""
+NOT_STATED = "standard error not stated"
+
+
+def _standard_error(name: str, value: Any, quantity: Callable[[Any], float]) -> float:
+    """Return the standard error of a source [SI]; raise `InputError` for what is none."""
+    try:
+        return quantity(value)
+    except ValueError as wrong:
+        raise InputError(f"{name}: {checks.short_repr(value)}: {wrong}") from wrong
+
+
+def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the noise of the instrument once more, before the profiles are cleaned.
+
+    The measured heights hold one draw of it already, which is not known. A second one of the same
+    size moves the results about as far as the first did.
+    """
+    measured = measurement.surface.measured
+    if measured is None or not measurement.cleaning:
+        raise SourceNotApplicable("no profile was measured")
+    if measurement.is_map:
+        raise SourceNotApplicable("a map is taken as measured")
+    if options.values is None:
+        raise SourceNotApplicable(NOT_STATED)
+    size = _standard_error("height_noise", options.values, quantities.length)
+    usual = _rms_step(measurement.profiles)
+
+    def noisy(seed: int) -> list[Profile]:
+        random = np.random.default_rng(seed)
+        return [
+            replace(line, z=line.z + size * random.standard_normal(len(line)))
+            for line, _ in measured.profiles
+        ]
+
+    def draw(_: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
+        raw = partial(noisy, int(random.integers(2**62)))
+        cleaned = _cleaned(raw(), measurement)
+        ratio = math.log(_rms_step(cleaned.profiles) / usual)
+        return replace(inputs, raw=raw, cleaned=cleaned), [ratio]
+
+    return draw
+
+
+def _rms_step(lines: Sequence[Profile]) -> float:
+    """Return the rms difference of neighbouring heights [m]."""
+    return math.sqrt(float(np.nanmean(np.concatenate([np.diff(line.z) ** 2 for line in lines]))))
+
+
+def _temperature(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the temperature before the contact, normally about that of the case."""
+    if options.values is None:
+        raise SourceNotApplicable(NOT_STATED)
+    if measurement.rubber.shift is None or measurement.temperature is None:
+        raise SourceNotApplicable("the rubber has no temperature shift")
+    error = _standard_error("temperature", options.values, quantities.kelvins)
+
+    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
+        warming = error * NormalDist().inv_cdf(quantile)
+        return replace(inputs, warming=warming), [warming]
+
+    return draw
+
+
+def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the nominal pressure, normally in its logarithm about that of the case."""
+    if options.values is None:
+        raise SourceNotApplicable(NOT_STATED)
+    of_load = partial(pressure_error, pressure=measurement.pressure)
+    error = _standard_error("pressure", options.values, of_load)
+
+    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
+        change = error * NormalDist().inv_cdf(quantile)
+        return replace(inputs, log_pressure=change), [change]
+
+    return draw
 
 
 def _in_range(range: Range, applied: Callable[[Inputs, float], Inputs]) -> Draw:
@@ -340,6 +435,7 @@ _SERIES = {
     for wave in ("largest", "smallest")
     for name, text in (("modulus", "|E*|"), ("loss", "E''/E'"))
 }
+_NOISE = {"rms_step": Coordinate("1", "ln of the rms step over that of the profiles", True)}
 _CLEANING = {
     "spike_slope": Coordinate("1", "ln of the limit of spikes over that of the case", True),
     "smooth_gaps": Coordinate("1", "1 where cubics fill the gaps, 0 for straight lines", True),
@@ -350,6 +446,8 @@ _GRID = {
 }
 _BULK = {"bulk_modulus": Coordinate("Pa", "bulk modulus")}
 _EQUILIBRIUM = {"equilibrium_modulus": Coordinate("Pa", "equilibrium modulus")}
+_WARMING = {"warming": Coordinate("K", "above the temperature of the case", True)}
+_PRESSURE = {"log_pressure": Coordinate("1", "ln of the pressure over that of the case", True)}
 _FACTOR = {"load_time_factor": Coordinate("1", "load time over that of the case")}
 _END = {"cut_off": Coordinate("m", "cut-off, or last wave, of the roughness")}
 _STACK = {
@@ -360,6 +458,7 @@ _STACK = {
 SOURCES = {
     source.name: source
     for source in (
+        Source("height_noise", "noise of the heights", BOTH, _NOISE, _height_noise),
         Source("cleaning", "cleaning of the profiles", BOTH, _CLEANING, _cleaning),
         Source("profile", "stretch of road measured", BOTH, _BLOCKS, _profile),
         Source("grid", "grid of the direct contact", ("direct",), _GRID, _grid),
@@ -368,13 +467,15 @@ SOURCES = {
         Source(
             "equilibrium_modulus", "equilibrium modulus", BOTH, _EQUILIBRIUM, _equilibrium_modulus
         ),
+        Source("temperature", "temperature", BOTH, _WARMING, _temperature),
+        Source("pressure", "nominal pressure", BOTH, _PRESSURE, _pressure),
         Source("load_time", "load time of a wave", ("chain",), _FACTOR, _load_time),
         Source("cut_off", "cut-off of the roughness", BOTH, _END, _cut_off),
         Source("waves", "choice of sine waves", ("chain",), _STACK, _waves),
     )
 }
-"""In the order in which they are drawn: cleaned profiles are cut into blocks, the waves are fitted
-last. A new one is added here."""
+"""In the order in which they are drawn: noisy profiles are cleaned and cut into blocks, the waves
+are fitted last. A new one is added here."""
 
 LABELS = {name: source.label for name, source in SOURCES.items()}
 """Names of the sources in words."""

@@ -18,9 +18,10 @@ from gripscale.case.schema import (
     Reading,
     Speed,
     Table,
+    TemperatureDifference,
     unit_of_file,
 )
-from gripscale.core.units import in_mm, parse_quantity, such_as
+from gripscale.core.units import in_mm, parse_quantity, such_as, unit_of
 from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
 
@@ -239,12 +240,15 @@ class ChainOptions(Table):
 FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED = 10, 100_000, 2**32 - 1
 
 SourceName = Literal[
+    "height_noise",
     "cleaning",
     "profile",
     "grid",
     "modulus",
     "bulk_modulus",
     "equilibrium_modulus",
+    "temperature",
+    "pressure",
     "load_time",
     "cut_off",
     "waves",
@@ -282,16 +286,45 @@ Moduli = Annotated[list[float], _values("pressure")]
 Lengths = Annotated[list[float], _values("length")]
 Factors = Annotated[list[float], _values(FACTOR)]
 
+PRESSURE_ERROR = 'a share such as "3 %", or a pressure such as "0.1 bar"'
+
+
+def pressure_error(value: Any, pressure: float) -> float:
+    """Return the relative error [-] that a share or a pressure [Pa] is of a nominal pressure.
+
+    Raises `ValueError` for what is neither, or not above zero.
+    """
+    relative = unit_of(value, "strain") == "%"
+    try:
+        error = parse_quantity(value, "strain" if relative else "pressure")
+    except ValueError as wrong:
+        raise ValueError(f"expected {PRESSURE_ERROR}") from wrong
+    if error <= 0.0:
+        raise ValueError("expected a value greater than zero")
+    return error if relative else error / pressure
+
+
+def _pressure_error(value: Any) -> Any:
+    """Accept what `pressure_error` does, as it is written: the pressure is in another table."""
+    pressure_error(value, 1.0)
+    return value
+
 
 class RangesTable(Table):
-    """What is known of a source, in place of its default: two ends, or equally likely values."""
+    """What is known of a source: two ends, equally likely values, or a standard error."""
 
+    height_noise: Length | None = None
+    """Standard error of each measured height, independent of its neighbours; none by default."""
     cleaning: Factors | None = None
     """Change of height per step that is a spike; by default half to 3.3 times that of the case."""
     bulk_modulus: Moduli | None = None
     """Bulk modulus of the rubber; by default 1.5 times less to 1.5 times more."""
     equilibrium_modulus: Moduli | None = None
     """Modulus of the rubber after infinite time; not sampled by default."""
+    temperature: TemperatureDifference | None = None
+    """Standard error of the temperature before the contact; none by default."""
+    pressure: Annotated[Any, Reading(PRESSURE_ERROR, _pressure_error)] = None
+    """Standard error of the nominal pressure, a share of it or a pressure; none by default."""
     load_time: Factors | None = None
     """How long waves are loaded, over the time of the case; by default 0.5 to 2."""
     cut_off: Lengths | None = None

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -29,7 +30,7 @@ import xarray as xr
 from gripscale.chain.prediction import CLASS_PRESSURES, ChainSolve, Prediction
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import (
     Bands,
@@ -130,6 +131,18 @@ class WaveDifferences:
 
         return np.array([self.by(change_of(*pair), STEP) for pair in itertools.pairwise(ends)])
 
+    def by_terms(self) -> Array:
+        """Return the derivatives by each Prony modulus, the relaxed one first, shape (terms, 2)."""
+
+        def change_of(term: int) -> Change:
+            def change(by: float) -> tuple[Sequence[Rubber], Load]:
+                return [_with_term(r, term, math.exp(by)) for r in self.rubbers], self.solved.load
+
+            return change
+
+        count = self.solved.rubber.moduli.size + 1
+        return np.array([self.by(change_of(term), STEP) for term in range(count)])
+
     def by_numbers(self) -> dict[str, Array]:
         """Return the derivatives by inputs that are one number each, by the end of their name."""
         load, rubbers = self.solved.load, self.rubbers
@@ -156,6 +169,20 @@ class WaveDifferences:
         return derivatives
 
 
+def _with_term(rubber: Rubber, term: int, factor: float) -> Rubber:
+    """Return a rubber with a factor of one Prony modulus; term 0 is the equilibrium modulus."""
+    factors = np.ones(rubber.moduli.size + 1)
+    factors[term] = factor
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RubberWarning)  # the rubber itself has warned
+        return replace(
+            rubber,
+            equilibrium_modulus=rubber.equilibrium_modulus * factors[0],
+            moduli=rubber.moduli * factors[1:],
+            admissible=None,
+        )
+
+
 def _harmonics(wave: WaveResult) -> Array:
     """Return the angular frequencies at which a wave excites the rubber [rad/s], zero first."""
     count = int(wave.details.get("columns", wave.details.get("points", 0)))
@@ -163,9 +190,16 @@ def _harmonics(wave: WaveResult) -> Array:
 
 
 def wave_sensitivity(
-    result: Prediction, *, bands_per_decade: int, reference_temperature: float | None
+    result: Prediction,
+    *,
+    bands_per_decade: int,
+    reference_temperature: float | None,
+    terms: bool = False,
 ) -> xr.Dataset:
-    """Return the derivatives of a prediction of the chain; see `sensitivity`."""
+    """Return the derivatives of a prediction of the chain; see `sensitivity`.
+
+    By Prony terms only if asked for: they are as many solutions as all bands.
+    """
     per_decade = checks.whole("bands_per_decade", bands_per_decade, least=1, most=100)
     _require_solvable(result)
     rubber = result.rubber if result.conditions is None else result.conditions.before(result.rubber)
@@ -178,6 +212,12 @@ def wave_sensitivity(
     both = differences.by_numbers()
     for part in ("ln_storage", "ln_loss"):
         both[part] = differences.by_bands(part, bands, shifts)
+    coordinates = {}
+    softened = result.conditions is not None and result.conditions.softening is not None
+    if terms and not softened:  # which gives each wave a series of its own
+        both["ln_modulus"] = differences.by_terms()
+        times = [math.inf, *result.rubber.relaxation_times]
+        coordinates["relaxation_time"] = labelled("term", times, "s", "of the Prony term", "input")
     both["ln_cut_off"] = np.array(
         [result.cut_off_exponents.friction, result.cut_off_exponents.contact_fraction]
     )
@@ -200,7 +240,7 @@ def wave_sensitivity(
         rubber=f"{result.rubber.name}; {result.rubber.source}".strip("; "),
         nominal_pressure=result.load.pressure,
         speed=result.load.speed,
-    )
+    ).assign_coords(coordinates)
 
 
 def _require_solvable(result: Prediction) -> None:
@@ -237,9 +277,10 @@ def sensitivity(
     """Return the derivatives of the friction of a prediction by all of its inputs.
 
     Of a direct contact from one adjoint solution, see `gripscale.half_space.sensitivity`. Of one
-    wave or of a chain from differences of waves solved again, two for each band and modulus and
-    each number. Under conditions the rubber of each scale or wave keeps its strain and its
-    temperature rise: the effect of an input on them is left out (`settled` in the attributes).
+    wave or of a chain from differences of waves solved again, two for each band and modulus, each
+    Prony term and each number. Under conditions the rubber of each scale or wave keeps its strain
+    and its temperature rise: the effect of an input on them is left out (`settled` in the
+    attributes).
 
     Parameters
     ----------
@@ -262,8 +303,10 @@ def sensitivity(
         `d_ln_friction_d_ln_loss` [-], of E' and E'' in the band; the bands add up, the lowest holds
         the relaxed modulus. Scalars: `d_ln_friction_d_ln_speed`, `..._ln_pressure`,
         `..._ln_bulk_modulus`, `..._ln_cut_off` (NaN for one wave) and `d_ln_friction_d_temperature`
-        [1/K], NaN without a shift. The same names with `contact_fraction`. Of a direct contact also
-        `d_ln_friction_d_ln_modulus` over `term` and `d_friction_d_height` over `x` (and `y`).
+        [1/K], NaN without a shift. The same names with `contact_fraction`. Over `term`, but for
+        waves that softening gives series of their own: `d_ln_friction_d_ln_modulus`, of the Prony
+        moduli, the equilibrium modulus first. Of a direct contact also `d_friction_d_height` over
+        `x` (and `y`).
 
     Raises
     ------
@@ -288,7 +331,10 @@ def sensitivity(
             f"{checks.short_repr(result)}"
         )
     return wave_sensitivity(
-        result, bands_per_decade=bands_per_decade, reference_temperature=reference_temperature
+        result,
+        bands_per_decade=bands_per_decade,
+        reference_temperature=reference_temperature,
+        terms=True,
     )
 
 

@@ -109,8 +109,9 @@ def uncertainty(
     without: Annotated[
         list[str] | None,
         option(
-            "A source to be left out: cleaning, profile, grid, modulus, bulk_modulus, "
-            "equilibrium_modulus, load_time, cut_off, waves. May be given several times.",
+            "A source to be left out: height_noise, cleaning, profile, grid, modulus, "
+            "bulk_modulus, equilibrium_modulus, temperature, pressure, load_time, cut_off, waves. "
+            "May be given several times.",
             metavar="NAME",
         ),
     ] = None,
@@ -119,8 +120,9 @@ def uncertainty(
         option(
             "What is known of a source, in place of its default: two ends as "
             "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', cleaning=1.5:10 (height per "
-            "step that is a spike), load_time=0.5:2 (factors), or equally likely values as "
-            "waves=6,8. May be given several times.",
+            "step that is a spike), load_time=0.5:2 (factors), equally likely values as "
+            "waves=6,8, or the standard error of what is not sampled without it: "
+            "height_noise='5 um', temperature='2 K', pressure='3 %'. May be given several times.",
             "--range",
             metavar="NAME=VALUES",
         ),

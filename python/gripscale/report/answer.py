@@ -284,6 +284,8 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     ]
     if missing:
         yield f"not included: {', '.join(missing)}"
+    if "part_label" not in data and math.isfinite(float(data[f"best_{name}_half_width"])):
+        yield "errors of the inputs are not in the interval (`gripscale sensitivity` lists them)"
     direct = direct_of(data)
     term = float(direct.get(model.ADHESIVE_FRICTION, math.nan))
     if math.isfinite(term):

@@ -17,6 +17,7 @@ from gripscale.io.table import Column, Table, fixed, on_page, percent, significa
 from gripscale.model import STATUS
 from gripscale.report.elements import Card
 from gripscale.report.notices import Failure
+from gripscale.report.uncertainty import not_stated
 
 SCALARS = {
     "ln_pressure": ("pressure", "1"),
@@ -165,6 +166,8 @@ def carried_table(data: xr.Dataset) -> Table:
         values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
         columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
     notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
+    if missing := not_stated(data):
+        notes.append(f"Not in it, for want of a standard error in the case: {', '.join(missing)}.")
     return Table("carried", columns, "What the errors of the inputs carry", notes, keys=1)
 
 

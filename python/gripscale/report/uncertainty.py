@@ -21,7 +21,7 @@ from gripscale.analysis.propagation import (
     summary,
 )
 from gripscale.analysis.sampled_answer import NOT_ALONE, ROAD, RUN
-from gripscale.analysis.sources import LABELS
+from gripscale.analysis.sources import LABELS, STATED
 from gripscale.analysis.variance_shares import SIGNIFICANCE
 from gripscale.charts.blocks import image
 from gripscale.charts.uncertainty import axis_of, uncertainty_pictures
@@ -123,12 +123,19 @@ def interval_sentence(data: xr.Dataset) -> str:
             "was not sampled (--model direct or both)"
         )
     text = f"interval: what is not known of the inputs, drawn in {count} samples, is in it"
+    if missing := not_stated(data):
+        text += f", but for {', '.join(missing)}"
     widths = [data[f"best_{name}_{RUN}"] for name in HEADS]
     if axis_of(data) or not all(np.isfinite(width) for width in widths):
         return f"{text}; `gripscale run` states sampling of the road, grid and factors only"
     of_run = data.assign({f"best_{name}_half_width": data[f"best_{name}_{RUN}"] for name in HEADS})
     ranges = ", ".join(f"{symbol} {interval(of_run, name)}" for name, symbol in HEADS.items())
     return f"{text}; `gripscale run`, without them: {ranges}"
+
+
+def not_stated(data: xr.Dataset) -> list[str]:
+    """Return labels of the sources that only a case can state and that are not in a result."""
+    return [LABELS[name] for name in STATED if name not in data.source]
 
 
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
@@ -240,7 +247,11 @@ def warning_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield which sources were not sampled, and why."""
-    yield from (f"Not sampled: {why}." for why in json.loads(data.attrs["left_out"]))
+    labels: dict[str, list[str]] = {}
+    for sentence in json.loads(data.attrs["left_out"]):
+        label, why = sentence.split(": ", 1)
+        labels.setdefault(why, []).append(label)
+    yield from (f"Not sampled: {', '.join(each)}: {why}." for why, each in labels.items())
 
 
 def quantile_table(data: xr.Dataset) -> Table:

@@ -18,11 +18,12 @@ from gripscale.analysis.sampled_inputs import (
     loaded_longer,
 )
 from gripscale.analysis.sampling import draws
-from gripscale.analysis.sources import SOURCES
+from gripscale.analysis.sources import SOURCES, STATED
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
+from gripscale.rubber import WLF
 from gripscale.surface import (
     HeightMap,
     Measured,
@@ -111,6 +112,54 @@ def test_profiles_vary_the_correlation_and_the_lines(known):
     assert one.inputs.correlation is not known.surface.correlation
     measured, _ = one.inputs.for_model(DirectContact())
     assert not np.array_equal(measured.measured.cleaned[0].z, known.profiles[0].z)
+
+
+def test_temperature_and_pressure_are_normal_about_the_case(known):
+    rubber = replace(known.rubber, reference_temperature=293.15, shift=WLF(8.0, 120.0))
+    shifted = replace(known, rubber=rubber, temperature=293.15)
+    drawn = alone("temperature", shifted, temperature="2 K")
+    conditions = [one.inputs.for_model(DirectContact())[1].conditions for one in drawn]
+    # the ends of forty draws scatter
+    assert np.std([each.temperature for each in conditions]) == pytest.approx(2.0, rel=0.15)
+    assert np.mean([each.temperature for each in conditions]) == pytest.approx(293.15, abs=0.1)
+    drawn = alone("pressure", known, pressure="3 %")
+    same = told(alone("pressure", known, pressure="0.09 bar"), "log_pressure")
+    assert same == pytest.approx(told(drawn, "log_pressure"))
+    loads = [one.inputs.tasks(HALF_PLANES, [Load(3e5, 0.3, 0.1)])[0].load for one in drawn]
+    logs = np.log([load.pressure / 3e5 for load in loads])
+    assert np.std(logs) == pytest.approx(0.03, rel=0.15)
+
+
+def test_noise_is_added_to_the_profiles_before_they_are_cleaned(spiky):
+    size = 2e-5
+    one = alone("height_noise", spiky, height_noise=size)[0]
+    for (raw, cleaned), noisy, clean_line in zip(
+        spiky.surface.measured.profiles, one.inputs.raw(), one.inputs.cleaned.profiles, strict=True
+    ):
+        change = noisy.z - raw.z
+        assert np.nanstd(change) == pytest.approx(size, rel=0.1)
+        assert abs(np.corrcoef(change[:-1], change[1:])[0, 1]) < 0.1  # of 2000 heights
+        # spikes are found anew, near those of the measurement
+        assert np.isnan(clean_line.z).sum() == pytest.approx(np.isnan(cleaned.z).sum(), rel=0.3)
+    chosen = Uncertainty(ranges={"height_noise": size}).of(spiky, ["direct"]).sources
+    before_cleaning = [each for each in chosen if each.name in ("height_noise", "cleaning")]
+    lines = [
+        next(draws(Inputs.of(spiky), drawn, 1, 0)).inputs.cleaned.profiles[0]
+        for drawn in (before_cleaning, before_cleaning[1:])
+    ]
+    # at the same limit of spikes
+    assert np.nanstd(lines[0].z - lines[1].z) == pytest.approx(size, rel=0.1)
+
+
+def test_standard_errors_have_no_default(known):
+    left_out = Uncertainty().of(known, ["direct"]).left_out
+    for name in STATED:
+        assert f"{SOURCES[name].label}: standard error not stated" in left_out
+    with pytest.raises(InputError, match="nothing to draw: the rubber has no temperature shift"):
+        alone("temperature", known, temperature="2 K")
+    for name in ("height_noise", "pressure"):
+        with pytest.raises(InputError, match=f"{name}: '1:2'"):
+            alone(name, known, **{name: "1:2"})
 
 
 def test_waves_are_stacks_as_good(known):

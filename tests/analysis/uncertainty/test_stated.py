@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import get_args
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -57,6 +58,24 @@ def test_a_case_states_all_of_it(case) -> None:
     assert choice.ranges["load_time"] == [0.5, 1.0, 2.0]
 
 
+def test_a_case_states_standard_errors(case) -> None:
+    stated = 'ranges = { temperature = "2 K", pressure = "0.1 bar", height_noise = "5 um" }'
+    choice = Uncertainty.of_case(read_case(case(f"[uncertainty]\n{stated}\n")).case.uncertainty)
+    assert choice.ranges.pop("height_noise") == pytest.approx(5e-6)
+    assert choice.ranges == {"temperature": 2.0, "pressure": "0.1 bar"}
+
+
+def test_a_standard_error_reaches_both_models(folder) -> None:
+    """Contact grows nearly in proportion to the load, of waves and of the whole profile."""
+    others = [name for name in SOURCES if name != "pressure"]
+    choice = Uncertainty(others, {"pressure": "10 %"})
+    data = propagate(folder / "case.toml", choice, samples=10, models=["chain", "direct"])
+    for model in data.model.values:
+        part = data.sel(model=model)
+        logs = np.log(part.contact_fraction / part.contact_fraction_case)
+        assert 0.7 < np.polyfit(data.log_pressure, logs, 1)[0] < 1.2, model
+
+
 def test_who_asks_goes_before_the_case(case) -> None:
     table = read_case(case(STATED)).case.uncertainty
     given = {"cut_off": "1 mm", "waves": "4,5"}
@@ -104,6 +123,9 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
         ("ranges = { load_time = [0, 1] }", "greater than zero"),
         ("ranges = { profile = [1, 2] }", "profile"),
         ('block_length = "0 mm"', "block_length"),
+        ('ranges = { temperature = "0 K" }', "greater than zero"),
+        ('ranges = { pressure = "much" }', 'a share such as "3 %", or a pressure'),
+        ('ranges = { height_noise = "3 %" }', "unknown unit"),
     ],
 )
 def test_what_cannot_be_stated(case, wrong, said) -> None:
