@@ -8,7 +8,6 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
-import click
 import pytest
 import typer
 from typer.testing import CliRunner
@@ -41,11 +40,11 @@ def test_readme_has_commands() -> None:
 def test_every_command_is_known(page: Path) -> None:
     for words in commands(page):
         arguments = shlex.split(words)[1:]
-        context = click.Context(typer.main.get_command(app))
-        while isinstance(context.command, click.Group):
+        context = typer.Context(typer.main.get_command(app))
+        while hasattr(context.command, "resolve_command"):
             name, command, arguments = context.command.resolve_command(context, arguments)
             context = command.make_context(name, arguments, parent=context)
-            arguments = context.protected_args + context.args
+            arguments = context._protected_args + context.args
 
 
 @pytest.mark.verification
