@@ -15,6 +15,7 @@ from typer.testing import CliRunner, Result
 from gripscale.case.folder import AT_TIMES, NOTE, RESULTS
 from gripscale.charts import write
 from gripscale.cli import app
+from gripscale.cli.terminal import time_left
 from gripscale.io import netcdf
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
@@ -221,3 +222,16 @@ def test_waves_by_hand_and_a_named_rubber_need_no_files(
     assert "1 wave: real contact area" in result.stdout
     assert "Dynamic" not in result.stdout
     assert (tmp_path / "results" / "static.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (1.9, ""),
+        (2.0, "; about 2 s left"),
+        (89.4, "; about 89 s left"),
+        (600.0, "; about 10 min left"),
+    ],
+)
+def test_a_line_says_how_long_the_others_may_take(seconds: float, words: str) -> None:
+    assert time_left(seconds) == words

@@ -15,7 +15,7 @@ from .experiments import Experiments
 
 MASKS = (
     (r"[^\S\n]+$", ""),
-    (r", \d+\.\d s$", ", T s"),
+    (r", \d+\.\d s(; about \d+ (s|min) left)?$", ", T s"),
     (r"\d+\.\d MB", "S MB"),
     (r"\b[0-9a-f]{16,64}\b", "DIGEST"),
     (r"\b\d{4}-\d\d-\d\d[T ]\d\d:\d\d[:\d]*(\S*)", "DATE"),

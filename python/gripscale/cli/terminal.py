@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import textwrap
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import wraps
 from pathlib import Path
@@ -162,10 +163,26 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
     return inside
 
 
+WORTH_WAITING = 2.0
+"""Time left from which on a line says it [s]."""
+
+
+def time_left(seconds: float) -> str:
+    """Return about how long something still takes, as a clause; empty for a moment."""
+    if seconds < WORTH_WAITING:
+        return ""
+    if seconds < 90.0:
+        return f"; about {seconds:.0f} s left"
+    return f"; about {seconds / 60.0:.0f} min left"
+
+
 def progress_printer(console: Console) -> Callable[[Progress], None]:
-    """Return what prints a line for each prediction."""
+    """Return what prints a line for each prediction, with the time that the others may take."""
+    begun, solved = time.monotonic(), 0
 
     def print_line(progress: Progress) -> None:
+        nonlocal solved
+        solved += not progress.stored
         answer = progress.result
         width = len(str(progress.total))
         text = f"[{progress.done:>{width}}/{progress.total}] {progress.label}: "
@@ -175,8 +192,12 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
             text += f"area {float(answer.total_contact_fraction):.4g}"
             if answer.nominal_speed > 0.0:
                 text += f", friction {float(answer.total_friction):.3f}"
-        duration = "already solved" if progress.stored else f"{progress.seconds:.1f} s"
-        print_wrapped(console, f"{text}, {duration}")
+        if progress.stored:
+            print_wrapped(console, f"{text}, already solved")
+            return
+        each = (time.monotonic() - begun) / solved
+        left = time_left(each * (progress.total - progress.done))
+        print_wrapped(console, f"{text}, {progress.seconds:.1f} s{left}")
 
     return print_line
 
