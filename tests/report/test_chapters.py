@@ -62,8 +62,8 @@ def test_a_file_of_an_older_version_has_no_words() -> None:
 
 def test_a_chapter_is_found_without_the_source() -> None:
     words = chapter_words("docs/reading-results.md#beyond-the-measured-band")
-    assert words == '"reading results: beyond the measured band" in the documentation'
-    assert chapter_words("docs/limits.md") == '"limits" in the documentation'
+    assert words == "`gripscale docs reading-results#beyond-the-measured-band`"
+    assert chapter_words("docs/limits.md") == "`gripscale docs limits`"
     assert chapter_words("`gripscale keys rubber`") == "`gripscale keys rubber`"
 
 

@@ -52,7 +52,7 @@ def test_failed_prediction_is_loud(page: Page) -> None:
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
     assert "speed 3 m/s, rubber <b>SBR</b>: NOT converged: wave 3 of 3" in page.text
-    assert '"reading results: statuses and what to do about them"' in page.text
+    assert "gripscale docs reading-results#statuses-and-what-to-do-about-them" in page.text
     assert Status.ITERATION_LIMIT.advice in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
     tables = [page.body(name)[0] for name in ("study", "totals")]  # a head in each row

@@ -16,6 +16,7 @@ from typer.core import TyperGroup
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
 from gripscale.cli.cut_off import cut_off
 from gripscale.cli.design import design
+from gripscale.cli.docs import docs
 from gripscale.cli.experiments import calibrate, study, uncertainty
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
@@ -26,7 +27,7 @@ from gripscale.core.provenance import COMMAND, version_of
 
 EPILOGUE = (
     "To start: `gripscale init FOLDER` writes an example, `gripscale keys` lists what a case may "
-    "say. The documentation is in docs of the source, `make docs` builds its pages."
+    "say, `gripscale docs` opens the documentation."
 )
 
 
@@ -64,6 +65,7 @@ app.command("fit-rubber")(fit_rubber)
 app.command("compare-rubbers")(compare_rubbers)
 app.command("compare-surfaces")(compare_surfaces)
 app.command("keys")(keys)
+app.command("docs")(docs)
 app.command("app")(app_command)
 app.add_typer(export, name="export")
 

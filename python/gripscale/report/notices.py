@@ -127,16 +127,11 @@ def explained(failure: Failure | Exception) -> str:
 
 
 def chapter_words(see: str) -> str:
-    """Return how to find a command, or a chapter such as `docs/limits.md#discretisation`."""
+    """Return the command that shows a chapter such as `docs/limits.md#discretisation`."""
     if see.startswith("`"):
         return see
-    page, _, heading = see.removeprefix("docs/").partition("#")
-    words = page.removesuffix(".md").replace("-", " ")
-    return (
-        f'"{words}: {heading.replace("-", " ")}" in the documentation'
-        if heading
-        else (f'"{words}" in the documentation')
-    )
+    page, hash_sign, heading = see.removeprefix("docs/").partition("#")
+    return f"`gripscale docs {page.removesuffix('.md')}{hash_sign}{heading}`"
 
 
 def _share(value: float) -> str:

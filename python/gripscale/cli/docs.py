@@ -1,0 +1,67 @@
+"""`gripscale docs [PAGE]`: the documentation, which comes with the package."""
+
+from __future__ import annotations
+
+import re
+import sys
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from typing import Annotated
+
+from gripscale.cli.terminal import argument, command, print_wrapped, screen
+from gripscale.core import checks
+
+COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
+PICTURE = re.compile(r"^!\[([^\]]*)\]\([^)]*\)\s*$", flags=re.MULTILINE)
+
+
+def pages() -> dict[str, Traversable]:
+    """Return the pages by name, the first ones first."""
+    home = files("gripscale").joinpath("pages")
+    names = sorted(path.name for path in home.iterdir() if path.name.endswith(".md"))
+    return {name.removesuffix(".md"): home.joinpath(name) for name in names}
+
+
+@command
+def docs(
+    page: Annotated[
+        str | None,
+        argument("A page, such as reading-results; without one their titles.", "PAGE"),
+    ] = None,
+) -> None:
+    """Show a page of the documentation in the terminal, or list all pages."""
+    from rich.markdown import Markdown
+
+    console, known = screen(), pages()
+    if page is None:
+        for name, path in known.items():
+            heading = path.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
+            print_wrapped(console, f"{name:26}{heading}")
+        console.print()
+        print_wrapped(console, "`gripscale docs PAGE` shows one of them.")
+        return
+    name, _, heading = page.partition("#")
+    name = name.removesuffix(".md")
+    checks.allowed_names("page", [name], list(known))
+    text = COMMENT.sub("", known[name].read_text(encoding="utf-8"))
+    text = PICTURE.sub(r"*Figure: \1.*", text)
+    if heading:
+        text = _from_heading(text, heading)
+    if sys.stdout.isatty():
+        with console.pager(styles=True):
+            console.print(Markdown(text))
+    else:
+        console.print(Markdown(text))
+
+
+def _from_heading(text: str, anchor: str) -> str:
+    """Return a page from the heading on that a link names; all if there is none."""
+    for match in re.finditer(r"^#+ (.*)$", text, flags=re.MULTILINE):
+        if anchor_of(match[1]) == anchor:
+            return text[match.start() :]
+    return text
+
+
+def anchor_of(heading: str) -> str:
+    """Return how a link names a heading."""
+    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower())

@@ -1,0 +1,54 @@
+"""`gripscale docs`: every page and chapter that the program points to is one that it shows."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from gripscale.cli.docs import anchor_of, pages
+from gripscale.report.notices import chapter_words
+from gripscale.wave import Status
+from tests.samples import DOCS, ROOT, Shell
+
+POINTER = re.compile(r"docs/([\w-]+)\.md(?:#([\w-]+))?")
+
+
+def test_all_pages_are_listed_by_name_and_title(shell: Shell) -> None:
+    listed = shell("docs")
+    assert listed.exit_code == 0
+    for path in DOCS.glob("*.md"):
+        title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+        assert re.search(rf"^{path.stem} +{re.escape(title)}$", listed.stdout, re.MULTILINE)
+
+
+def test_a_page_is_shown_from_a_chapter_on(shell: Shell) -> None:
+    whole = shell("docs", "limits").stdout
+    page = (DOCS / "limits.md").read_text(encoding="utf-8")
+    heading = re.findall(r"^## (.*)$", page, re.MULTILINE)[1]
+    assert heading in whole
+    part = shell("docs", f"limits.md#{heading.lower().replace(' ', '-')}").stdout
+    assert part.strip().startswith(heading)
+    assert len(part) < len(whole)
+
+
+def test_an_unknown_page_is_one_sentence(shell: Shell) -> None:
+    refused = shell("docs", "limit")
+    assert refused.exit_code == 2
+    assert "unknown page limit; did you mean limits?" in refused.stderr
+
+
+def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter() -> None:
+    sources = [*ROOT.glob("python/gripscale/**/*.py"), ROOT / "rust" / "status.rs"]
+    found = {match for path in sources for match in POINTER.findall(path.read_text("utf-8"))}
+    assert len(found) >= 8
+    for page, heading in found:
+        text = pages()[page].read_text(encoding="utf-8")
+        headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+        assert not heading or heading in map(anchor_of, headings), f"{page}#{heading}"
+
+
+@pytest.mark.parametrize("status", list(Status))
+def test_a_status_names_the_command_that_shows_its_chapter(status: Status) -> None:
+    if status.chapter:
+        assert re.fullmatch(r"`gripscale docs [\w-]+(#[\w-]+)?`", chapter_words(status.chapter))
