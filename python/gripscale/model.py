@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     from gripscale.surface.surface import Surface, SurfacePart
 
 
+INPUT_DOUBTS = "input_doubts"
+"""Attribute of an answer: why it is none of the road to be predicted, in sentences."""
+
 OCTAVE = 2.0
 """Ratio of the wavelengths that are compared, where there are waves so far apart."""
 

@@ -55,6 +55,7 @@ from gripscale.half_space.location import PREFIX
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
 from gripscale.model import (
+    INPUT_DOUBTS,
     STATUS,
     Load,
     answer,
@@ -511,6 +512,8 @@ def reference_totals(
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
     ).assign_attrs(results.file.attributes, tolerance=JUDGED_TO)
+    if results.surface.doubts:
+        totals.attrs[INPUT_DOUBTS] = " ".join(f"{text}." for text in results.surface.doubts)
     traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
     if traces:
         totals = totals.assign(samples[traces].variables)

@@ -102,6 +102,10 @@ class CaseResults:
             "which it cannot hold once: is its unit right? If so, leave such waves out."
         ]
 
+    def doubts(self) -> list[str]:
+        """Return why the answer may be that of another road or rubber, a sentence each."""
+        return [f"{text}." for text in self.surface.doubts]
+
     @property
     def dynamic(self) -> Prediction | None:
         """The rubber sliding, or None if it was not asked for or did not get so far."""

@@ -7,6 +7,7 @@ road between its plates pass all of them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
 from gripscale.surface.sine_fit import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE
 from gripscale.surface.sines import SineStack
+from gripscale.surface.supports import road_between, support_plates
 
 STEEPEST = 3.0
 """Height change per step of a spike (ISO 13473-1:2019, section 7.5)."""
@@ -81,18 +83,9 @@ def profile_warnings(
     steep : bool, optional
         Whether to warn of remaining steep steps; on maps, true edges remain on purpose.
     """
-    checks.instance("profile", profile, Profile)
     checks.flag("steep", steep)
-    measured, kept = profile.z, np.isfinite(profile.z)
-    if cleaned is not None:
-        checks.instance("cleaned", cleaned, Profile)
-        first = int(np.searchsorted(profile.x, cleaned.x[0] - 0.5 * profile.step))
-        measured, kept = profile.z[first : first + len(cleaned)], np.isfinite(cleaned.z)
-        if measured.size != len(cleaned):
-            raise InputError(
-                f"cleaned must be a part of profile; got {len(cleaned)} points from "
-                f"{cleaned.x[0]:g} m on of a profile from {profile.x[0]:g} m to {profile.x[-1]:g} m"
-            )
+    part = _kept_part(profile, cleaned)
+    measured, kept = part.z, np.isfinite(part.z if cleaned is None else cleaned.z)
     valid = measured[np.isfinite(measured)]
     if valid.size == 0 or np.ptp(valid) == 0.0:
         return ("all heights are equal: is this the column of heights?",)
@@ -104,15 +97,51 @@ def profile_warnings(
             *_unit_warnings(_levelled(measured), profile),
         )
     z = np.where(kept, measured, np.nan)
-    sentinels = tuple(_sentinel_warnings(z[np.isfinite(z)]))
-    if sentinels:  # a sentinel is far off, steep, flat and high, too
-        return sentinels
+    doubts = doubt_warnings(profile, cleaned)
+    if any(_sentinel_warnings(z[np.isfinite(z)])):  # it is far off, steep, flat and high, too
+        return doubts
     level = _levelled(z)
     return (
-        *_jump_warnings(level),
-        *_flat_warnings(level),
+        *(doubts or (*_jump_warnings(level), *_flat_warnings(level))),
         *(_slope_warnings(z, profile.step) if steep else ()),
         *_unit_warnings(level, profile),
+    )
+
+
+def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
+    """Return what cleaning kept of a profile, with the heights as measured."""
+    checks.instance("profile", profile, Profile)
+    if cleaned is None:
+        return profile
+    checks.instance("cleaned", cleaned, Profile)
+    first = int(np.searchsorted(profile.x, cleaned.x[0] - 0.5 * profile.step))
+    measured = profile.z[first : first + len(cleaned)]
+    if measured.size != len(cleaned):
+        raise InputError(
+            f"cleaned must be a part of profile; got {len(cleaned)} points from "
+            f"{cleaned.x[0]:g} m on of a profile from {profile.x[0]:g} m to {profile.x[-1]:g} m"
+        )
+    return replace(cleaned, z=measured)
+
+
+def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
+    """Return those warnings of a profile that leave no answer to rely on, or none.
+
+    They are about sentinels, plates and supports. Arguments and errors as `profile_warnings`.
+    """
+    part = _kept_part(profile, cleaned)
+    if cleaned is not None:
+        part = replace(part, z=np.where(np.isfinite(cleaned.z), part.z, np.nan))
+    sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
+    supports = support_plates(part)
+    if sentinels or not supports:  # a sentinel is far off, too
+        return sentinels
+    road = road_between(part)
+    ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
+    return (
+        "plates, supports or filled gaps lie in the profile, at "
+        f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
+        f"crop{ends} leaves them out",
     )
 
 
