@@ -310,7 +310,9 @@ def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextT
 
     `kinds` are those of its unit. Raises `FileError` if the decimal sign changes.
     """
-    titles, numbers, cells = [], [], []
+    titles: list[ColumnTitle] = []
+    numbers: list[int] = []
+    cells: list[list[str]] = []
     for number, line in lines:
         cell = line.strip().strip('"').rstrip(";,").strip()
         if is_comment(line):

@@ -76,8 +76,8 @@ def read_instrument_file(
             raise InputError(f"step must be left out; {path} states the size of its surface")
         for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
             length_unit(path, "the file", "m", name, unit)
-        x, y, heights = read_sdf_text(path, raw)
-        return HeightField(heights, x, y)
+        along, across, field = read_sdf_text(path, raw)
+        return HeightField(field, along, across)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -257,8 +257,10 @@ def _open_lines(
     if reader == "auto" and file.suffix.lower() in EXCEL:
         text = not set(read_sheets(file)) >= _SHEETS_OF_AN_INSTRUMENT
     if text:
-        options = {"x_unit": x_unit, "z_unit": z_unit, "sheet": sheet}
-        return file, read_text_profile(file, step=steps and steps[0], **options)
+        spacing = None if steps is None else steps[0]
+        return file, read_text_profile(
+            file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing
+        )
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
     if field.y is None and direction != "x":
         raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")

@@ -56,7 +56,11 @@ def read_sdf_text(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     except ValueError as error:
         raise FileError(f"{path}: expected numbers as heights ({error})") from error
     heights = numbers["Zscale"] * counts.reshape(profiles, points).T
-    return numbers["Xscale"] * np.arange(points), numbers["Yscale"] * np.arange(profiles), heights
+    x, y = (
+        numbers[name] * np.arange(size, dtype=float)
+        for name, size in (("Xscale", points), ("Yscale", profiles))
+    )
+    return np.asarray(x, float), np.asarray(y, float), np.asarray(heights, float)
 
 
 def _header(head: str) -> tuple[dict[str, str], int]:

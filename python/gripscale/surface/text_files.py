@@ -191,7 +191,7 @@ def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str 
     printed, notes = _heights(column, 0, z_unit)
     z = in_si(printed, z_unit, "length")
     with about_file(path):
-        x = step * np.arange(z.size)
+        x = np.asarray(step * np.arange(z.size), float)
         return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
 
 
