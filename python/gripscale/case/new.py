@@ -92,9 +92,36 @@ def new_case(
     target = Path(path)
     if target.exists():
         raise FileError(f"{target} is there already and is not overwritten; give another name")
+    tables, skipped = propose(
+        files, target.parent, load=load, temperature=temperature, step=step, shift=shift
+    )
+    folder.make(target.parent)
+    folder.write_text(target, case_text(tables))
+    try:
+        of_inputs = doubts_of_inputs(read_case(target))
+    except GripscaleError:
+        target.unlink()
+        raise
+    folder.write_text(target, case_text(tables, of_inputs))
+    return NewCase(target, ranked(tables, of_inputs), skipped)
+
+
+def propose(
+    files: Sequence[str | Path],
+    directory: Path,
+    *,
+    load: Mapping[str, str] | None = None,
+    temperature: str | None = None,
+    step: str | list[str] | None = None,
+    shift: Mapping[str, Any] | None = None,
+) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
+    """Return the tables of a case in a directory for measured files, and the files without use.
+
+    Arguments and errors are those of `new_case`.
+    """
     kelvin = None if temperature is None else _kelvin(temperature)
     surfaces, rubbers, skipped = _sorted(files, step)
-    names = {file: _name_in(target, file) for file in (*surfaces, *rubbers)}
+    names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers)}
     tables = {
         "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
         "rubber": rubber_proposal(
@@ -103,15 +130,13 @@ def new_case(
         "load": _load_proposal(load or {}),
     }
     tables["conditions"] = conditions_proposal(tables["rubber"], rubbers, kelvin)
-    folder.make(target.parent)
-    folder.write_text(target, case_text(tables))
-    try:
-        doubts = _doubts_of_inputs(read_case(target))
-    except GripscaleError:
-        target.unlink()
-        raise
-    every = [doubt for table in tables.values() for doubt in table.doubts] + doubts
-    return NewCase(target, tuple(sorted(every, key=lambda doubt: -doubt.weight)), skipped)
+    return tables, skipped
+
+
+def ranked(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> tuple[Doubt, ...]:
+    """Return the doubts of proposals and further ones, the weightiest first."""
+    every = [doubt for table in tables.values() for doubt in table.doubts] + [*further]
+    return tuple(sorted(every, key=lambda doubt: -doubt.weight))
 
 
 def _kelvin(temperature: str) -> float:
@@ -148,10 +173,10 @@ def _sorted(
     return surfaces, rubbers, tuple(skipped)
 
 
-def _name_in(case: Path, file: Path) -> str:
-    """Return how a case names a file: from its own folder, if they are not on two drives."""
+def _name_in(directory: Path, file: Path) -> str:
+    """Return how a case in a directory names a file: from there, if they are not on two drives."""
     try:
-        return Path(os.path.relpath(file.resolve(), case.parent.resolve())).as_posix()
+        return Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
     except ValueError:
         return file.resolve().as_posix()
 
@@ -167,9 +192,18 @@ def _load_proposal(load: Mapping[str, str]) -> Proposal:
     return proposal
 
 
-def case_text(tables: Mapping[str, Proposal]) -> str:
-    """Return the text of a case, each key with why it has its value, or what it means."""
+def case_text(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> str:
+    """Return the text of a case: its doubts, and each key with why it has its value or its meaning.
+
+    The doubts are those of the proposals and `further` ones.
+    """
     parts = [HEAD]
+    doubts = ranked(tables, further)
+    if doubts:
+        parts += ["# Doubts, the weightiest first:"]
+        for number, doubt in enumerate(doubts, start=1):
+            parts += textwrap.wrap(f"{number}. {doubt.text}", WIDTH, **COMMENT)
+        parts += [""]
     meanings = {
         (section.name, key.name): key.meaning for section in sections() for key in section.keys
     }
@@ -194,7 +228,7 @@ def _toml(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def _doubts_of_inputs(file: CaseFile) -> list[Doubt]:
+def doubts_of_inputs(file: CaseFile) -> list[Doubt]:
     """Return what reading and fitting the files of a case puts in doubt."""
     results = prepare_case(file)
     rubber, surface = results.rubber, results.surface

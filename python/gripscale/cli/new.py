@@ -7,6 +7,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from gripscale.cli.terminal import argument, command, option, print_wrapped, screen
+from gripscale.core.errors import GripscaleError, InputError
+
+CURES = {
+    "shift must be given": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
+    "give step": '--step LENGTH, such as --step "0.1 mm"',
+}
+"""Options that cure a refusal, by what it says."""
 
 
 @command
@@ -49,13 +56,14 @@ def new(
     if wlf is not None:
         options["shift"] = {"kind": "wlf", "c1": wlf[0], "c2": wlf[1]}
     load = {"pressure": pressure, "speed": speed, "footprint": footprint}
-    case = new_case(
-        files,
-        output,
-        load={key: value for key, value in load.items() if value is not None},
-        temperature=temperature,
-        **options,
-    )
+    values = {key: value for key, value in load.items() if value is not None}
+    try:
+        case = new_case(files, output, load=values, temperature=temperature, **options)
+    except GripscaleError as error:
+        option_name = next((name for key, name in CURES.items() if key in str(error)), None)
+        if option_name is None:
+            raise
+        raise InputError(f"{error}: here with {option_name}") from error
     console = screen()
     print_wrapped(console, f"Case: {case.path}")
     if case.skipped:

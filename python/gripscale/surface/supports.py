@@ -17,7 +17,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import theilslopes
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
@@ -79,8 +78,9 @@ def support_plates(profile: Profile) -> tuple[Support, ...]:
     x, z = profile.x[valid], profile.z[valid]
     pieces = np.array_split(np.arange(valid.size), PIECES)
     middles, levels = (np.array([np.median(part[at]) for at in pieces]) for part in (x, z))
-    slope, level = theilslopes(levels, middles)[:2]
-    height = z - level - slope * x
+    i, j = np.triu_indices(PIECES, 1)
+    slope = np.median((levels[j] - levels[i]) / (middles[j] - middles[i]))
+    height = z - slope * x - np.median(levels - slope * middles)
     typical = 1.4826 * float(np.median(np.abs(height)))
     off = _stepped(_runs_of(np.abs(height) > OFF * typical, FEWEST), height)
     supports = tuple(_stretches(profile, valid, off | _smooth(x, z, pieces), height))
