@@ -104,7 +104,13 @@ class CaseResults:
 
     def doubts(self) -> list[str]:
         """Return why the answer may be that of another road or rubber, a sentence each."""
-        return [f"{text}." for text in self.surface.doubts]
+        texts = [f"{text}." for text in self.surface.doubts]
+        if self.rubber.rubber.reference_temperature is None:
+            texts.append(
+                "Neither the file of the rubber nor the case states the temperature of its moduli: "
+                "reference_temperature of [rubber] does."
+            )
+        return texts
 
     @property
     def dynamic(self) -> Prediction | None:

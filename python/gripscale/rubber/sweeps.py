@@ -191,6 +191,19 @@ def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
         return False
 
 
+def states_temperature(path: str | Path) -> bool:
+    """Return whether a file states the temperature of its moduli, above a table or in a column.
+
+    Raises `FileError` and `InputError` as `read_sweeps`.
+    """
+    layout = FileLayout()
+    blocks = read_blocks(file_path(path), layout, temperature_unit="C")
+    return all(
+        block.temperature is not None or layout.column(block.table, "temperature") is not None
+        for block in blocks
+    )
+
+
 def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | None:
     """Return the shift that a file of RepTate (.tts) states among its parameters, or None.
 
