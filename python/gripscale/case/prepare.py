@@ -17,7 +17,7 @@ from gripscale.case.schema import Table
 from gripscale.case.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.errors import GripscaleError, InputError, about_file, about_keys
+from gripscale.core.errors import FileError, GripscaleError, InputError, about_file, about_keys
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.half_space.below_measurement import (
     FinerMeasurement,
@@ -216,6 +216,11 @@ def prepare_rubber(
         return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
     paths, layout = [resolve(name) for name in source.measured_files], source.layout()
     path = paths[0]
+    if path.is_dir():
+        raise FileError(
+            f"{path}: expected a file or a list of files; got a folder: `gripscale new` writes the "
+            "list"
+        )
     origin = source.source or ", ".join(map(str, paths))
     reading = layout | {"titles_first": titles_first, "source": origin}
     sweeps: Sweeps | None

@@ -6,7 +6,7 @@ import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
-from gripscale.cli.terminal import argument, command, option, print_wrapped, screen
+from gripscale.cli.terminal import argument, command, lengths_of, option, print_wrapped, screen
 from gripscale.core.errors import GripscaleError, InputError
 
 CURES = {
@@ -51,8 +51,7 @@ def new(
 
     options: dict[str, Any] = {}
     if step is not None:
-        lengths = [length.strip() for length in step.split(",")]
-        options["step"] = lengths if len(lengths) > 1 else lengths[0]
+        options["step"] = lengths_of(step)
     if wlf is not None:
         options["shift"] = {"kind": "wlf", "c1": wlf[0], "c2": wlf[1]}
     load = {"pressure": pressure, "speed": speed, "footprint": footprint}

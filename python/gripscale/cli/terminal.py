@@ -242,6 +242,12 @@ def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None and value is not False}
 
 
+def lengths_of(text: str) -> str | list[str]:
+    """Return a length typed as "1 um", or several as "1 um, 2 um"."""
+    lengths = [length.strip() for length in text.split(",")]
+    return lengths if len(lengths) > 1 else lengths[0]
+
+
 def open_folder(
     file: CaseFile, output: Path | None, name: str, *opening: str
 ) -> tuple[Console, Path]:

@@ -44,8 +44,8 @@ class Reduction:
         """Return the terms, the band and the misfit as a sentence."""
         low, high = (end / (2.0 * math.pi) for end in self.rubber.valid_band or (0.0, math.inf))
         return (
-            f"Reduced to {len(self.rubber.moduli)} Maxwell elements for {low:.4g} to {high:.4g} Hz; "
-            f"largest errors there: E' {self.storage:.2%}, E'' {self.loss:.2%}, loss factor "
+            f"Reduced to {len(self.rubber.moduli)} Maxwell elements for {low:.4g} to {high:.4g} "
+            f"Hz; largest errors there: E' {self.storage:.2%}, E'' {self.loss:.2%}, loss factor "
             f"{self.loss_factor:.2%}"
         )
 
