@@ -21,10 +21,13 @@ from gripscale.case.read import validate
 from gripscale.case.tables import SurfaceTable
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.io.text_table import EXCEL, read_lines
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
+from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.sweeps import holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, profile_warnings, read_map, read_profile
+from gripscale.surface.read import TEXT_SUFFIXES
 from gripscale.surface.supports import road_between, support_plates
 
 Measurement = TypeVar("Measurement")
@@ -76,6 +79,8 @@ class Proposal:
 
 
 LENGTHS = ("mm", "um", "m")
+SHORTEST, LONGEST = 1e-3, 20.0
+"""Lengths of profiles whose files state no unit [m]."""
 UNITS_OF_SURFACE = {"x_unit": LENGTHS[0], "z_unit": LENGTHS[0]}
 UNITS_OF_RUBBER = {
     "frequency_unit": "Hz",
@@ -163,15 +168,17 @@ def open_surface(
     Raises `FileError` and `InputError` as reading does.
     """
     options = _step_option(step)
-    try:
-        return _read_with(read_map, path, UNITS_OF_SURFACE, **options)
-    except GripscaleError as no_map:
+    # an instrument's map has profiles, too; a text with a distance and a height is no map
+    is_text = path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL)
+    readers = (read_profile, read_map) if is_text else (read_map, read_profile)
+    refusals = []
+    for read in readers:
         try:
-            return _read_with(read_profile, path, UNITS_OF_SURFACE, **options)
-        except GripscaleError as no_profile:
-            # a file of many columns was meant as a map
-            wide = "table of heights has no steps" in str(no_map)
-            raise (no_map if wide else no_profile) from None
+            return _read_with(read, path, UNITS_OF_SURFACE, **options)
+        except GripscaleError as error:
+            refusals.append(error)
+    # a file of many columns was meant as a map
+    raise next((e for e in refusals if "table of heights has no steps" in str(e)), refusals[0])
 
 
 def _likely_units(
@@ -186,7 +193,8 @@ def _likely_units(
         surface = read(path, **options, **units)
         middle = surface.z.shape[-1] // 2
         line = surface.line(middle) if isinstance(surface, HeightMap) else surface
-        return not any("unit of" in text for text in profile_warnings(line))
+        usual = SHORTEST <= line.length <= LONGEST
+        return usual and not any("unit of" in text for text in profile_warnings(line))
 
     choices = [
         dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))
@@ -228,6 +236,8 @@ def rubber_proposal(
         layout[key], words = _likely(key, paths, several, layout)
         reason = f"{paths[0].name} does not state it; {words}"
         proposal.add(key, layout[key], reason, Weight.ANOTHER)
+    if layout:
+        measured, _ = _open_rubber(paths, several, **layout)
     _add_reference(proposal, measured, temperature)
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
@@ -310,12 +320,15 @@ def has_shift(paths: list[Path], proposal: Proposal) -> bool:
     return several or read_shift_of_sweeps(paths[0], layout) is not None
 
 
+ENOUGH_LINES = 400
+"""Lines that tell what a file holds."""
+
+
 def holds_moduli(path: Path) -> bool:
     """Return whether a file is one of moduli, by its titles, its numbers or its first line."""
-    from gripscale.rubber.blocks import read_blocks
-
     try:
-        blocks = read_blocks(path, FileLayout(), temperature_unit="C")
+        lines = read_lines(path)[:ENOUGH_LINES]
+        blocks = blocks_in(path, lines, FileLayout(), temperature_unit="C")
     except GripscaleError:
         return False
     return any(_are_moduli(block.table) for block in blocks)

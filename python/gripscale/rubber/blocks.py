@@ -61,11 +61,16 @@ def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None)
 
     `temperature_unit` is that of temperatures above a table which have none.
     """
+    lines = read_lines(path, sheet=layout.sheet, header=layout.header)
+    return blocks_in(path, lines, layout, temperature_unit=temperature_unit)
+
+
+def blocks_in(
+    path: Path, lines: list[Line], layout: FileLayout, *, temperature_unit: str | None
+) -> list[Block]:
+    """Return the tables in `lines` of the file `path`, as `read_blocks` does."""
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
-    lines = [
-        (number, with_logarithms(with_primes(line)))
-        for number, line in read_lines(path, sheet=layout.sheet, header=layout.header)
-    ]
+    lines = [(number, with_logarithms(with_primes(line))) for number, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -84,28 +84,56 @@ def profile_warnings(
         Whether to warn of remaining steep steps; on maps, true edges remain on purpose.
     """
     checks.flag("steep", steep)
+    doubts = _doubts(profile, cleaned)
+    if doubts.heights is None:
+        return doubts.texts
+    level = _levelled(doubts.heights)
+    return (
+        *doubts.texts,
+        *(() if doubts.plates else (*_jump_warnings(level), *_flat_warnings(level))),
+        *(_slope_warnings(doubts.heights, profile.step) if steep else ()),
+    )
+
+
+def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
+    """Return those warnings of a profile that leave no answer to rely on, or none.
+
+    They are about sentinels, plates and supports, and units. Arguments and errors as
+    `profile_warnings`.
+    """
+    return _doubts(profile, cleaned).texts
+
+
+class _Doubts(NamedTuple):
+    """Why a profile may be no road."""
+
+    texts: tuple[str, ...] = ()
+    heights: Array | None = None
+    """Heights that count [m]; None where they mean nothing."""
+    plates: bool = False
+
+
+def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
+    """Return why a profile may be no road; `InputError` as `profile_warnings`."""
     part = _kept_part(profile, cleaned)
     measured, kept = part.z, np.isfinite(part.z if cleaned is None else cleaned.z)
     valid = measured[np.isfinite(measured)]
     if valid.size == 0 or np.ptp(valid) == 0.0:
-        return ("all heights are equal: is this the column of heights?",)
+        return _Doubts(("all heights are equal: is this the column of heights?",))
     spikes = float((np.isfinite(measured) & ~kept).sum() / valid.size)
     if spikes > MOST_SPIKES:  # the remaining heights mean nothing
-        return (
+        text = (
             f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {STEEPEST:g}: "
-            "is the unit of heights or of distances right?",
-            *_unit_warnings(_levelled(measured), profile),
+            "is the unit of heights or of distances right?"
         )
-    z = np.where(kept, measured, np.nan)
-    doubts = doubt_warnings(profile, cleaned)
-    if any(_sentinel_warnings(z[np.isfinite(z)])):  # it is far off, steep, flat and high, too
-        return doubts
-    level = _levelled(z)
-    return (
-        *(doubts or (*_jump_warnings(level), *_flat_warnings(level))),
-        *(_slope_warnings(z, profile.step) if steep else ()),
-        *_unit_warnings(level, profile),
-    )
+        return _Doubts((text, *_unit_warnings(_levelled(measured), profile)))
+    part = replace(part, z=np.where(kept, measured, np.nan))
+    sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
+    if sentinels:  # a sentinel is far off, steep, flat and high, too
+        return _Doubts(sentinels)
+    plates = tuple(_plate_warnings(part))
+    units = _unit_warnings(_levelled(part.z), profile)
+    return _Doubts((*plates, *units), part.z, bool(plates))
 
 
 def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
@@ -124,25 +152,17 @@ def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
     return replace(cleaned, z=measured)
 
 
-def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
-    """Return those warnings of a profile that leave no answer to rely on, or none.
-
-    They are about sentinels, plates and supports. Arguments and errors as `profile_warnings`.
-    """
-    part = _kept_part(profile, cleaned)
-    if cleaned is not None:
-        part = replace(part, z=np.where(np.isfinite(cleaned.z), part.z, np.nan))
-    sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
-    supports = support_plates(part)
-    if sentinels or not supports:  # a sentinel is far off, too
-        return sentinels
-    road = road_between(part)
-    ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
-    return (
-        "plates, supports or filled gaps lie in the profile, at "
-        f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
-        f"crop{ends} leaves them out",
-    )
+def _plate_warnings(profile: Profile) -> Iterator[str]:
+    """Warn of plates and supports, and say which crop leaves them out."""
+    supports = support_plates(profile)
+    if supports:
+        road = road_between(profile)
+        ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
+        yield (
+            "plates, supports or filled gaps lie in the profile, at "
+            f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
+            f"crop{ends} leaves them out"
+        )
 
 
 def _levelled(z: Array) -> Array:
