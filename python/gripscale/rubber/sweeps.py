@@ -381,10 +381,11 @@ _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)
 
 def named_temperature(path: Path) -> float | None:
     """Return the temperature that stands with its unit in the name of a file [K], if just one."""
-    stated = _NAMED.findall(path.stem.replace("_", " "))
-    if len(stated) != 1:
+    temperatures = _NAMED.findall(path.stem.replace("_", " "))
+    if len(temperatures) != 1:
         return None
-    return float(in_si(float(stated[0][0].replace(",", ".")), stated[0][1], "temperature"))
+    ((number, unit),) = temperatures
+    return float(in_si(float(number.replace(",", ".")), unit, "temperature"))
 
 
 def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
