@@ -68,3 +68,8 @@ def test_the_longest_part_is_the_road_on_whole_grains():
     z[2500:3000] += 15e-3
     assert road_between(Profile(ROUGH.x, z)) == pytest.approx((0.040, 0.240), abs=1e-9)
     assert road_between(ROUGH) is None
+
+
+def test_a_hill_without_steps_is_no_plate():
+    hill = 10e-3 * np.exp(-0.5 * ((ROUGH.x - 0.2) / 8e-3) ** 2)
+    assert support_plates(Profile(ROUGH.x, hill + 0.1 * ROUGH.z)) == ()
