@@ -59,7 +59,7 @@ def test_what_cannot_be_reduced_is_refused() -> None:
         reduced(Rubber(2e6, [], []))
     with pytest.raises(InputError, match="terms must be a whole number from 1 to 200; got 0"):
         reduced(SBR, terms=0)
-    with pytest.raises(InputError, match="band .* must be a lower and a higher value"):
+    with pytest.raises(InputError, match=r"band .* must be a lower and a higher value"):
         reduced(SBR, band=(1e3, 1.0))
 
 

@@ -55,12 +55,12 @@ from gripscale.half_space.location import PREFIX
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
 from gripscale.model import (
-    INPUT_DOUBTS,
     STATUS,
     Load,
     answer,
     cut_off_exponents_of,
     extrapolation_of,
+    input_doubts,
     with_area_term,
 )
 from gripscale.rubber.extrapolation import require_measured
@@ -511,9 +511,7 @@ def reference_totals(
         extrapolation_of(beyond),
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
-    ).assign_attrs(results.file.attributes, tolerance=JUDGED_TO)
-    if results.surface.doubts:
-        totals.attrs[INPUT_DOUBTS] = " ".join(f"{text}." for text in results.surface.doubts)
+    ).assign_attrs(results.file.attributes | input_doubts(results.surface), tolerance=JUDGED_TO)
     traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
     if traces:
         totals = totals.assign(samples[traces].variables)

@@ -52,7 +52,7 @@ from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
-from gripscale.model import STATUS, STATUS_WORD, Load, Model
+from gripscale.model import STATUS, STATUS_WORD, Load, Model, input_doubts
 from gripscale.model import TOTALS as OF_ALL
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
@@ -242,7 +242,7 @@ class Roads:
     surfaces: dict[str, Surface]
     """The roads as they were solved."""
     notes: tuple[str, ...]
-    """Plates in a road, how it was read, why it has no range or no direct contact."""
+    """How a road was read, why it has no range or no direct contact."""
     data: xr.Dataset
     """Over `model` and `surface`; kept in surfaces.nc."""
 
@@ -301,8 +301,7 @@ def compare_surfaces(
     }
     load, rubber = file.case.load.nominal, case_rubber(file)
     points: list[Point] = []
-    notes = [doubt for surface in roads.values() for doubt in surface.doubts]
-    notes += filter(None, (surface_note(value, file) for value in surfaces.values()))
+    notes = [*filter(None, (surface_note(value, file) for value in surfaces.values()))]
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
         model = model_of(name, file, JUDGED_TO)
         if "measurement" in model.needs and surface.measured is None:
@@ -338,6 +337,7 @@ def compare_surfaces(
         surfaces=shlex.join(words),
         case_file=str(file.path),
         **file.attributes,
+        **input_doubts(*roads.values()),
         **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
