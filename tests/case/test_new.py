@@ -152,6 +152,19 @@ def test_a_temperature_that_cannot_be_reached_is_a_doubt(tmp_path: Path) -> None
     assert prepare_case(case.path).rubber_before.reference_temperature == pytest.approx(333.15)
 
 
+def test_ramps_at_several_frequencies_get_nominal_temperatures(tmp_path: Path) -> None:
+    rows = [
+        f"{t:.1f},{f:g},{(e := modulus(t, f)).real:.6g},{e.imag:.6g}"
+        for t in np.arange(-10.0, 40.1, 0.9)
+        for f in (1.0, 3.0, 10.0, 30.0)
+    ]
+    ramps = tmp_path / "ramps.csv"
+    ramps.write_text("\n".join(["T [°C],f [Hz],E' [Pa],E'' [Pa]", *rows]), encoding="utf-8")
+    case = new_case([road(tmp_path / "road.csv"), ramps], tmp_path / "case.toml")
+    assert keys(case)["rubber"]["temperature_step"] == "5 K"
+    assert "moduli are interpolated at multiples" in doubted(case, Weight.SCATTER)
+
+
 @pytest.mark.parametrize(
     ("files", "words"),
     [
@@ -208,6 +221,11 @@ def test_the_new_case_runs_as_it_stands(tmp_path: Path, shell: Shell) -> None:
     outcome = shell("run", target)
     assert outcome.exit_code == 0, outcome.output
     assert "Answer: μ = " in outcome.output
+    text = "\n".join(line for line in target.read_text().split("\n") if not line.startswith("crop"))
+    target.write_text(text)
+    outcome = shell("run", target)
+    said = " ".join(outcome.output.split())
+    assert "Answer: none to rely on. road: plates, supports or filled gaps lie in" in said
 
 
 @pytest.mark.parametrize(

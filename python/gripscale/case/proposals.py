@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from itertools import product
 from pathlib import Path
@@ -25,7 +25,7 @@ from gripscale.io.text_table import EXCEL, read_lines
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
-from gripscale.rubber.sweeps import holds_sweeps, read_shift_of_sweeps
+from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, profile_warnings, read_map, read_profile
 from gripscale.surface.read import TEXT_SUFFIXES
 from gripscale.surface.supports import road_between, support_plates
@@ -239,6 +239,9 @@ def rubber_proposal(
     if layout:
         measured, _ = _open_rubber(paths, several, **layout)
     _add_reference(proposal, measured, temperature)
+    if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
+        words = "temperatures run on without a gap: moduli are interpolated at multiples of it"
+        proposal.add("temperature_step", NOMINAL_STEP, words, Weight.SCATTER)
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
     proposal.add("bulk_modulus", "2 GPa", "assumed: a DMA measurement does not give it")
@@ -297,6 +300,19 @@ def _add_reference(
     words = f"sweeps from {celsius(kelvin.min())} to {celsius(kelvin.max())} are shifted to it"
     weight = None if reference == target else Weight.FACTOR
     proposal.add("reference_temperature", celsius(reference), words, weight)
+
+
+NOMINAL_STEP = "5 K"
+"""Step of nominal temperatures of ramps at several frequencies."""
+
+
+def _runs_on(sweeps: Sweeps) -> bool:
+    """Return whether temperatures have no gaps between sweeps."""
+    try:
+        replace(sweeps, tolerance=TOLERANCE)
+    except InputError:
+        return True
+    return False
 
 
 _ONE_SWEEP = 3.0

@@ -23,7 +23,7 @@ from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_si
-from gripscale.io.text_table import file_path, file_paths
+from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks
 from gripscale.rubber.columns import (
     FileLayout,
@@ -209,8 +209,10 @@ def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | N
 
     The `layout` has the fields of `FileLayout`. Raises as `read_sweeps`.
     """
-    blocks = read_blocks(file_path(path), FileLayout(**layout), temperature_unit="C")
-    return blocks[0].shift
+    file = file_path(path)
+    if is_excel(file):
+        return None
+    return read_blocks(file, FileLayout(**layout), temperature_unit="C")[0].shift
 
 
 def _repeats(block: Block, layout: FileLayout) -> bool:
