@@ -199,7 +199,9 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 @command
 def fit_rubber(
     context: typer.Context,
-    file: Annotated[str, argument("A master curve, or sweeps to make one of.")],
+    file: Annotated[
+        list[str], argument("A master curve, or sweeps to make one of, in one file or several.")
+    ],
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
     modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
@@ -236,7 +238,7 @@ def fit_rubber(
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
     from gripscale.report.inputs import band_table, prony_table, rubber_parts
 
-    values = keys_of(context, RubberSource)
+    values = keys_of(context, RubberSource) | {"file": file[0] if len(file) == 1 else file}
     if columns is not None:
         values["columns"] = _columns(columns)
     if sheet is not None:
