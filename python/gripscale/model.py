@@ -29,6 +29,16 @@ if TYPE_CHECKING:
     from gripscale.surface.surface import Surface, SurfacePart
 
 
+INPUT_DOUBTS = "input_doubts"
+"""Attribute of an answer: why it is none of the road to be predicted, in sentences."""
+
+
+def input_doubts(*surfaces: Surface) -> dict[str, str]:
+    """Return the attribute `INPUT_DOUBTS` of an answer on surfaces; nothing without a doubt."""
+    texts = dict.fromkeys(f"{text}." for surface in surfaces for text in surface.doubts)
+    return {INPUT_DOUBTS: " ".join(texts)} if texts else {}
+
+
 OCTAVE = 2.0
 """Ratio of the wavelengths that are compared, where there are waves so far apart."""
 

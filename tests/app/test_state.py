@@ -153,6 +153,19 @@ def test_a_case_is_opened_with_the_files_it_names(
     assert state.file().resolve("inputs/dma.txt").read_bytes() == dropped["dma.txt"]
 
 
+def test_a_surface_and_a_rubber_dropped_together_make_a_case(
+    state: CaseState, dropped: dict[str, bytes]
+) -> None:
+    state.open({name: dropped[name] for name in ("dma.txt", "road.txt")})
+    assert state.validation_message == ""
+    assert state.get(("surface", "files")) == ["inputs/road.txt"]
+    assert state.get(("surface", "cut_off")) == "instrument"
+    assert state.get(("rubber", "file")) == "inputs/dma.txt"
+    assert "# Doubts, the weightiest first:" in state.text
+    with pytest.raises(InputError, match="expected a file with a surface, too"):
+        state.open({"dma.txt": dropped["dma.txt"]})
+
+
 def test_two_cases_dropped_at_once_are_refused(state: CaseState) -> None:
     with pytest.raises(InputError, match=r"2 of the dropped files end in \.toml"):
         state.open({"a.toml": b"", "b.TOML": b""})

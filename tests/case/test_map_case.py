@@ -160,7 +160,7 @@ def test_keys_that_do_not_go_with_a_map(case, also, words):
 
 def test_keys_that_need_a_map(case):
     text = STATED.replace('map = "road.txt"', 'files = ["road.txt"]')
-    with pytest.raises(InputError, match="step belongs to a surface from map"):
+    with pytest.raises(InputError, match="step of a profile is one length; two are those of a map"):
         case(text=text)
     unreadable = prepared, case('crop_across = ["2 mm", "3 mm"]')
     with pytest.raises(InputError, match=r"road\.txt: crop must leave at least 16 points along y"):

@@ -165,7 +165,7 @@ def test_measured_polymer():
         (PLAIN.replace("E'", "").replace("'", ""), "modulus must be given"),
         (PLAIN.replace("loss modulus E''", "force"), "columns must give the modulus as two of"),
         (PLAIN.replace("temperature (C)", "time (s)"), "columns or temperature must give the temp"),
-        (PLAIN.replace("frequency (Hz)", "log f (Hz)"), "columns must give the frequency"),
+        (PLAIN.replace("frequency (Hz)", "log t (s)"), "columns must give the frequency"),
     ],
 )
 def test_what_is_not_stated_is_asked_for(tmp_path, title, names):

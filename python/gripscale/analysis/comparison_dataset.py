@@ -27,6 +27,7 @@ from gripscale.model import (
     OUTSIDE_BAND,
     TOTALS,
     WHY_NO_EXPONENT,
+    input_doubts,
 )
 from gripscale.wave.result import labelled
 
@@ -182,6 +183,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         {
             "title": "Contact and friction by model",
             **comparison.file.attributes,
+            **input_doubts(setups[0].surface),
             "case_file": str(comparison.file.path),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,

@@ -63,6 +63,7 @@ from gripscale.model import (
     TOTALS,
     Load,
     Model,
+    input_doubts,
 )
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -477,7 +478,7 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
         for name in QUANTITIES:
             data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
-        plan.file.attributes,
+        plan.file.attributes | input_doubts(results.surface),
         case_file=str(plan.file.path),
         **{FILES: json.dumps(input_digests(plan.file))},
         seed=plan.seed,

@@ -45,14 +45,14 @@ from gripscale.experiment.design import (
     solve_design,
     surface_numbers,
 )
-from gripscale.experiment.inputs import case_rubber, model_of, surface_of
+from gripscale.experiment.inputs import case_rubber, model_of, surface_note, surface_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import UPPER_HEIGHT
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
-from gripscale.model import STATUS, STATUS_WORD, Load, Model
+from gripscale.model import STATUS, STATUS_WORD, Load, Model, input_doubts
 from gripscale.model import TOTALS as OF_ALL
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
@@ -242,7 +242,7 @@ class Roads:
     surfaces: dict[str, Surface]
     """The roads as they were solved."""
     notes: tuple[str, ...]
-    """Why a road has no range, or no direct contact."""
+    """How a road was read, why it has no range or no direct contact."""
     data: xr.Dataset
     """Over `model` and `surface`; kept in surfaces.nc."""
 
@@ -265,7 +265,7 @@ def compare_surfaces(
     surfaces
         Two to six roads by what they are called; the others are compared with the first. Each is a
         `Surface`, a `SineStack`, "case", a surface known by name, another case, or a
-        profile (of a case on a map, a map), read with all other settings of the case.
+        profile (of a case on a map, a map), read with all other settings of the case but the crop.
     folder
         Gets predictions and `surfaces.nc`; what it has already is not solved again.
     samples : int or None
@@ -301,7 +301,7 @@ def compare_surfaces(
     }
     load, rubber = file.case.load.nominal, case_rubber(file)
     points: list[Point] = []
-    notes: list[str] = []
+    notes = [*filter(None, (surface_note(value, file) for value in surfaces.values()))]
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
         model = model_of(name, file, JUDGED_TO)
         if "measurement" in model.needs and surface.measured is None:
@@ -337,6 +337,7 @@ def compare_surfaces(
         surfaces=shlex.join(words),
         case_file=str(file.path),
         **file.attributes,
+        **input_doubts(*roads.values()),
         **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))

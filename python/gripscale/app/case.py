@@ -23,6 +23,7 @@ from tomlkit.exceptions import TOMLKitError
 from gripscale.case import CaseFile, folder, read_case
 from gripscale.case.examples import write_example
 from gripscale.case.folder import CASE, INPUTS, renamed
+from gripscale.case.new import case_text, propose
 from gripscale.core.errors import FileError, GripscaleError, InputError
 
 MAX_UPLOAD = 50_000_000
@@ -225,9 +226,15 @@ class CaseState(param.Parameterized):
     def open(self, uploads: Mapping[str, bytes]) -> None:
         """Take an uploaded case; files uploaded with it replace those of the same name in it.
 
-        Raises `InputError` if none or several of `uploads` are cases or one is no text.
+        Files without a case make a new one. Raises `InputError` if several of `uploads` are cases
+        or one is no text, and as `gripscale.case.new.propose`.
         """
         cases = [name for name in uploads if name.lower().endswith(".toml")]
+        if not cases:
+            paths = [self.visit.path / self.visit.store(n, c) for n, c in uploads.items()]
+            tables, _ = propose(paths, self.visit.path)
+            self.set_text(case_text(tables))
+            return
         if len(cases) != 1:
             raise InputError(
                 f"{len(cases)} of the dropped files end in .toml; expected one case with the files "

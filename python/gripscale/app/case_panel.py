@@ -89,7 +89,10 @@ def case_panel(state: CaseState) -> pn.Column:
         label="Save the case",
         margin=(4, 8),
     )
-    prompt = "Drop a case together with the files it names to open it."
+    prompt = (
+        "Drop a case together with the files it names to open it, or a surface and a measurement "
+        "of a rubber to make one."
+    )
     return column(
         pn.FlexBox(example, load, align_items="end", sizing_mode="stretch_width"),
         text,

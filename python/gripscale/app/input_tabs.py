@@ -27,6 +27,7 @@ from gripscale.case import (
     record,
     validate,
 )
+from gripscale.case.proposals import rubber_proposal, surface_proposal
 from gripscale.case.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.rubber import rubber_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
@@ -57,8 +58,6 @@ LOAD_TABLES = {
     "chain": ("Chain of waves", ("pressure_classes",)),
 }
 """Tables of the case by name: their title and the fields at the top."""
-SCALES = 8
-"""Waves of an uploaded surface, as in `gripscale fit-surface`."""
 
 
 def _prepared_with(file: CaseFile, **tables: Any) -> CaseResults:
@@ -109,8 +108,9 @@ def road_tab(state: CaseState) -> pn.Column:
 
     def upload_surface(uploads: Mapping[str, bytes]) -> None:
         names = [state.visit.store(name, content) for name, content in uploads.items()]
-        source = names if kind.value == "files" else names[-1]
-        state.set(("surface",), {kind.value: source, "scales": SCALES})
+        names = names if kind.value == "files" else names[-1:]
+        paths = [state.visit.path / name for name in names]
+        state.set(("surface",), surface_proposal(paths, names).keys)
         pn.state.execute(preview.update)
 
     return column(
@@ -132,7 +132,9 @@ def rubber_tab(state: CaseState) -> pn.Column:
     preview = PreviewPanel(state, "Read and fit", rubber_elements)
 
     def upload_rubber(uploads: Mapping[str, bytes]) -> None:
-        state.set(("rubber",), {"file": store_last(state, uploads)})
+        names = [state.visit.store(name, content) for name, content in uploads.items()]
+        paths = [state.visit.path / name for name in names]
+        state.set(("rubber",), rubber_proposal(paths, names).keys)
         pn.state.execute(preview.update)
 
     def upload_shift(uploads: Mapping[str, bytes]) -> None:
@@ -141,9 +143,10 @@ def rubber_tab(state: CaseState) -> pn.Column:
     return column(
         validation_pane(state, "rubber"),
         file_upload(
-            "Drop a master curve, or sweeps at several temperatures; it replaces the rubber "
+            "Drop a master curve, or sweeps at several temperatures; they replace the rubber "
             "of the case.",
             upload_rubber,
+            several=True,
         ),
         table_form(state, "rubber", RUBBER_FIELDS),
         file_upload(

@@ -17,8 +17,8 @@ from gripscale.case.schema import Table
 from gripscale.case.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.errors import GripscaleError, InputError, about_file, about_keys
-from gripscale.core.units import in_mm
+from gripscale.core.errors import FileError, GripscaleError, InputError, about_file, about_keys
+from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.half_space.below_measurement import (
     FinerMeasurement,
     HurstExponent,
@@ -48,7 +48,7 @@ from gripscale.rubber import (
 )
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
-from gripscale.rubber.sweeps import holds_sweeps
+from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
 
 Resolve = Callable[[str], Path]
 
@@ -214,10 +214,19 @@ def prepare_rubber(
     if source.file is None:
         rubber = replace(styrene_butadiene(**options), strain_energy=source.strain_energy)
         return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
-    path, layout = resolve(source.file), source.layout()
-    reading = layout | {"titles_first": titles_first, "source": source.source or str(path)}
-    if holds_sweeps(path, FileLayout(**layout)):
-        sweeps, master, report = _superposed(path, source, resolve, reading)
+    paths, layout = [resolve(name) for name in source.measured_files], source.layout()
+    path = paths[0]
+    if path.is_dir():
+        raise FileError(
+            f"{path}: expected a file or a list of files; got a folder: `gripscale new` writes the "
+            "list"
+        )
+    origin = source.source or ", ".join(map(str, paths))
+    reading = layout | {"titles_first": titles_first, "source": origin}
+    sweeps: Sweeps | None
+    report: Superposition | None
+    if len(paths) > 1 or holds_sweeps(path, FileLayout(**layout)):
+        sweeps, master, report = _superposed(paths, source, resolve, reading)
     else:
         foreign = [name for name in OF_SWEEPS if name in source.model_fields_set]
         if foreign:
@@ -230,16 +239,34 @@ def prepare_rubber(
     with about_file(path, InputError):
         rubber, fit = fit_prony_report(master, **options)
     rubber = replace(rubber, strain_energy=source.strain_energy)
-    if sweeps is None:
+    if sweeps is not None and sweeps.is_ramp:
+        fit = replace(fit, findings=(*fit.findings, OF_A_RAMP))
+        sweeps, report = None, None
+    elif sweeps is None:
         rubber = _shifted(rubber, source, resolve)
     return PreparedRubber(rubber, master.source, master, fit, sweeps, report)
 
 
+OF_A_RAMP = (
+    "a temperature ramp at one frequency becomes a master curve by the shift that is stated: "
+    "nothing in the file checks it"
+)
+
+
 def _superposed(
-    path: Path, source: RubberSource, resolve: Resolve, reading: dict[str, Any]
+    paths: list[Path], source: RubberSource, resolve: Resolve, reading: dict[str, Any]
 ) -> tuple[Sweeps, MasterCurve, Superposition]:
     """Return sweeps, the master curve they make, and how they meet."""
-    sweeps = read_sweeps(path, temperature_step=source.temperature_step, **reading)
+    path = paths[0]
+    shift = _shift(source, resolve)
+    if shift is None and not source.vertical:
+        shift = read_shift_of_sweeps(path, source.layout())
+    sweeps = read_sweeps(paths, tolerance=0.0, temperature_step=source.temperature_step, **reading)
+    if sweeps.is_ramp:
+        _require_shift_of_ramp(path, sweeps, shift)
+    elif source.temperature_step is None:
+        with about_file(path, InputError):
+            sweeps = replace(sweeps, tolerance=TOLERANCE)
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
@@ -251,9 +278,21 @@ def _superposed(
         sweeps,
         reference_temperature=float(sweeps.temperatures[0]) if reference is None else reference,
         vertical=source.vertical,
-        shift=_shift(source, resolve),
+        shift=shift,
     )
     return sweeps, master, report
+
+
+def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> None:
+    """Raise `InputError` for a temperature ramp at one frequency without a shift."""
+    if shift is None:
+        low, high = (ramp.temperature[at] - ZERO_CELSIUS for at in (0, -1))
+        raise InputError(
+            f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
+            f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
+            f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
+            "frequencies do"
+        )
 
 
 def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
@@ -262,9 +301,10 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
     if shift is None:
         return rubber
     if rubber.reference_temperature is None:
+        where = source.name or source.measured_files[0]
         raise InputError(
-            f"{source.file or source.name}: reference_temperature must be given with shift, such "
-            'as "20 C": the master curve does not state what it holds for'
+            f"{where}: reference_temperature must be given with shift, such as "
+            '"20 C": the master curve does not state what it holds for'
         )
     return replace(rubber, shift=shift)
 

@@ -108,6 +108,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
     notes = {
         "conditions_notes": "\n".join(results.conditions_notes()) or None,
         "load_notes": "\n".join(results.load_notes()) or None,
+        "doubts": "\n".join(results.doubts()) or None,
     }
     parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))
@@ -149,8 +150,8 @@ def _files(file: CaseFile) -> Variables:
 def _waves(surface: Surface) -> Variables:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
-    # what the measurement does not carry stands in `cut_off_beyond_measurement`
-    notes = [note for note in surface.notes if note not in surface.extrapolated]
+    # what the measurement does not carry stands in `cut_off_beyond_measurement`, plates in `doubts`
+    notes = [note for note in surface.notes if note not in surface.extrapolated + surface.doubts]
     return {
         "sines_s_wavelength": sines.s_wavelength,
         "sines_s_amplitude": sines.s_amplitude,

@@ -102,6 +102,16 @@ class CaseResults:
             "which it cannot hold once: is its unit right? If so, leave such waves out."
         ]
 
+    def doubts(self) -> list[str]:
+        """Return why the answer may be that of another road or rubber, a sentence each."""
+        texts = [f"{text}." for text in self.surface.doubts]
+        if self.rubber.rubber.reference_temperature is None:
+            texts.append(
+                "Neither the file of the rubber nor the case states the temperature of its moduli: "
+                "reference_temperature of [rubber] does."
+            )
+        return texts
+
     @property
     def dynamic(self) -> Prediction | None:
         """The rubber sliding, or None if it was not asked for or did not get so far."""

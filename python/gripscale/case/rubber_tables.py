@@ -14,6 +14,7 @@ from gripscale.case.schema import (
     Column,
     Columns,
     Pressure,
+    Reading,
     Strain,
     Table,
     Temperature,
@@ -36,6 +37,17 @@ SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable
 
 OF_ANY_RUBBER = {"file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift"}
 """Keys of [rubber] that a named rubber may have."""
+
+
+FILES = "the name of a file, or a list of names"
+
+
+def _files(value: Any) -> Any:
+    """Accept a name or a list of them."""
+    names = value if isinstance(value, list) else [value]
+    if value is not None and not (names and all(isinstance(name, str) for name in names)):
+        raise ValueError(f"expected {FILES}")
+    return value
 
 
 def _warn_or_refuse(value: Any) -> Any:
@@ -73,8 +85,8 @@ class RubberSource(LayoutKeys):
     The file is a master curve, or sweeps at several temperatures to make one of.
     """
 
-    file: str | None = None
-    """A measured master curve, or sweeps at several temperatures."""
+    file: Annotated[str | list[str] | None, Reading(FILES, _files)] = None
+    """A measured master curve, or sweeps at several temperatures, in one file or several."""
     name: Literal["styrene_butadiene"] | None = None
     """A rubber known by name, in place of a file."""
     temperature_step: TemperatureDifference | None = None
@@ -112,10 +124,15 @@ class RubberSource(LayoutKeys):
         return self
 
     @property
+    def measured_files(self) -> list[str]:
+        """Names of the files with its moduli."""
+        return [self.file] if isinstance(self.file, str) else self.file or []
+
+    @property
     def files(self) -> list[str]:
         """Names of the files it was measured in."""
         shift = [self.shift] if isinstance(self.shift, str) else []
-        return [*filter(None, [self.file]), *shift]
+        return [*self.measured_files, *shift]
 
 
 class StrainSweeps(LayoutKeys):

@@ -35,6 +35,22 @@ def _cut_off(value: Any) -> Any:
     return None if value is None else cut_off_rule(value)
 
 
+STEP = 'a length such as "0.1 mm", or a list of 2, along x and y'
+
+
+def _step(value: Any) -> Any:
+    """Accept a length above zero, or two."""
+    if value is None:
+        return None
+    lengths = value if isinstance(value, list | tuple) else [value]
+    if len(lengths) > 2 or not lengths:
+        raise ValueError(f"expected {STEP}")
+    numbers = [parse_quantity(length, "length") for length in lengths]
+    if min(numbers) <= 0.0:
+        raise ValueError("expected a value greater than zero")
+    return numbers if isinstance(value, list | tuple) else numbers[0]
+
+
 class WaveTable(Table):
     """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
 
@@ -44,7 +60,7 @@ class WaveTable(Table):
     """Half its peak-to-valley height."""
 
 
-MAP_KEYS = ("step", "crop_across", "trim", "form")
+MAP_KEYS = ("crop_across", "trim", "form")
 PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
 """Keys of [surface] that only a map, or only profiles have."""
 
@@ -70,8 +86,8 @@ class SurfaceTable(Table):
     """Channel of an instrument's file that has several of heights."""
     sheet: Column | None = None
     """Sheet of an Excel file, where several hold numbers."""
-    step: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
-    """Distances between the points of a map along x and y, where its file has none."""
+    step: Annotated[Any, Reading(STEP, _step)] = None
+    """Distance between points, or those of a map along x and y, where the file has none."""
     crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
     """First and last distance to keep along x; all by default."""
     crop_across: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
@@ -139,6 +155,8 @@ class SurfaceTable(Table):
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:
                 raise ValueError(f"{name} belongs to a surface from {owner}")
+        if self.map is None and isinstance(self.step, list):
+            raise ValueError("step of a profile is one length; two are those of a map")
         for name in ("crop", "crop_across", "valid_range"):
             limits = getattr(self, name)
             if limits is not None and limits[0] >= limits[1]:
@@ -379,8 +397,8 @@ class FinerTable(Table):
     """Unit of heights where the file does not name it."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
-    step: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = None
-    """Distances between the points of a map along x and y, where its file has none."""
+    step: Annotated[Any, Reading(STEP, _step)] = None
+    """Distance between points, or those of a map along x and y, where the file has none."""
 
     @model_validator(mode="after")
     def _one_source(self) -> FinerTable:

@@ -20,14 +20,15 @@ from gripscale.cli.docs import docs
 from gripscale.cli.experiments import calibrate, study, uncertainty
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
+from gripscale.cli.new import new
 from gripscale.cli.run import PASS_ON, report, reproduce, run
 from gripscale.cli.run import app as app_command
 from gripscale.cli.sensitivity import sensitivity
 from gripscale.core.provenance import COMMAND, version_of
 
 EPILOGUE = (
-    "To start: `gripscale init FOLDER` writes an example, `gripscale keys` lists what a case may "
-    "say, `gripscale docs` opens the documentation."
+    "To start: `gripscale new ROAD RUBBER` writes a case for your files, `gripscale init FOLDER` an "
+    "example; `gripscale keys` lists what a case may say, `gripscale docs` opens the documentation."
 )
 
 
@@ -50,6 +51,7 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 app.command("init")(init)
+app.command("new")(new)
 app.command("run")(run)
 app.command("compare")(compare)
 app.command("calibrate")(calibrate)

@@ -39,6 +39,12 @@ def rubber(
     temperature: Annotated[
         str | None, option('Such as "40 C": of moduli and times, where the rubber has a shift.')
     ] = None,
+    band: Annotated[
+        str | None, option("Frequencies that the series is reduced to, such as 1..1e6 Hz.")
+    ] = None,
+    terms: Annotated[
+        int | None, option("Number of terms that the series is reduced to; its misfit is stated.")
+    ] = None,
     name: Annotated[str | None, option("Of the material; not for ansys.")] = None,
     material: Annotated[int | None, option("Number of the material; not for abaqus.")] = None,
     modulus_unit: Annotated[str | None, option("Pa (as by default), kPa, MPa or GPa.")] = None,
@@ -49,6 +55,7 @@ def rubber(
     """Write a rubber as a material of a finite element program."""
     from gripscale.core.units import parse_quantity
     from gripscale.export import write_rubber
+    from gripscale.export.reduction import reduced
 
     rubber = _rubber_of(source)
     if temperature is not None:
@@ -57,13 +64,29 @@ def rubber(
         except ValueError as error:
             raise InputError(f"temperature: {error}") from error
         rubber = rubber.at(kelvin)
+    console = screen()
+    if band is not None or terms is not None:
+        reduction = reduced(rubber, band=None if band is None else _band(band), terms=terms)
+        rubber = reduction.rubber
+        print_wrapped(console, f"{reduction}.")
     names = ("name", "material", "modulus_unit", "temperature_unit")
     options = {key: context.params[key] for key in names if context.params[key] is not None}
     written = write_rubber(rubber, output, to=to, **options)
-    console = screen()
     for remark in written.remarks:
         print_wrapped(console, remark)
     print_wrapped(console, f"The material is {output}")
+
+
+def _band(text: str) -> tuple[float, float]:
+    """Return the ends [Hz] of a band such as 1..1e6 Hz."""
+    from gripscale.core.units import parse_quantity
+
+    words = text.strip().removesuffix("Hz").strip()
+    try:
+        low, high = (parse_quantity(f"{end.strip()} Hz", "frequency") for end in words.split(".."))
+    except ValueError as error:
+        raise InputError(f"band must be two frequencies such as 1..1e6 Hz; got {text!r}") from error
+    return low, high
 
 
 @export.command("tables")

@@ -16,6 +16,7 @@ from gripscale.cli.terminal import (
     argument,
     command,
     keys_of,
+    lengths_of,
     option,
     print_parts,
     print_wrapped,
@@ -108,7 +109,7 @@ def keys(
 @command
 def fit_surface(
     context: typer.Context,
-    files: Annotated[list[str], argument("Profiles.")],
+    files: Annotated[list[str], argument("Profiles, or a map.")],
     scales: Annotated[int | None, option("Number of sine waves.")] = None,
     smallest_wavelength: Annotated[str | None, option('The last wave, such as "0.1 mm".')] = None,
     cut_off: Annotated[
@@ -128,17 +129,28 @@ def fit_surface(
     crop: Annotated[tuple[str, str] | None, option('Such as "120 mm" "1780 mm".')] = None,
     x_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
     z_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
+    step: Annotated[
+        str | None, option('Distance between points, if not stated: "0.1 mm", or "1 um, 2 um".')
+    ] = None,
     keep_spikes: Annotated[bool, option("Leave spikes in.")] = False,
     detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
-    """Clean profiles, find their height difference correlation and fit sine waves to it."""
+    """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
     from gripscale.case import SurfaceTable, folder, prepare_surface, validate
+    from gripscale.case.proposals import open_surface
     from gripscale.report.inputs import slopes_table, surface_lines, texture_table, waves_table
+    from gripscale.surface import HeightMap
 
     values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
     if crop is not None:
         values["crop"] = list(crop)
+    if step is not None:
+        values["step"] = lengths_of(step)
+    if len(files) == 1 and isinstance(
+        open_surface(Path(files[0]), values.get("step"))[0], HeightMap
+    ):
+        values["map"] = values.pop("files")[0]
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
     surface = validate(SurfaceTable, values, "options")
@@ -187,7 +199,9 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 @command
 def fit_rubber(
     context: typer.Context,
-    file: Annotated[str, argument("A master curve, or sweeps to make one of.")],
+    file: Annotated[
+        list[str], argument("A master curve, or sweeps to make one of, in one file or several.")
+    ],
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
     modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
@@ -224,7 +238,7 @@ def fit_rubber(
     from gripscale.case import RubberSource, folder, prepare_rubber, validate
     from gripscale.report.inputs import band_table, prony_table, rubber_parts
 
-    values = keys_of(context, RubberSource)
+    values = keys_of(context, RubberSource) | {"file": file[0] if len(file) == 1 else file}
     if columns is not None:
         values["columns"] = _columns(columns)
     if sheet is not None:

@@ -196,8 +196,8 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
             print_wrapped(console, f"{text}, already solved")
             return
         each = (time.monotonic() - begun) / solved
-        left = time_left(each * (progress.total - progress.done))
-        print_wrapped(console, f"{text}, {progress.seconds:.1f} s{left}")
+        wait = time_left(each * (progress.total - progress.done))
+        print_wrapped(console, f"{text}, {progress.seconds:.1f} s{wait}")
 
     return print_line
 
@@ -240,6 +240,12 @@ def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
     """Return the options of a command that are keys of a table of the case, those that are set."""
     values = {key: context.params.get(key) for key in table.model_fields}
     return {key: value for key, value in values.items() if value is not None and value is not False}
+
+
+def lengths_of(text: str) -> str | list[str]:
+    """Return a length typed as "1 um", or several as "1 um, 2 um"."""
+    lengths = [length.strip() for length in text.split(",")]
+    return lengths if len(lengths) > 1 else lengths[0]
 
 
 def open_folder(

@@ -15,14 +15,19 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import FileError
+from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.task import canonical_json
 from gripscale.half_space.model import DirectContact
 from gripscale.io.text_table import is_excel, read_bytes
 from gripscale.model import Model
 from gripscale.rubber import Rubber
+from gripscale.rubber.sweeps import states_temperature
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
+SOURCES_OF_SURFACE = {"files", "map", "sines"}
+OF_ONE_ROAD = ("crop", "crop_across")
+"""Keys of the case's [surface] that belong to its own files."""
 OF_A_FILE = (
     "frequency_unit",
     "modulus_unit",
@@ -44,7 +49,7 @@ def surface_of(value: Any, file: CaseFile) -> Surface:
 
     `value` is "case" (the case's own), a synthetic surface known by name, another case (its
     [surface] is taken), a profile or, of a case on a map, a map (read with all other settings of
-    the case), a `SineStack` or a `Surface`.
+    the case but the crop, which belongs to its own files), a `SineStack` or a `Surface`.
     """
     if isinstance(value, Surface):
         return value
@@ -57,11 +62,53 @@ def surface_of(value: Any, file: CaseFile) -> Surface:
     path = _found("surface", value, file, ("case", *SYNTHETIC_SURFACES))
     if path.suffix == ".toml":
         return case_surface(read_case(path))
-    table = file.case.surface.model_dump(exclude_none=True, exclude={"files", "map", "sines"})
+    outside = set() if _is_named(path, file) else set(OF_ONE_ROAD)
+    table = file.case.surface.model_dump(exclude_none=True, exclude=SOURCES_OF_SURFACE | outside)
     if file.case.surface.sines is not None:
         table["scales"] = len(file.case.surface.sines)
     source = {"files": [str(path)]} if file.case.surface.map is None else {"map": str(path)}
     return prepare_surface(validate(SurfaceTable, table | source, "vary surface"))
+
+
+def surface_note(value: Any, file: CaseFile) -> str:
+    """Return which settings of the case a road from another file was read with; empty for none.
+
+    Raises `FileError` if `value` is no surface that `surface_of` takes.
+    """
+    if not isinstance(value, str | Path) or value in ("case", *SYNTHETIC_SURFACES):
+        return ""
+    path = _found("surface", value, file, ("case", *SYNTHETIC_SURFACES))
+    if path.suffix == ".toml" or _is_named(path, file):
+        return ""
+    settings = file.case.surface.model_fields_set - SOURCES_OF_SURFACE
+    applied = ", ".join(sorted(settings - set(OF_ONE_ROAD))) or "nothing"
+    without = sorted(settings & set(OF_ONE_ROAD))
+    words = f"{value}: read with {applied} of the case"
+    if not without:
+        return words
+    return f"{words}, but not {' and '.join(without)}, which belongs to the road of the case"
+
+
+def _is_named(path: Path, file: CaseFile) -> bool:
+    """Return whether a file is one of the surface of a case."""
+    return path.resolve() in {file.resolve(name) for name in file.case.surface.measured_files}
+
+
+def rubber_note(value: Any, file: CaseFile) -> str:
+    """Return that the file of a rubber states no temperature and takes that of the case, or none.
+
+    Raises `FileError` if `value` is no rubber that `rubber_of` takes, or cannot be read.
+    """
+    if not isinstance(value, str | Path) or value in ("case", *NAMED_RUBBERS):
+        return ""
+    path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
+    kelvin = file.case.rubber.reference_temperature
+    if path.suffix == ".toml" or kelvin is None or states_temperature(path):
+        return ""
+    return (
+        f"{value}: the file states no temperature; its moduli are taken to be those at "
+        f"{kelvin - ZERO_CELSIUS:.4g} °C, the reference temperature of the case"
+    )
 
 
 def rubber_of(value: Any, file: CaseFile) -> Rubber:

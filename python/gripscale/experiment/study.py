@@ -44,7 +44,7 @@ from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, 
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.io import netcdf
-from gripscale.model import BASIS, Model
+from gripscale.model import BASIS, Model, input_doubts
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
@@ -398,6 +398,7 @@ class Study:
         return {
             "title": "Study of real contact area and friction of rubber on a rough surface",
             **self.file.attributes,
+            **input_doubts(*self.surfaces),
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,
             "footprint": load.footprint,

@@ -305,6 +305,32 @@ def read_lines(
     ]
 
 
+def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextTable | None:
+    """Return the one number of each of `lines`, with the title above; None if they are no such.
+
+    `kinds` are those of its unit. Raises `FileError` if the decimal sign changes.
+    """
+    titles: list[ColumnTitle] = []
+    numbers: list[int] = []
+    cells: list[list[str]] = []
+    for number, line in lines:
+        cell = line.strip().strip('"').rstrip(";,").strip()
+        if is_comment(line):
+            continue
+        if fits(cell) and (cells or is_number(cell)):
+            numbers.append(number)
+            cells.append([cell])
+        elif cells or is_row(line):
+            return None
+        else:
+            titles.append(_column_title(cell, kinds))
+    if not cells:
+        return None
+    title = next((title for title in reversed(titles) if _is_unit(title.unit, kinds)), None)
+    decimal = _decimal_sign(path, cells, numbers)
+    return TextTable(path, [title or ColumnTitle()], cells, numbers, decimal)
+
+
 def table_in(
     path: Path,
     lines: list[Line],

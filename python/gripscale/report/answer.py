@@ -69,7 +69,8 @@ def no_answer(data: xr.Dataset | None) -> str:
     if not has_answer(data):
         return f"none. The direct contact of the measured surface has no result: {_status(data)}."
     guesses = [share.text for share in _guesses(data) if share.effect > MOST_ON_GUESSES]
-    reasons = [*guesses, *_sampled_too_little(data)]
+    doubts = data.attrs.get(model.INPUT_DOUBTS)
+    reasons = [*filter(None, [doubts]), *guesses, *_sampled_too_little(data)]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 

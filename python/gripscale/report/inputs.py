@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of
+from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_mm
 from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole
 from gripscale.report.elements import Element, Facts, Section, number, percent
 from gripscale.report.record import InputRecord
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from gripscale.case.prepare import PreparedRubber
     from gripscale.conditions.conditions import Conditions
     from gripscale.report.source import Run, Study
-    from gripscale.surface import SineStack, SlopeByWavelength, Surface
+    from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
 GIGA = 1e9
 VARIED = "varied"
@@ -159,6 +159,8 @@ def surface_lines(surface: Surface) -> Iterator[str]:
         for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
             yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
             yield from (f"  {line}" for line in str(report).splitlines())
+        if measured.map is not None:
+            yield map_line(measured.map)
         share = surface.counted.get("top_height_fraction", 1.0)
         if share < 1.0:
             yield f"correlation of the upper {100.0 * share:.3g} % of the heights only"
@@ -175,6 +177,22 @@ def surface_lines(surface: Surface) -> Iterator[str]:
     yield sines_line(surface.sines)
     if surface.cut_off is not None:
         yield f"cut-off: {surface.cut_off}"
+
+
+def map_line(surface: HeightMap) -> str:
+    """Return which way of a map is which, and how long it is: a picture of its axes in words."""
+    axes = (
+        f"{way} ({letter}): {size} points over {in_mm(length, 4)}"
+        for way, letter, size, length in zip(
+            ("along the way of sliding", "across it"),
+            "xy",
+            surface.z.shape,
+            surface.length,
+            strict=True,
+        )
+    )
+    array = PurePath(surface.source).suffix.lower() in (".npy", ".npz")
+    return "; ".join([*axes, *(["the first index of the array is x of the file"] * array)])
 
 
 def sines_line(sines: SineStack) -> str:

@@ -194,7 +194,9 @@ def failures(run: Run) -> Iterator[Notice]:
 def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Notice]:
     """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
     parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
-    return ranked([notice for part in (*parts, record.warnings()) for notice in part])
+    said = "" if direct is None else str(direct.attrs.get(model.INPUT_DOUBTS, ""))
+    inputs = [notice for notice in record.warnings() if notice.text not in said]
+    return ranked([*(notice for part in parts for notice in part), *inputs])
 
 
 def warning_lines(warnings: Sequence[Notice], rest: str = "") -> Iterator[str]:

@@ -90,8 +90,8 @@ class InputRecord:
 
     def warnings(self) -> Iterator[Notice]:
         """Yield what is doubtful about load, conditions, rubber and surface."""
-        for note in self.text("load_notes").splitlines():
-            yield Notice("warning", note, math.inf, math.inf)  # perhaps in a wrong unit
+        for note in (*self.text("doubts").splitlines(), *self.text("load_notes").splitlines()):
+            yield Notice("warning", note, math.inf, math.inf)  # perhaps another road, or unit
         sentences = [(Doubt.RUBBER, text) for text in self.text("conditions_notes").splitlines()]
         sentences += [(Doubt.RUBBER, f"Rubber: {finding}.") for finding in self.findings]
         notes = self.text("surface_notes").splitlines()

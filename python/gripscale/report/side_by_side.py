@@ -15,7 +15,7 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.axis import EFFECTS, MODELS
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
-from gripscale.model import ADHESIVE_FRICTION, STATUS, status_words
+from gripscale.model import ADHESIVE_FRICTION, INPUT_DOUBTS, STATUS, status_words
 from gripscale.report.inputs import texture_table
 from gripscale.report.notices import Failure
 
@@ -132,6 +132,8 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
         top = f"{names[int(np.nanargmax(friction))]} has the most friction"
         head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
     yield f"Answer: {head}{level}."
+    if INPUT_DOUBTS in data.attrs:
+        yield f"  not to be relied on: {data.attrs[INPUT_DOUBTS]}"
     yield f"  by the {_judge(data)}"
 
 

@@ -15,7 +15,7 @@ from gripscale.core.units import display_unit_of
 from gripscale.experiment.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.experiment.study import OF_THE_CHAIN
 from gripscale.io.table import significant
-from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE
+from gripscale.model import ADHESIVE_FRICTION, INPUT_DOUBTS, STATUS, STEEP_SHARE
 from gripscale.report.answer import WORTH_NAMING
 from gripscale.report.elements import Card, percent
 
@@ -52,6 +52,8 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
 
 def study_basis(data: xr.Dataset) -> Iterator[str]:
     """Yield what the numbers of a study are for, what they are made of and what they rest on."""
+    if INPUT_DOUBTS in data.attrs:
+        yield f"not to be relied on: {data.attrs[INPUT_DOUBTS]}"
     status = data[STATUS]
     failed = int((status != "converged").sum())
     count = f"{status.size} predictions, {failed or 'none'} without a result"

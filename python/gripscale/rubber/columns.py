@@ -12,25 +12,21 @@ Titles are read in English and German:
 | magnitude | E*, G*, |E*|, Complex modulus, Komplexer Modul |
 | strain | Strain, Shear strain, Strain amplitude, Dehnung, Verformung, Deformation, gamma |
 
-Logarithms are none of these. Two of E', E'', tan delta and |E*| state the modulus:
+A logarithm (log, log10, lg or ln of one of these, such as log f or log10(E'/Pa)) is raised again,
+and the a_T of a shifted frequency (a_T f) is no part of its title. Two of E', E'', tan delta and
+|E*| state the modulus:
 
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
 
 A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
-
-A text or Excel file may hold several tables, each with its temperature. Lines that are no rows of
-numbers part the tables where they hold titles or state a temperature; a table without titles has
-those of the table before. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
-where T is in degrees Celsius; without titles their columns are angular frequency [rad/s], G' and
-G'' [Pa].
 """
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -38,15 +34,9 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
+from gripscale.core.units import in_si, listed, spelled
 from gripscale.io.text_table import (
-    ColumnTitle,
-    Line,
     TextTable,
-    is_row,
-    parse_number,
-    read_lines,
-    table_in,
 )
 
 _TITLES = {
@@ -61,6 +51,12 @@ _TITLES = {
         "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
     }.items()
 }
+_LOGARITHM = re.compile(
+    r"(?<![A-Za-z])(log10|log|lg|ln)(?:[\s_]*\(([^()]*)\)|[\s_]+(?=[A-Za-zωγ|]))", re.IGNORECASE
+)
+"""A logarithm in a line of titles: log f, log10(E'/Pa)."""
+_RAISED = re.compile(r"(log10|ln)_(.*)")
+_SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
@@ -79,7 +75,9 @@ _STATED = re.compile(
 
 def quantity(name: str) -> str | None:
     """Return the quantity a column `name` clearly means, else None."""
-    text = plain(name)
+    text = _SHIFTED.sub("", plain(name))
+    if logarithm := _RAISED.fullmatch(text):
+        return quantity(logarithm[2])
     if not text[1:2].isalpha() and text[:1] in _LETTERS:
         return _LETTERS[text[0]]
     if len(text) == 1:
@@ -114,6 +112,35 @@ def with_primes(line: str) -> str:
         if line.count('"', 0, start) % 2:
             line = f"{line[: start - 1]}''{line[start:]}"
     return line
+
+
+def with_logarithms(line: str) -> str:
+    """Return a line of titles with its logarithms as one word each: log10_f/Hz, ln_E'/Pa."""
+
+    def word(match: re.Match[str]) -> str:
+        return f"{'ln' if match[1].lower() == 'ln' else 'log10'}_{match[2] or ''}"
+
+    return _LOGARITHM.sub(word, line)
+
+
+def raised(table: TextTable) -> TextTable:
+    """Return a table with the numbers in place of their logarithms."""
+    for at, title in enumerate(table.columns):
+        logarithm = _RAISED.fullmatch(title.name)
+        if logarithm is None or quantity(title.name) is None:
+            continue
+        base = math.e if logarithm[1] == "ln" else 10.0
+        exponents = table.numbers(at, "the logarithm of a number", missing=True)
+        with np.errstate(over="ignore"):
+            numbers = base**exponents
+        cells = [repr(float(number)).replace(".", table.decimal) for number in numbers]
+        rows = [
+            [*row[:at], cell, *row[at + 1 :]] for row, cell in zip(table.rows, cells, strict=True)
+        ]
+        columns = [*table.columns]
+        columns[at] = replace(title, name=logarithm[2])
+        table = replace(table, columns=columns, rows=rows)
+    return table
 
 
 def stated_temperature(line: str) -> tuple[str, str | None] | None:
@@ -210,9 +237,12 @@ class FileLayout(Checked):
         if not (self.titles_first and self.columns):
             return self
         titles = replace(self, columns=None)
-        quantities = {name for name in QUANTITIES if titles.column(table, name) is not None}
-        enough = "frequency" in quantities and any(quantities.issuperset(pair) for pair in PAIRS)
-        return titles if enough else self
+        return titles if titles.suffices(table) else self
+
+    def suffices(self, table: TextTable) -> bool:
+        """Return whether frequency and modulus are in a table; `InputError` as `column`."""
+        quantities = {name for name in QUANTITIES if self.column(table, name) is not None}
+        return "frequency" in quantities and any(quantities.issuperset(pair) for pair in PAIRS)
 
     def column(self, table: TextTable, wanted: str) -> int | None:
         """Return the column of a quantity; None if no title means it and none is stated.
@@ -369,129 +399,3 @@ def check_rows(table: TextTable, column: int, good: Mask, values: Array, expecte
             f"{table.path}, line {table.line_numbers[at]}: expected {expected} in column "
             f"{table.columns[column].name or column + 1}; got {table.rows[at][column]}"
         )
-
-
-KINDS = ("temperature", "frequency", "modulus", "strain")
-"""Kinds of quantities whose units titles may hold."""
-_PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
-_REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
-
-
-@dataclass(frozen=True)
-class Block:
-    """A table and the temperature stated above it [K], if any."""
-
-    table: TextTable
-    temperature: float | None = None
-
-
-def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
-    """Return the tables of a file, in its order; errors as of `read_sweeps`.
-
-    `temperature_unit` is that of temperatures above a table which have none.
-    """
-    expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
-    lines = [
-        (number, with_primes(line))
-        for number, line in read_lines(path, sheet=layout.sheet, header=layout.header)
-    ]
-    if lines and _PARAMETERS.fullmatch(lines[0][1]):
-        return [_reptate(path, lines, expected)]
-    blocks: list[Block] = []
-    titles: list[Line] = []
-    for above, rows in _parts(lines, expected):
-        first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
-        temperature = _temperature_above(path, above, temperature_unit)
-        if first is not None:
-            here = [line for line in above[first:] if stated_temperature(line[1]) is None]
-            titles = here or titles
-        whole = [*titles, *rows] if first is not None or titles else [*above, *rows]
-        blocks.append(Block(_table(path, whole, expected), temperature))
-    return blocks or [Block(_table(path, lines, expected))]
-
-
-def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line], list[Line]]]:
-    """Yield the lines of each table: those above its rows, then the rows and what is among them."""
-    above: list[Line] = []
-    rows: list[Line] = []
-    between: list[Line] = []
-    for line in lines:
-        # A line below rows that begins with a number is a row with a fault, to be named later.
-        first = parse_number(re.split(r"[\t;,\s]", line[1].strip(), maxsplit=1)[0])
-        broken = bool(rows) and first is not None and first == first
-        if not is_row(line[1]) and not broken:
-            between.append(line)
-            continue
-        begins = any(_names(text, expected) or stated_temperature(text) for _, text in between)
-        if rows and begins:
-            yield above, rows
-            rows = []
-        if rows:
-            rows += between
-        else:
-            above = between
-        rows.append(line)
-        between = []
-    if rows:
-        yield above, rows
-
-
-def _names(line: str, expected: list[str]) -> bool:
-    """Return whether a line names two of the quantities, or one of the `expected` columns."""
-    for separator in ("\t", ";", ",", r"\s{2,}", r"\s+"):
-        parts = re.split(separator, line.strip(" #%!"))
-        cells = [part.strip().strip('"').strip() for part in parts]
-        quantities = {quantity(cell) for cell in cells} - {None}
-        if len(quantities) > 1 or any(cell in expected for cell in cells):
-            return True
-    return False
-
-
-def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float | None:
-    """Return the last temperature that the lines above a table state [K]."""
-    for number, line in reversed(above):
-        statement = stated_temperature(line)
-        if statement is None:
-            continue
-        value, written = statement
-        chosen = unit if spelled(written, "temperature") is None else written
-        if chosen is None:
-            raise InputError(
-                f"{path}, line {number}: temperature_unit must be given ({listed('temperature')}), "
-                f"because the line states none with {value}"
-            )
-        degrees = float(value.replace(",", "."))
-        return float(in_si(degrees, chosen, "temperature", "temperature_unit"))
-    return None
-
-
-def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
-    return table_in(
-        path,
-        lines,
-        "rows of frequency, storage and loss",
-        kinds=KINDS,
-        named=lambda name: quantity(name) is not None or name in expected,
-    )
-
-
-def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
-    """Return the table of a file of RepTate: the temperature is that of its parameters."""
-    pairs = (pair.partition("=") for pair in lines[0][1].split(";"))
-    parameters = {key.strip(): value.strip() for key, _, value in pairs}
-    celsius = parse_number(parameters.get("T", ""))
-    if celsius is None or celsius != celsius:
-        raise FileError(
-            f"{path}, line {lines[0][0]}: expected T=... in degrees Celsius among the parameters; "
-            f"got {parameters.get('T', 'none')}"
-        )
-    table = _table(path, lines[1:], expected)
-    if not table.names:
-        if len(table.columns) < len(_REPTATE):
-            raise FileError(
-                f"{path}, line {table.line_numbers[0]}: expected at least 3 columns (frequency, "
-                f"G', G''); got {len(table.columns)}"
-            )
-        others = [ColumnTitle()] * (len(table.columns) - len(_REPTATE))
-        table = replace(table, columns=[*_REPTATE, *others])
-    return Block(table, celsius + ZERO_CELSIUS)

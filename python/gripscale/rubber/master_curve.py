@@ -14,11 +14,11 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import TextTable, file_path
+from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import (
     THREE,
     FileLayout,
     quantity,
-    read_blocks,
     young_moduli,
 )
 from gripscale.rubber.shift import Shift, shift_at

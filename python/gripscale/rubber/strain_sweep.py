@@ -17,10 +17,10 @@ from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import TextTable, file_path
+from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import (
     MODULI,
     FileLayout,
-    read_blocks,
     young_moduli,
 )
 from gripscale.rubber.sweeps import TOLERANCE, row_temperatures

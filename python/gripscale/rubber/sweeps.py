@@ -7,7 +7,8 @@ multiples of a step.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -22,14 +23,14 @@ from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, in_si
-from gripscale.io.text_table import file_paths
+from gripscale.io.text_table import file_path, file_paths, is_excel
+from gripscale.rubber.blocks import Block, read_blocks
 from gripscale.rubber.columns import (
-    Block,
     FileLayout,
     check_rows,
-    read_blocks,
     young_moduli,
 )
+from gripscale.rubber.shift import WLF
 
 TOLERANCE = 1.0
 """Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
@@ -138,6 +139,12 @@ class Sweeps(Checked, eq=False):
         )
 
     @property
+    def is_ramp(self) -> bool:
+        """Whether one frequency was measured while the temperature ran."""
+        span = float(np.ptp(self.temperature))
+        return is_single_frequency(self.frequency) and span > _WIDEST * TOLERANCE
+
+    @property
     def temperatures(self) -> Array:
         """Mean temperature of each sweep, rising [K], shape (sweeps,)."""
         return np.array([sweep.temperature for sweep in self])
@@ -184,6 +191,30 @@ def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
         return False
 
 
+def states_temperature(path: str | Path) -> bool:
+    """Return whether a file states the temperature of its moduli, above a table or in a column.
+
+    Raises `FileError` and `InputError` as `read_sweeps`.
+    """
+    layout = FileLayout()
+    blocks = read_blocks(file_path(path), layout, temperature_unit="C")
+    return all(
+        block.temperature is not None or layout.column(block.table, "temperature") is not None
+        for block in blocks
+    )
+
+
+def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | None:
+    """Return the shift that a file of RepTate (.tts) states among its parameters, or None.
+
+    The `layout` has the fields of `FileLayout`. Raises as `read_sweeps`.
+    """
+    file = file_path(path)
+    if is_excel(file):
+        return None
+    return read_blocks(file, FileLayout(**layout), temperature_unit="C")[0].shift
+
+
 def _repeats(block: Block, layout: FileLayout) -> bool:
     """Return whether the same frequencies come again over a column of temperatures."""
     table = block.table
@@ -193,11 +224,20 @@ def _repeats(block: Block, layout: FileLayout) -> bool:
     degrees, hertz = (
         table.numbers(at, "a number", missing=True) for at in columns if at is not None
     )
-    return bool(np.ptp(degrees) > 2.0 * TOLERANCE and len(np.unique(hertz)) <= len(hertz) // 2)
+    if not np.ptp(degrees) > 2.0 * TOLERANCE:
+        return False
+    return len(np.unique(hertz)) <= len(hertz) // 2 or is_single_frequency(hertz)
 
 
 _ONE_FREQUENCY = 0.01
 """Frequencies that differ by less than this share are one."""
+
+
+def is_single_frequency(hertz: Array) -> bool:
+    """Return whether all frequencies [Hz] are one within the noise of an instrument."""
+    return bool(hertz.max() <= (1.0 + _ONE_FREQUENCY) * hertz.min())
+
+
 _LEAST_STEP = 0.01
 _NEAR = 0.5
 """Distance of a row from a nominal temperature, over the step, so that it can be interpolated."""
@@ -289,7 +329,8 @@ def read_sweeps(
     Parameters
     ----------
     path : str, Path or sequence of them
-        The file, or several, such as one for each temperature. Excel: .xlsx.
+        The file, or several, such as one for each temperature, which then may stand in its name
+        with its unit: sweep_-20C.csv. Excel: .xlsx.
     temperature : float, optional
         Temperature of a file that states none [K].
     tolerance : float
@@ -318,11 +359,12 @@ def read_sweeps(
     paths, layout = file_paths(path), FileLayout(**options)
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
-    parts = [
-        _rows(block, layout.for_table(block.table), temperature)
-        for file in paths
-        for block in read_blocks(file, layout, temperature_unit=layout.temperature_unit)
-    ]
+    parts = []
+    for file in paths:
+        blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
+        if temperature is None and len(paths) > 1:
+            blocks = [_with_named_temperature(block, layout) for block in blocks]
+        parts += [_rows(block, layout.for_table(block.table), temperature) for block in blocks]
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
         raise FileError(f"{paths[0]}: expected rows without missing values; got none")
@@ -334,6 +376,25 @@ def read_sweeps(
         return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
     except InputError as error:
         raise InputError(f"{paths[0]}: {error}") from error
+
+
+_NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)(?![A-Za-z\d])")
+
+
+def named_temperature(path: Path) -> float | None:
+    """Return the temperature that stands with its unit in the name of a file [K], if just one."""
+    temperatures = _NAMED.findall(path.stem.replace("_", " "))
+    if len(temperatures) != 1:
+        return None
+    ((number, unit),) = temperatures
+    return float(in_si(float(number.replace(",", ".")), unit, "temperature"))
+
+
+def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
+    """Return a block with the temperature in the name of its file, if it states none itself."""
+    if block.temperature is not None or layout.column(block.table, "temperature") is not None:
+        return block
+    return replace(block, temperature=named_temperature(block.table.path))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

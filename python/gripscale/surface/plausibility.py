@@ -7,7 +7,8 @@ road between its plates pass all of them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
 from gripscale.surface.sine_fit import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE
 from gripscale.surface.sines import SineStack
+from gripscale.surface.supports import road_between, support_plates
 
 STEEPEST = 3.0
 """Height change per step of a spike (ISO 13473-1:2019, section 7.5)."""
@@ -81,39 +83,86 @@ def profile_warnings(
     steep : bool, optional
         Whether to warn of remaining steep steps; on maps, true edges remain on purpose.
     """
-    checks.instance("profile", profile, Profile)
     checks.flag("steep", steep)
-    measured, kept = profile.z, np.isfinite(profile.z)
-    if cleaned is not None:
-        checks.instance("cleaned", cleaned, Profile)
-        first = int(np.searchsorted(profile.x, cleaned.x[0] - 0.5 * profile.step))
-        measured, kept = profile.z[first : first + len(cleaned)], np.isfinite(cleaned.z)
-        if measured.size != len(cleaned):
-            raise InputError(
-                f"cleaned must be a part of profile; got {len(cleaned)} points from "
-                f"{cleaned.x[0]:g} m on of a profile from {profile.x[0]:g} m to {profile.x[-1]:g} m"
-            )
+    doubts = _doubts(profile, cleaned)
+    if doubts.heights is None:
+        return doubts.texts
+    level = _levelled(doubts.heights)
+    return (
+        *doubts.texts,
+        *(() if doubts.plates else (*_jump_warnings(level), *_flat_warnings(level))),
+        *(_slope_warnings(doubts.heights, profile.step) if steep else ()),
+    )
+
+
+def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
+    """Return those warnings of a profile that leave no answer to rely on, or none.
+
+    They are about sentinels, plates and supports, and units. Arguments and errors as
+    `profile_warnings`.
+    """
+    return _doubts(profile, cleaned).texts
+
+
+class _Doubts(NamedTuple):
+    """Why a profile may be no road."""
+
+    texts: tuple[str, ...] = ()
+    heights: Array | None = None
+    """Heights that count [m]; None where they mean nothing."""
+    plates: bool = False
+
+
+def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
+    """Return why a profile may be no road; `InputError` as `profile_warnings`."""
+    part = _kept_part(profile, cleaned)
+    measured, kept = part.z, np.isfinite(part.z if cleaned is None else cleaned.z)
     valid = measured[np.isfinite(measured)]
     if valid.size == 0 or np.ptp(valid) == 0.0:
-        return ("all heights are equal: is this the column of heights?",)
+        return _Doubts(("all heights are equal: is this the column of heights?",))
     spikes = float((np.isfinite(measured) & ~kept).sum() / valid.size)
     if spikes > MOST_SPIKES:  # the remaining heights mean nothing
-        return (
+        text = (
             f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {STEEPEST:g}: "
-            "is the unit of heights or of distances right?",
-            *_unit_warnings(_levelled(measured), profile),
+            "is the unit of heights or of distances right?"
         )
-    z = np.where(kept, measured, np.nan)
-    sentinels = tuple(_sentinel_warnings(z[np.isfinite(z)]))
+        return _Doubts((text, *_unit_warnings(_levelled(measured), profile)))
+    part = replace(part, z=np.where(kept, measured, np.nan))
+    sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
     if sentinels:  # a sentinel is far off, steep, flat and high, too
-        return sentinels
-    level = _levelled(z)
-    return (
-        *_jump_warnings(level),
-        *_flat_warnings(level),
-        *(_slope_warnings(z, profile.step) if steep else ()),
-        *_unit_warnings(level, profile),
-    )
+        return _Doubts(sentinels)
+    plates = tuple(_plate_warnings(part))
+    units = _unit_warnings(_levelled(part.z), profile)
+    return _Doubts((*plates, *units), part.z, bool(plates))
+
+
+def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
+    """Return what cleaning kept of a profile, with the heights as measured."""
+    checks.instance("profile", profile, Profile)
+    if cleaned is None:
+        return profile
+    checks.instance("cleaned", cleaned, Profile)
+    first = int(np.searchsorted(profile.x, cleaned.x[0] - 0.5 * profile.step))
+    measured = profile.z[first : first + len(cleaned)]
+    if measured.size != len(cleaned):
+        raise InputError(
+            f"cleaned must be a part of profile; got {len(cleaned)} points from "
+            f"{cleaned.x[0]:g} m on of a profile from {profile.x[0]:g} m to {profile.x[-1]:g} m"
+        )
+    return replace(cleaned, z=measured)
+
+
+def _plate_warnings(profile: Profile) -> Iterator[str]:
+    """Warn of plates and supports, and say which crop leaves them out."""
+    supports = support_plates(profile)
+    if supports:
+        road = road_between(profile)
+        ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
+        yield (
+            "plates, supports or filled gaps lie in the profile, at "
+            f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
+            f"crop{ends} leaves them out"
+        )
 
 
 def _levelled(z: Array) -> Array:

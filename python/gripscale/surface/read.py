@@ -23,6 +23,7 @@ from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
+from gripscale.surface.sdf import is_sdf_text, read_sdf_text
 from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
 
 MOST_POINTS_PER_BYTE = 1032
@@ -70,6 +71,13 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
+    if is_sdf_text(path, raw):
+        if step is not None:
+            raise InputError(f"step must be left out; {path} states the size of its surface")
+        for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
+            length_unit(path, "the file", "m", name, unit)
+        along, across, field = read_sdf_text(path, raw)
+        return HeightField(field, along, across)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -143,7 +151,11 @@ def _topography(
             raise InputError(f"step must be left out; {path} states the size of its surface")
         return channel.topography()
     if step is None:
-        raise FileError(f"{path}: expected a lateral size; the file gives none")
+        size = " x ".join(map(str, channel.nb_grid_pts))
+        raise FileError(
+            f"{path}: expected a lateral size; the file gives none: give step, for an array of "
+            f"{size} heights whose first index runs along x, the way of sliding"
+        )
     sizes = tuple(n * d for n, d in zip(channel.nb_grid_pts, step, strict=False))
     return channel.topography(physical_sizes=sizes)
 
@@ -163,6 +175,7 @@ def read_profile(
     line: int | None = None,
     channel: str | int | None = None,
     sheet: str | int | None = None,
+    step: float | None = None,
     reader: str = "auto",
 ) -> Profile:
     """Read one profile from a file.
@@ -188,10 +201,12 @@ def read_profile(
         heights.
     sheet : str or int, optional
         Name of the Excel sheet or its number from 1, where several hold numbers.
+    step : float, optional
+        Distance between points [m], of a file with one column of heights or an array.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
     """
-    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, reader)
+    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
     lines = 1 if isinstance(source, Profile) else source.lines(direction)
     number = lines // 2
     if line is not None:
@@ -207,6 +222,7 @@ def read_profiles(
     direction: str = "x",
     channel: str | int | None = None,
     sheet: str | int | None = None,
+    step: float | None = None,
     reader: str = "auto",
 ) -> list[Profile]:
     """Read every profile of a file: all lines of a map along a direction, or the only one.
@@ -214,7 +230,7 @@ def read_profiles(
     Lines of a map on which no height was measured are left out. Parameters and errors are those
     of `read_profile`.
     """
-    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, reader)
+    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
     if isinstance(source, Profile):
         return [source]
     measured = np.isfinite(source.heights).any(axis=0 if direction == "x" else 1)
@@ -230,17 +246,22 @@ def _open_lines(
     direction: str,
     channel: str | int | None,
     sheet: str | int | None,
+    step: float | None,
     reader: str,
 ) -> tuple[Path, Profile | HeightField]:
     """Return the path of a file and its profile, or the heights of an instrument file."""
     checks.one_of("direction", direction, ("x", "y"))
     file = _checked_path(path, x_unit, z_unit, reader)
+    steps = _steps(step, x_unit)
     text = _is_text(file, reader, TEXT_SUFFIXES)
     if reader == "auto" and file.suffix.lower() in EXCEL:
         text = not set(read_sheets(file)) >= _SHEETS_OF_AN_INSTRUMENT
     if text:
-        return file, read_text_profile(file, x_unit=x_unit, z_unit=z_unit, sheet=sheet)
-    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel)
+        spacing = None if steps is None else steps[0]
+        return file, read_text_profile(
+            file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing
+        )
+    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
     if field.y is None and direction != "x":
         raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")
     return file, field
@@ -255,6 +276,25 @@ def _checked_path(
         if unit is not None:
             in_si(1.0, unit, "length", name)
     return file_path(path)
+
+
+def _steps(
+    step: float | tuple[float, float] | None, x_unit: str | None
+) -> tuple[float, float] | None:
+    """Return the distances between points along x and y [m]; raise `InputError` for no lengths."""
+    if step is None:
+        return None
+    pair = tuple(step) if isinstance(step, tuple | list) else (step, step)
+    if len(pair) != 2:
+        raise InputError(
+            f"step must be one distance [m], or that along x and y; got {checks.short_repr(step)}"
+        )
+    x_step, y_step = (checks.positive("step", length, unit="m") for length in pair)
+    if x_unit is not None:
+        raise InputError(
+            f"x_unit must be left out with step, which is in m; got {checks.short_repr(x_unit)}"
+        )
+    return x_step, y_step
 
 
 def _is_text(path: Path, reader: str, suffixes: Collection[str]) -> bool:
@@ -289,23 +329,11 @@ def read_map(
         As in `read_profile`.
     step : float or (float, float), optional
         Distance between points [m], along x and y if they differ, for a table or an array, whose
-        file has none.
+        file has none. The first index of an array (.npy, .npz) runs along x; the columns of a
+        table of text do.
     """
     file = _checked_path(path, x_unit, z_unit, reader)
-    steps = None
-    if step is not None:
-        pair = tuple(step) if isinstance(step, tuple | list) else (step, step)
-        if len(pair) != 2:
-            raise InputError(
-                "step must be one distance [m], or that along x and y; "
-                f"got {checks.short_repr(step)}"
-            )
-        x_step, y_step = (checks.positive("step", length, unit="m") for length in pair)
-        steps = x_step, y_step
-        if x_unit is not None:
-            raise InputError(
-                f"x_unit must be left out with step, which is in m; got {checks.short_repr(x_unit)}"
-            )
+    steps = _steps(step, x_unit)
     if _is_text(file, reader, MAP_TEXT_SUFFIXES):
         return read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)

@@ -19,7 +19,12 @@ from gripscale.surface.cut_off import (
     slope_by_wavelength,
 )
 from gripscale.surface.height_difference import HeightDifference, height_difference
-from gripscale.surface.plausibility import extrapolation_notes, profile_warnings, stack_notes
+from gripscale.surface.plausibility import (
+    doubt_warnings,
+    extrapolation_notes,
+    profile_warnings,
+    stack_notes,
+)
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
@@ -91,14 +96,29 @@ class Measured:
         """What reading changed and what is implausible, a sentence each."""
         notes = []
         for raw, cleaned in self.profiles:
-            about = f"{raw.name}: " if raw.name else ""
             warnings = profile_warnings(raw, cleaned, steep=self.map is None)
-            notes += [f"{about}{note}" for note in (*raw.notes, *warnings)]
+            notes += [_about(raw, note) for note in (*raw.notes, *warnings)]
         return tuple(notes)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Those of the notes that leave no answer to rely on: sentinels, plates and supports."""
+        if self.map is not None:
+            return ()
+        return tuple(
+            _about(raw, doubt)
+            for raw, cleaned in self.profiles
+            for doubt in doubt_warnings(raw, cleaned)
+        )
 
     def bare(self) -> Measured:
         """Return what was measured, without how it was cleaned and what was fitted to it."""
         return Measured.of(self.heights)
+
+
+def _about(profile: Profile, note: str) -> str:
+    """Return a note with the profile it is about."""
+    return f"{profile.name}: {note}" if profile.name else note
 
 
 SurfacePart = Literal["waves", "measurement", "cut_off"]
@@ -175,6 +195,11 @@ class Surface:
             return of_measurement
         of_waves = stack_notes(self.sines, self.correlation, self.fit)
         return (*of_measurement, *of_waves, *self.extrapolated)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Those of the notes that leave no answer to rely on."""
+        return () if self.measured is None else self.measured.doubts
 
     @property
     def extrapolated(self) -> tuple[str, ...]:

@@ -1,10 +1,11 @@
 """Profiles and maps from text files, with stated units and codes for missing heights.
 
-A profile stands in two columns with units, in rows of either direction, or in the layout of the
-CAPTIF stationary laser profilometer: point number, distance and height, parted by tabs, below a
-line "*****DATA*****" and a title line that names millimetres. CAPTIF's point numbers are not
-consecutive (they jump and repeat where scans are joined), while the distance column goes on at a
-constant step printed to three decimals: the step is therefore that of the distance column.
+A profile stands in two columns with units, in rows of either direction, in one column of heights
+whose step is stated, or in the layout of the CAPTIF stationary laser profilometer: point number,
+distance and height, parted by tabs, below a line "*****DATA*****" and a title line that names
+millimetres. CAPTIF's point numbers are not consecutive (they jump and repeat where scans are
+joined), while the distance column goes on at a constant step printed to three decimals: the step is
+therefore that of the distance column.
 
 A map stands in a table of heights or in points (x, y, z). A table is an image: its rows run along
 y, its columns along x, and it has no steps. Points may come in any order.
@@ -27,7 +28,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si, spelled
-from gripscale.io.text_table import TextTable, read_table
+from gripscale.io.text_table import Line, TextTable, column_in, read_lines, table_in
 from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile
 from gripscale.surface.resampling import printed_grid
 
@@ -97,15 +98,15 @@ _MOST_TIMES = 100
 
 
 def _read_table(
-    path: Path, expected: str, titles: tuple[re.Pattern[str], ...], sheet: str | int | None = None
+    path: Path, lines: list[Line], expected: str, titles: tuple[re.Pattern[str], ...]
 ) -> tuple[TextTable, list[int] | None]:
     """Return the table of a file and its columns by their titles, or None if not all are named."""
-    table = read_table(
+    table = table_in(
         path,
+        lines,
         expected,
         kinds=("length",),
         named=lambda name: any(title.match(name) for title in titles),
-        sheet=sheet,
     )
     matches = [[i for i, name in enumerate(table.names) if t.match(name)] for t in titles]
     if any(len(columns) != 1 for columns in matches):
@@ -114,16 +115,31 @@ def _read_table(
 
 
 def read_text_profile(
-    path: Path, *, x_unit: str | None, z_unit: str | None, sheet: str | int | None = None
+    path: Path,
+    *,
+    x_unit: str | None,
+    z_unit: str | None,
+    sheet: str | int | None = None,
+    step: float | None = None,
 ) -> Profile:
     """Read a profile from a text or Excel file with a distance and a height column.
 
-    Units are needed where the column titles do not name them. `notes` of the profile tell of rows
-    that were reversed or left out. Raises `FileError`, which names the line, if the file cannot be
-    read or understood, `InputError` if a unit is unknown or contradicts the file.
+    A `step` [m] stands for the distances of a file with one column. Units are needed where the
+    column titles do not name them. `notes` of the profile tell of rows that were reversed or left
+    out. Raises `FileError`, which names the line, if the file cannot be read or understood,
+    `InputError` if a unit is unknown or contradicts the file.
     """
+    lines = read_lines(path, sheet=sheet)
+    column = column_in(path, lines, kinds=("length",))
+    if step is not None:
+        return _equal_steps(path, column, step, z_unit)
+    if column is not None:
+        raise FileError(
+            f"{path}: expected two columns, distance and height; got one column of numbers: give "
+            'step, the distance between its points, such as "0.1 mm"'
+        )
     table, columns = _read_table(
-        path, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE), sheet
+        path, lines, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE)
     )
     if columns is None and len(table.columns) != 2:
         raise FileError(
@@ -135,27 +151,47 @@ def read_text_profile(
     x_unit = _column_unit(table, x_column, "x_unit", x_unit)
     z_unit = _column_unit(table, z_column, "z_unit", z_unit)
     x = table.numbers(x_column, f"a distance in column {x_column + 1}")
-    z = table.numbers(z_column, f"a number in column {z_column + 1}", missing=True)
-    if z.size < FEWEST_POINTS:
-        raise FileError(f"{path}: expected at least {FEWEST_POINTS} points; got {z.size}")
-    if np.isnan(z).all():
-        raise FileError(f"{path}: expected heights; got {z.size} points, all missing")
-    z, code = without_codes(z)
-    lines, notes = table.line_numbers, []
+    z, notes = _heights(table, z_column, z_unit)
+    numbers = table.line_numbers
     if x[0] > x[-1]:
-        x, z, lines = x[::-1], z[::-1], lines[::-1]
+        x, z, numbers = x[::-1], z[::-1], numbers[::-1]
         notes.append(TURNED_ROUND)
-    grid = printed_grid(table, x_column, x, lines)
+    grid = printed_grid(table, x_column, x, numbers)
     if grid.left_out:
         rows = "1 row" if grid.left_out == 1 else f"{grid.left_out} rows"
         notes.append(
             f"{rows} of the even grid not in the file, of {grid.size}: taken as missing heights"
         )
-    if code is not None:
-        notes.append(f"heights of {code:g} {z_unit} stand for missing ones")
     x = in_si(grid.points(x), x_unit, "length")
     z = in_si(grid.spread(z), z_unit, "length")
     with about_file(path):
+        return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
+
+
+def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]]:
+    """Return heights as printed, NaN where missing, and what stands for missing ones."""
+    z = table.numbers(column, f"a number in column {column + 1}", missing=True)
+    if z.size < FEWEST_POINTS:
+        raise FileError(f"{table.path}: expected at least {FEWEST_POINTS} points; got {z.size}")
+    if np.isnan(z).all():
+        raise FileError(f"{table.path}: expected heights; got {z.size} points, all missing")
+    z, code = without_codes(z)
+    notes = [] if code is None else [f"heights of {code:g} {unit} stand for missing ones"]
+    return z, notes
+
+
+def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str | None) -> Profile:
+    """Return the profile of one column of heights at equal steps [m]."""
+    if column is None:
+        raise InputError(
+            f"step must be left out; {path} has more than one column, and states where its points "
+            "are"
+        )
+    z_unit = _column_unit(column, 0, "z_unit", z_unit)
+    printed, notes = _heights(column, 0, z_unit)
+    z = in_si(printed, z_unit, "length")
+    with about_file(path):
+        x = np.asarray(step * np.arange(z.size), float)
         return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
 
 
@@ -168,7 +204,8 @@ def read_text_map(
     `InputError` if an argument is unknown or contradicts the file.
     """
     titles = (DISTANCE_TITLE, ACROSS_TITLE, HEIGHT_TITLE)
-    table, columns = _read_table(path, "rows of heights, or of x, y and z", titles)
+    expected = "rows of heights, or of x, y and z"
+    table, columns = _read_table(path, read_lines(path), expected, titles)
     count = len(table.columns)
     if columns is None and count == 3:
         columns = [0, 1, 2]

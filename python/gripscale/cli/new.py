@@ -1,0 +1,78 @@
+"""`gripscale new`: a case from one's own files, with what is doubtful about it."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import Annotated, Any
+
+from gripscale.cli.terminal import argument, command, lengths_of, option, print_wrapped, screen
+from gripscale.core.errors import GripscaleError, InputError
+
+CURES = {
+    "shift must be given": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
+    "give step": '--step LENGTH, such as --step "0.1 mm"',
+}
+"""Options that cure a refusal, by what it says."""
+
+
+@command
+def new(
+    files: Annotated[
+        list[Path],
+        argument(
+            "Measured profiles or a map, and a master curve or sweeps, in any order; or folders.",
+            "FILE...",
+        ),
+    ],
+    output: Annotated[
+        Path,
+        option("The case file to write.", "--output", "-o", metavar="CASE.toml"),
+    ] = Path("case.toml"),
+    temperature: Annotated[
+        str | None, option('Of the rubber before the contact, such as "20 C".')
+    ] = None,
+    pressure: Annotated[str | None, option('Such as "3 bar", as by default.')] = None,
+    speed: Annotated[str | None, option('Such as "1 m/s", as by default.')] = None,
+    footprint: Annotated[
+        str | None, option('Length of the nominal contact; "100 mm" by default.')
+    ] = None,
+    step: Annotated[
+        str | None,
+        option('Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'),
+    ] = None,
+    wlf: Annotated[
+        tuple[float, str] | None,
+        option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
+    ] = None,
+) -> None:
+    """Write a commented case for measured files, and list what is doubtful about it."""
+    from gripscale.case.new import new_case
+
+    options: dict[str, Any] = {}
+    if step is not None:
+        options["step"] = lengths_of(step)
+    if wlf is not None:
+        options["shift"] = {"kind": "wlf", "c1": wlf[0], "c2": wlf[1]}
+    load = {"pressure": pressure, "speed": speed, "footprint": footprint}
+    values = {key: value for key, value in load.items() if value is not None}
+    try:
+        case = new_case(files, output, load=values, temperature=temperature, **options)
+    except GripscaleError as error:
+        option_name = next((name for key, name in CURES.items() if key in str(error)), None)
+        if option_name is None:
+            raise
+        raise InputError(f"{error}: here with {option_name}") from error
+    console = screen()
+    print_wrapped(console, f"Case: {case.path}")
+    if case.skipped:
+        names = ", ".join(path.name for path in case.skipped)
+        print_wrapped(console, f"Neither a surface nor moduli: {names}")
+    if case.doubts:
+        console.print()
+        print_wrapped(console, "Doubts, the weightiest first:")
+        for number, doubt in enumerate(case.doubts, start=1):
+            print_wrapped(console, f"  {number}. {doubt.text}")
+    console.print()
+    print_wrapped(console, "Next:")
+    print_wrapped(console, f"  {shlex.join(['gripscale', 'run', str(case.path)])}")

@@ -1,0 +1,224 @@
+"""The tables of a file of moduli, each with what the lines above it state.
+
+A text or Excel file may hold several tables, each with its temperature. Lines that are no rows of
+numbers part the tables where they hold titles or state a temperature; a table without titles has
+those of the table before. Of several tables those without frequency and modulus are left out: steps
+that condition the sample. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
+where T is in degrees Celsius; their columns are angular frequency [rad/s], G' and G'' [Pa] unless
+they have other titles, and the constants of the shift stand among the parameters of a .tts file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
+from gripscale.io.text_table import (
+    ColumnTitle,
+    Line,
+    TextTable,
+    is_row,
+    parse_number,
+    read_lines,
+    table_in,
+)
+from gripscale.rubber.columns import (
+    FileLayout,
+    quantity,
+    raised,
+    stated_temperature,
+    with_logarithms,
+    with_primes,
+)
+from gripscale.rubber.shift import WLF
+
+KINDS = ("temperature", "frequency", "modulus", "strain")
+"""Kinds of quantities whose units titles may hold."""
+_PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
+_STEP = re.compile(r"\[\w+\]")
+"""Begins a step of a file of TRIOS: [step]."""
+_REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
+
+
+@dataclass(frozen=True)
+class Block:
+    """A table with what the lines above it state."""
+
+    table: TextTable
+    temperature: float | None = None
+    """Temperature [K]."""
+    shift: WLF | None = None
+    """Time-temperature shift."""
+
+
+def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
+    """Return the tables of a file, in its order; errors as of `read_sweeps`.
+
+    `temperature_unit` is that of temperatures above a table which have none.
+    """
+    lines = read_lines(path, sheet=layout.sheet, header=layout.header)
+    return blocks_in(path, lines, layout, temperature_unit=temperature_unit)
+
+
+def blocks_in(
+    path: Path, lines: list[Line], layout: FileLayout, *, temperature_unit: str | None
+) -> list[Block]:
+    """Return the tables in `lines` of the file `path`, as `read_blocks` does."""
+    expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
+    lines = [(number, with_logarithms(with_primes(line))) for number, line in lines]
+    if lines and _PARAMETERS.fullmatch(lines[0][1]):
+        return [_reptate(path, lines, expected)]
+    blocks: list[Block] = []
+    titles: list[Line] = []
+    for above, rows in _parts(lines, expected):
+        first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
+        temperature = _temperature_above(path, above, temperature_unit)
+        if first is not None:
+            here = [line for line in above[first:] if stated_temperature(line[1]) is None]
+            titles = here or titles
+        elif any(_STEP.fullmatch(text.strip()) for _, text in above):
+            titles = []  # those of another step are not its own
+        whole = [*titles, *rows] if titles else [*above, *rows]
+        blocks.append(Block(_table(path, whole, expected), temperature))
+    blocks = blocks or [Block(_table(path, lines, expected))]
+    return _with_moduli(blocks, layout) or blocks if len(blocks) > 1 else blocks
+
+
+def _with_moduli(blocks: list[Block], layout: FileLayout) -> list[Block]:
+    """Return the blocks of frequency and modulus, without steps that condition the sample."""
+    kept = []
+    for block in blocks:
+        with suppress(InputError):
+            kept += [block] if layout.suffices(block.table) else []
+    return kept
+
+
+def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line], list[Line]]]:
+    """Yield the lines of each table: those above its rows, then the rows and what is among them."""
+    above: list[Line] = []
+    rows: list[Line] = []
+    between: list[Line] = []
+    for line in lines:
+        # A line below rows that begins with a number is a row with a fault, to be named later.
+        first = parse_number(re.split(r"[\t;,\s]", line[1].strip(), maxsplit=1)[0])
+        broken = bool(rows) and first is not None and first == first
+        if not is_row(line[1]) and not broken:
+            between.append(line)
+            continue
+        begins = any(
+            _names(text, expected) or stated_temperature(text) or _STEP.fullmatch(text.strip())
+            for _, text in between
+        )
+        if rows and begins:
+            yield above, rows
+            rows = []
+        if rows:
+            rows += between
+        else:
+            above = between
+        rows.append(line)
+        between = []
+    if rows:
+        yield above, rows
+
+
+def _names(line: str, expected: list[str]) -> bool:
+    """Return whether a line names two of the quantities, or one of the `expected` columns."""
+    for separator in ("\t", ";", ",", r"\s{2,}", r"\s+"):
+        parts = re.split(separator, line.strip(" #%!"))
+        cells = [part.strip().strip('"').strip() for part in parts]
+        quantities = {quantity(cell) for cell in cells} - {None}
+        if len(quantities) > 1 or any(cell in expected for cell in cells):
+            return True
+    return False
+
+
+def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float | None:
+    """Return the last temperature that the lines above a table state [K]."""
+    for number, line in reversed(above):
+        statement = stated_temperature(line)
+        if statement is None:
+            continue
+        value, written = statement
+        chosen = unit if spelled(written, "temperature") is None else written
+        if chosen is None:
+            raise InputError(
+                f"{path}, line {number}: temperature_unit must be given ({listed('temperature')}), "
+                f"because the line states none with {value}"
+            )
+        degrees = float(value.replace(",", "."))
+        return float(in_si(degrees, chosen, "temperature", "temperature_unit"))
+    return None
+
+
+def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
+    table = table_in(
+        path,
+        lines,
+        "rows of frequency, storage and loss",
+        kinds=KINDS,
+        named=lambda name: quantity(name) is not None or name in expected,
+    )
+    return raised(table)
+
+
+def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
+    """Return the table of a file of RepTate: the temperature is that of its parameters."""
+    pairs = (pair.partition("=") for pair in lines[0][1].split(";"))
+    parameters = {key.strip(): value.strip() for key, _, value in pairs}
+    celsius = parse_number(parameters.get("T", ""))
+    if celsius is None or celsius != celsius:
+        raise FileError(
+            f"{path}, line {lines[0][0]}: expected T=... in degrees Celsius among the parameters; "
+            f"got {parameters.get('T', 'none')}"
+        )
+    table = _table(path, lines[1:], expected)
+    if not table.names:
+        if len(table.columns) < len(_REPTATE):
+            raise FileError(
+                f"{path}, line {table.line_numbers[0]}: expected at least 3 columns (frequency, "
+                f"G', G''); got {len(table.columns)}"
+            )
+        others = [ColumnTitle()] * (len(table.columns) - len(_REPTATE))
+        table = replace(table, columns=[*_REPTATE, *others])
+    units = {quantity(title.name): title.unit for title in _REPTATE}
+    columns = [
+        replace(title, unit=title.unit or units.get(quantity(title.name)))
+        for title in table.columns
+    ]
+    numbers = {key: number for key, text in parameters.items() if (number := parse_number(text))}
+    isofrictional = parameters.get("iso", parameters.get("isof", "true")).lower() == "true"
+    return Block(
+        replace(table, columns=columns),
+        celsius + ZERO_CELSIUS,
+        _reptate_shift(numbers, celsius, isofrictional),
+    )
+
+
+def _reptate_shift(numbers: Mapping[str, float], celsius: float, isofrictional: bool) -> WLF | None:
+    """Return the shift of the parameters of a file of RepTate, None without its constants.
+
+    RepTate states log10 a = -B1 (T - Tr)/((B2 + Tr)(B2 + T)), older versions
+    log10 a = -C1 (T - T0)/(C2 + T), with temperatures in degrees Celsius: c2 = B2 + Tr, c1 = B1/c2.
+    In the state of equal friction the reference is that of the molar mass,
+    Tr - CTg/Mw + 68.7 dx12, and c2 the same (V. A. H. Boudara, D. J. Read, J. Ramirez,
+    J. Rheol. 64 (2020) 709, doi:10.1122/8.0000002, and TheoryTTS.py of the program).
+    """
+    reference = numbers.get("Tr", numbers.get("T0", celsius))
+    if "B1" in numbers and "B2" in numbers:
+        c2 = numbers["B2"] + reference
+        c1 = numbers["B1"] / c2 if c2 else 0.0
+    elif "C1" in numbers and "C2" in numbers:
+        c1, c2 = numbers["C1"], numbers["C2"] + reference
+    else:
+        return None
+    if min(c1, c2) <= 0.0:
+        return None
+    if isofrictional and "Mw" in numbers:
+        reference += 68.7 * numbers.get("dx12", 0.0) - numbers.get("CTg", 0.0) / numbers["Mw"]
+    return WLF(c1, c2, reference + ZERO_CELSIUS)

@@ -1,0 +1,160 @@
+"""Plates and supports in a profile: stretches that are no road, and the part between them.
+
+A stretch is suspect where its heights stand off the others,
+
+    |z - line| > OFF s,    s = 1.4826 median |z - line|,
+
+about a line through the medians of pieces (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
+doi:10.1080/01621459.1968.10480934), which a plate does not pull, and its sides are steps, not
+slopes; or where it is smooth: the rms departure from its own line is below SMOOTH of that of the
+usual piece. Heights missing at its ends belong to it, as steel shines. What happens often belongs
+to the surface, as grooves and joints do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask
+from gripscale.core.units import in_mm
+from gripscale.surface.profile import Profile
+
+OFF = 6.0
+"""Distance from the line, in robust standard deviations, that no road reaches."""
+
+SMOOTH = 0.02
+"""Roughness of two pieces in a row, over the usual one, below which they are a plate."""
+
+STEP = 0.5
+"""Change of height at the side of a stretch, over its height, that is a step."""
+
+PIECES = 50
+"""Pieces of a profile whose level and roughness are compared."""
+
+FEWEST = 16
+"""Heights that tell the roughness of a piece, and that a stretch off the line must have."""
+
+SHORTEST = 1 / 400
+"""Length of a plate, as a share of the profile: shorter are joints and cracks."""
+
+MOST = 6
+"""Stretches beyond which they belong to the surface."""
+
+GUARD = 1 / 40
+"""Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it."""
+
+
+@dataclass(frozen=True)
+class Support:
+    """A stretch of a profile that is a plate or a support."""
+
+    first: float
+    """Where it begins [m]."""
+    last: float
+    """Where it ends [m]."""
+    height: float
+    """Median of its heights over the road [m]."""
+
+    def __str__(self) -> str:
+        """Return the stretch in words."""
+        side = "above" if self.height > 0.0 else "below"
+        span = f"{in_mm(self.first, 4)} to {in_mm(self.last, 4)}"
+        return f"{span} ({in_mm(abs(self.height), 2)} {side} the road)"
+
+
+def support_plates(profile: Profile) -> tuple[Support, ...]:
+    """Return the plates and supports in a profile, in order; empty if there are none.
+
+    Raises `InputError` if `profile` is no profile.
+    """
+    checks.instance("profile", profile, Profile)
+    valid = np.flatnonzero(np.isfinite(profile.z))
+    if valid.size < PIECES * FEWEST:
+        return ()
+    x, z = profile.x[valid], profile.z[valid]
+    pieces = np.array_split(np.arange(valid.size), PIECES)
+    middles, levels = (np.array([np.median(part[at]) for at in pieces]) for part in (x, z))
+    i, j = np.triu_indices(PIECES, 1)
+    slope = np.median((levels[j] - levels[i]) / (middles[j] - middles[i]))
+    height = z - slope * x - np.median(levels - slope * middles)
+    typical = 1.4826 * float(np.median(np.abs(height)))
+    off = _stepped(_runs_of(np.abs(height) > OFF * typical, FEWEST), height)
+    supports = tuple(_stretches(profile, valid, off | _smooth(x, z, pieces), height))
+    return supports if len(supports) <= MOST else ()
+
+
+def road_between(profile: Profile) -> tuple[float, float] | None:
+    """Return first and last distance of the longest part without plates [m]; None: all of it.
+
+    The part keeps a distance from the plates, and ends on whole hundredths of the decade of the
+    length of the profile: centimetres for a metre.
+    """
+    supports = support_plates(profile)
+    if not supports:
+        return None
+    guard = GUARD * profile.length
+    starts = [float(profile.x[0]), *(support.last + guard for support in supports)]
+    stops = [*(support.first - guard for support in supports), float(profile.x[-1])]
+    first, last = max(zip(starts, stops, strict=True), key=lambda part: part[1] - part[0])
+    grain = 10.0 ** (np.floor(np.log10(profile.length)) - 2.0)
+    first = first if first == starts[0] else float(np.ceil(first / grain) * grain)
+    last = last if last == stops[-1] else float(np.floor(last / grain) * grain)
+    return (first, last) if last - first > 0.25 * profile.length else None
+
+
+def _edges(marked: Mask) -> list[tuple[int, int]]:
+    """Return where each run of marks begins and ends."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
+    return list(zip(ends[::2], ends[1::2], strict=True))
+
+
+def _runs_of(marked: Mask, least: int) -> Mask:
+    """Return the marks without runs of fewer than `least` in a row."""
+    kept = np.zeros_like(marked)
+    for first, last in _edges(marked):
+        kept[first:last] = last - first >= least
+    return kept
+
+
+def _stepped(marked: Mask, height: Array) -> Mask:
+    """Return the marks of runs whose sides within the profile are steps."""
+    kept, way = np.zeros_like(marked), FEWEST // 2
+    for first, last in _edges(marked):
+        level = np.median(height[first:last])
+        inner = (height[first : first + way], height[last - way : last])
+        outer = (height[max(first - way, 0) : first], height[last : last + way])
+        kept[first:last] = all(
+            not outside.size or (np.median(inside) - np.median(outside)) / level > STEP
+            for inside, outside in zip(inner, outer, strict=True)
+        )
+    return kept
+
+
+def _smooth(x: Array, z: Array, pieces: list[np.ndarray]) -> Mask:
+    """Return which heights lie in pieces that are much smoother than the usual one."""
+    rough = np.array([_roughness(x[at], z[at]) for at in pieces])
+    smooth = _runs_of(rough < SMOOTH * np.median(rough), 2)
+    return np.repeat(smooth, [at.size for at in pieces])
+
+
+def _roughness(x: Array, z: Array) -> float:
+    """Return the rms departure of heights from their own line [m]."""
+    centred = x - x.mean()
+    slope = centred @ z / (centred @ centred)
+    return float(np.std(z - slope * centred))
+
+
+def _stretches(
+    profile: Profile, valid: np.ndarray, suspect: Mask, height: Array
+) -> Iterator[Support]:
+    """Yield the suspect stretches, each with the missing heights on its sides."""
+    for first, last in _edges(suspect):
+        before = valid[first - 1] + 1 if first else 0
+        after = valid[last] - 1 if last < valid.size else len(profile) - 1
+        start, stop = float(profile.x[before]), float(profile.x[after])
+        if stop - start >= SHORTEST * profile.length:
+            yield Support(start, stop, float(np.median(height[first:last])))

@@ -1,0 +1,173 @@
+"""Wrong inputs of daily life: none passes in silence, the answer or the refusal says so.
+
+Each trap changes one thing of a case that has no doubt.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale.case import CaseFile, read_case
+from gripscale.case.run import prepare_case
+from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.inputs import rubber_note, surface_note, surface_of
+from gripscale.model import INPUT_DOUBTS
+from gripscale.report.answer import no_answer
+from gripscale.report.record import InputRecord
+from gripscale.surface import self_affine_profile
+
+ROUGH = self_affine_profile(0.8, 2e-3, 0.4e-3, 0.2, 1e-4, 3)
+CASE = """\
+[surface]
+files = ["road.txt"]
+scales = 4
+smallest_wavelength = "1 mm"
+[rubber]
+file = "dma.txt"
+reference_temperature = "20 C"
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+"""
+DMA = "f [Hz]\tE' [MPa]\tE'' [MPa]\n" + "\n".join(
+    f"{f:.5g}\t{5.0 * f**0.1:.6g}\t{1.0 * f**0.1:.6g}" for f in np.geomspace(1e-2, 1e6, 33)
+)
+
+
+def road_text(z: np.ndarray = ROUGH.z, titles: str = "x [mm]\tz [mm]") -> str:
+    rows = (f"{1e3 * a:.2f}\t{1e3 * b:.5f}" for a, b in zip(ROUGH.x, z, strict=True))
+    return "\n".join([titles, *rows])
+
+
+def write(folder: Path, *, case: str = CASE, road: str | bytes = "", dma: str = DMA) -> CaseFile:
+    content = road or road_text()
+    raw = content if isinstance(content, bytes) else content.encode("utf-8")
+    (folder / "road.txt").write_bytes(raw)
+    (folder / "dma.txt").write_text(dma, encoding="utf-8")
+    (folder / "case.toml").write_text(case, encoding="utf-8")
+    return read_case(folder / "case.toml")
+
+
+def with_plate(height: float, *, where: slice = slice(0, 300)) -> str:
+    z = ROUGH.z.copy()
+    z[where] = height + 0.02 * ROUGH.z[where]
+    return road_text(z)
+
+
+def with_sentinel() -> str:
+    z = ROUGH.z.copy()
+    z[500:540] = -0.05
+    return road_text(z)
+
+
+TRAPS: dict[str, tuple[dict[str, Any], str]] = {
+    "a plate at one end": ({"road": with_plate(20e-3)}, "plates, supports or filled gaps"),
+    "a support below": ({"road": with_plate(-9e-3)}, "mm below the road"),
+    "a plate in the middle": (
+        {"road": with_plate(12e-3, where=slice(900, 1200))},
+        "they carry the rubber in place of the road",
+    ),
+    "a crop that keeps the plate": (
+        {
+            "road": with_plate(20e-3),
+            "case": CASE.replace("scales", 'crop = ["0 mm", "150 mm"]\nscales'),
+        },
+        "plates, supports or filled gaps",
+    ),
+    "a mark of missing heights": ({"road": with_sentinel()}, "does it mark missing heights?"),
+    "heights in another unit": (
+        {"road": road_text(titles="x [mm]\tz [um]")},
+        "is the unit of heights right?",
+    ),
+    "distances in another unit": (
+        {"road": road_text(titles="x [m]\tz [mm]")},
+        "is the unit of",
+    ),
+    "axes exchanged": (
+        {"road": "\n".join(["z [mm]\tx [mm]", *road_text().split("\n")[1:]])},
+        "expected",
+    ),
+    "a picture as a road": (
+        {"road": b"\x89PNG\r\n" + bytes(range(256)) * 9},
+        "expected a text file",
+    ),
+    "no temperature anywhere": (
+        {"case": CASE.replace('reference_temperature = "20 C"\n', "")},
+        "states the temperature of its moduli",
+    ),
+    "moduli exchanged": (
+        {
+            "dma": "f [Hz],E'' [MPa],E' [MPa],tan delta\n"
+            + "\n".join(
+                f"{f:.5g},{5 * f**0.1:.6g},{f**0.1:.6g},0.2" for f in np.geomspace(1, 1e6, 20)
+            )
+        },
+        "look exchanged",
+    ),
+    "a footprint in another unit": (
+        {"case": CASE.replace('"100 mm"', '"100 um"')},
+        "is its unit right?",
+    ),
+}
+
+
+def said(folder: Path, changes: dict[str, Any]) -> str:
+    """Return what stands first in the answer of a case, or why it is refused."""
+    try:
+        results = prepare_case(write(folder, **changes))
+    except (FileError, InputError) as error:
+        return str(error)
+    attrs = {name: "\n".join(getattr(results, name)()) for name in ("doubts", "load_notes")}
+    first = [
+        n.text for n in InputRecord(xr.Dataset(attrs=attrs)).warnings() if n.effect == math.inf
+    ]
+    return " | ".join(first)
+
+
+@pytest.mark.parametrize("trap", TRAPS)
+def test_no_trap_is_silent(tmp_path: Path, trap: str) -> None:
+    changes, words = TRAPS[trap]
+    assert words in said(tmp_path, changes)
+
+
+def test_the_case_without_a_trap_has_no_doubt(tmp_path: Path) -> None:
+    assert said(tmp_path, {}) == ""
+
+
+def test_an_answer_on_plates_is_none_to_rely_on() -> None:
+    names = ("best_friction", "best_contact_fraction")
+    values = dict.fromkeys(names, 0.5) | {f"{name}_half_width": 0.1 for name in names}
+    data = xr.Dataset({**values, "nominal_speed": 1.0})
+    assert no_answer(data) == ""
+    doubted = data.assign_attrs({INPUT_DOUBTS: "Plates lie in the profile."})
+    assert no_answer(doubted) == "none to rely on. Plates lie in the profile."
+
+
+def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:
+    crop = CASE.replace("scales", 'crop = ["50 mm", "150 mm"]\nspike_slope = 2\nscales')
+    file = write(tmp_path, case=crop)
+    (tmp_path / "other.txt").write_text(road_text(ROUGH.z[::-1]), encoding="utf-8")
+    for name, length in (("road.txt", 0.1), ("other.txt", 0.2)):
+        measured = surface_of(name, file).measured
+        assert measured is not None
+        assert measured.cleaned[0].length == pytest.approx(length, abs=1e-9)
+    assert surface_note("road.txt", file) == ""
+    assert surface_note("other.txt", file) == (
+        "other.txt: read with scales, smallest_wavelength, spike_slope of the case, but not crop, "
+        "which belongs to the road of the case"
+    )
+
+
+def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Path) -> None:
+    file = write(tmp_path)
+    (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
+    (tmp_path / "warm.txt").write_text(f"T = 40 °C\n{DMA}", encoding="utf-8")
+    assert "its moduli are taken to be those at 20 °C" in rubber_note("other.txt", file)
+    assert rubber_note("warm.txt", file) == ""

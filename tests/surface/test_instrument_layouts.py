@@ -1,0 +1,154 @@
+"""Surfaces in the layouts of instruments: read right, or refused with the option that cures it."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+import pytest
+
+import gripscale as gs
+from gripscale.core.errors import FileError, InputError
+
+STEP = 50e-6
+HEIGHTS = 1e-3 * np.sin(np.arange(200) / 7.0)
+"""Heights of a profile [m], printed in mm with four decimals: right to half of 1e-7."""
+MAP = np.round(1e4 * np.random.default_rng(2).standard_normal((24, 18)))
+"""Counts of a map, of 24 points along x."""
+
+
+def rows(separator: str, decimal: str = ".") -> list[str]:
+    return [
+        f"{1e3 * STEP * i:.2f}{separator}{1e3 * height:.4f}".replace(".", decimal)
+        for i, height in enumerate(HEIGHTS)
+    ]
+
+
+def captif(path: Path) -> None:
+    body = [f"{i}\t{row}" for i, row in enumerate(rows("\t"), start=1)]
+    head = ["Road Name\tX", "*****DATA*****", "Data Point No:\tDistance (mm)\tDepth (mm)"]
+    path.write_text("\r\n".join([*head, *body]), encoding="latin-1")
+
+
+def german(path: Path) -> None:
+    text = ["Messung vom 22.11.2024", "x [mm];z [mm]", *rows(";", ",")]
+    path.write_text("\n".join(text), encoding="cp1252")
+
+
+def wide_letters(path: Path) -> None:
+    path.write_bytes("\r\n".join(["x (mm)\tz (mm)", *rows("\t", ",")]).encode("utf-16"))
+
+
+def workbook(path: Path) -> None:
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.append(["Distance [mm]", "Height [um]"])
+    for i, height in enumerate(HEIGHTS):
+        sheet.append([1e3 * STEP * i, 1e6 * height])
+    book.save(path)
+
+
+@pytest.mark.parametrize(
+    ("write", "suffix"),
+    [(captif, ".dat"), (german, ".csv"), (wide_letters, ".txt"), (workbook, ".xlsx")],
+)
+def test_a_profile_of_an_instrument(tmp_path: Path, write, suffix: str) -> None:
+    path = tmp_path / f"road{suffix}"
+    write(path)
+    profile = gs.read_profile(path)
+    assert profile.step == pytest.approx(STEP)
+    np.testing.assert_allclose(profile.z, HEIGHTS, atol=0.5001e-7)
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("title", ["", "Height (mm)\n"])
+def test_one_column_of_heights_needs_its_step(tmp_path: Path, title: str, decimal: str) -> None:
+    path = tmp_path / "line.txt"
+    body = [f"{1e3 * height:.4f}".replace(".", decimal) for height in HEIGHTS]
+    body[3] = "nan"
+    path.write_text(title + "\n".join(body))
+    with pytest.raises(FileError, match="got one column of numbers: give step, the distance"):
+        gs.read_profile(path)
+    profile = gs.read_profile(path, step=STEP, z_unit=None if title else "mm")
+    assert profile.step == pytest.approx(STEP)
+    expected = np.where(np.arange(200) == 3, np.nan, HEIGHTS)
+    np.testing.assert_allclose(profile.z, expected, atol=0.5001e-7)
+
+
+def test_a_step_beside_distances_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "road.csv"
+    german(path)
+    with pytest.raises(InputError, match=r"step must be left out; .* more than one column"):
+        gs.read_profile(path, step=STEP)
+
+
+HEADER = """\
+aISO-1.0
+ManufacID   = HOUSE
+NumPoints   = 24
+NumProfiles = 18
+Xscale      = 1.5e-6
+Yscale      = 2.5e-6
+Zscale      = 1e-9
+Compression = 0
+DataType    = 6
+CheckType   = 0
+*
+"""
+
+
+@pytest.mark.parametrize("width", [1, 3, 24])
+@pytest.mark.parametrize("sign", ["=", ":", " "])
+def test_a_map_in_sdf_has_its_lengths_in_its_header(tmp_path: Path, width: int, sign: str) -> None:
+    """Profile by profile along x; lines of three counts look like points to other readers."""
+    counts = [f"{count:g}" for count in MAP.T.ravel()]
+    counts[30] = "BAD"  # point 6 of the second profile
+    body = [" ".join(counts[i : i + width]) for i in range(0, len(counts), width)]
+    path = tmp_path / "map.sdf"
+    path.write_text(HEADER.replace("=", sign) + "\n".join(body) + "\n*\n")
+    surface = gs.read_map(path)
+    assert surface.step == pytest.approx((1.5e-6, 2.5e-6))
+    expected = 1e-9 * MAP
+    expected[6, 1] = np.nan
+    np.testing.assert_allclose(surface.z, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("Xscale      = 1.5e-6\n", "", "the number Xscale in its header; got none"),
+        ("1.5e-6", "wide", "the number Xscale in its header; got 'wide'"),
+        ("2.5e-6", "0", "expected Yscale above zero"),
+        ("= 24", "= 25", "expected 25 x 18 heights by its header; got 432"),
+        ("= 18", "= 17.5", "expected a whole number as NumProfiles; got 17.5"),
+    ],
+)
+def test_a_faulty_sdf_is_refused_at_once(tmp_path: Path, old: str, new: str, words: str) -> None:
+    path = tmp_path / "map.sdf"
+    body = "\n".join(f"{count:g}" for count in np.tile(MAP.T.ravel(), 1))
+    path.write_text(HEADER.replace(old, new) + body)
+    start = time.perf_counter()
+    with pytest.raises(FileError, match=words):
+        gs.read_map(path)
+    assert time.perf_counter() - start < 1.0
+
+
+def test_an_array_says_which_index_is_x(tmp_path: Path) -> None:
+    path = tmp_path / "map.npy"
+    np.save(path, MAP)
+    with pytest.raises(FileError, match="an array of 24 x 18 heights whose first index runs along"):
+        gs.read_map(path, z_unit="nm")
+    surface = gs.read_map(path, step=(1.5e-6, 2.5e-6), z_unit="nm")
+    assert surface.length == pytest.approx((23 * 1.5e-6, 17 * 2.5e-6))
+    np.testing.assert_allclose(surface.z, 1e-9 * MAP)
+
+
+@pytest.mark.parametrize("name", ["road.png", "road.pdf", "road.dat"])
+def test_a_picture_is_no_road(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    start = b"%PDF-1.4" if name.endswith("pdf") else b"\x89PNG\r\n\x1a\n"
+    path.write_bytes(start + bytes(range(256)) * 20)
+    with pytest.raises(FileError, match=name.replace(".", r"\.")):
+        gs.read_profile(path)
