@@ -238,7 +238,7 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
     assert "direct: rough has" in page
     assert "Texture: ISO 13473-1" in text
     assert "MPD" in page
-    assert f"gripscale compare-surfaces {given[0]} {given[1]} --case case.toml" in page
+    assert f"gripscale compare-surfaces {given[0]} {given[1]}" in page
 
 
 def test_two_to_six_roads(folder: Path, tmp_path: Path) -> None:

@@ -105,7 +105,7 @@ def test_what_it_says_comes_next_works(shell: Shell, tmp_path: Path) -> None:
     assert report.exit_code == 0, report.output
     assert (folder / "results" / "report.html").stat().st_size > 1e6
     again = shell("run", case)
-    assert again.output.count("already solved") == 4
+    assert "nothing was solved again" in " ".join(again.output.split())
     assert "report.html" not in again.output
     case.write_text(case.read_text().replace("static = true ", "static = false"))
     other = shell("run", case)

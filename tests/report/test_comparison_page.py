@@ -41,7 +41,6 @@ def test_page_has_table_estimate_and_figures(
     assert all(cell for row in rows for cell in row)
     assert "finite strain (0.980, 1.02)" in page.text
     assert "isotropic surface over its lines (" in page.text
-    assert "gripscale compare case.toml" in page.text
 
 
 def test_failed_sample_is_loud(compared_folder: Path) -> None:

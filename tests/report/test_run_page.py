@@ -128,7 +128,6 @@ def test_static_and_dynamic_stand_side_by_side(page: Page) -> None:
 
 def test_case_text_is_given_word_for_word(page: Page) -> None:
     assert " ".join(CASE.split()) in page.text
-    assert "gripscale run case.toml" in page.text
 
 
 def test_pictures_and_figures_have_texts(page: Page) -> None:

@@ -27,8 +27,9 @@ from gripscale.cli.sensitivity import sensitivity
 from gripscale.core.provenance import COMMAND, version_of
 
 EPILOGUE = (
-    "To start: `gripscale new ROAD RUBBER` writes a case for your files, `gripscale init FOLDER` an "
-    "example; `gripscale keys` lists what a case may say, `gripscale docs` opens the documentation."
+    "To start: `gripscale new ROAD RUBBER` writes a case for your files, `gripscale init FOLDER` "
+    "an example; `gripscale keys` lists what a case may say, `gripscale docs` opens the "
+    "documentation."
 )
 
 

@@ -32,9 +32,9 @@ def docs(
     """Show a page of the documentation in the terminal, or list all pages."""
     from rich.markdown import Markdown
 
-    console, known = screen(), pages()
+    console, texts = screen(), pages()
     if page is None:
-        for name, path in known.items():
+        for name, path in texts.items():
             heading = path.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
             print_wrapped(console, f"{name:26}{heading}")
         console.print()
@@ -42,8 +42,8 @@ def docs(
         return
     name, _, heading = page.partition("#")
     name = name.removesuffix(".md")
-    checks.allowed_names("page", [name], list(known))
-    text = COMMENT.sub("", known[name].read_text(encoding="utf-8"))
+    checks.allowed_names("page", [name], list(texts))
+    text = COMMENT.sub("", texts[name].read_text(encoding="utf-8"))
     text = PICTURE.sub(r"*Figure: \1.*", text)
     if heading:
         text = _from_heading(text, heading)

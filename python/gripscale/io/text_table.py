@@ -313,6 +313,7 @@ def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextT
     titles: list[ColumnTitle] = []
     numbers: list[int] = []
     cells: list[list[str]] = []
+    above = ""
     for number, line in lines:
         cell = line.strip().strip('"').rstrip(";,").strip()
         if is_comment(line):
@@ -323,8 +324,9 @@ def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextT
         elif cells or is_row(line):
             return None
         else:
+            above = cell
             titles.append(_column_title(cell, kinds))
-    if not cells:
+    if not cells or "\t" in above:  # titles of several columns, of which only one has numbers
         return None
     title = next((title for title in reversed(titles) if _is_unit(title.unit, kinds)), None)
     decimal = _decimal_sign(path, cells, numbers)
