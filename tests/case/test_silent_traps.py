@@ -111,6 +111,38 @@ TRAPS: dict[str, tuple[dict[str, Any], str]] = {
         },
         "look exchanged",
     ),
+    "heights in another unit, too large": (
+        {"road": road_text(1e3 * ROUGH.z)},
+        "of the heights are spikes",
+    ),
+    "distances in another unit, too small": (
+        {"road": road_text(titles="x [um]\tz [mm]")},
+        "is the unit of heights or of distances right?",
+    ),
+    "a pressure without its unit": (
+        {"case": CASE.replace('"3 bar"', "3")},
+        "is its unit right?",
+    ),
+    "a pressure in another unit": (
+        {"case": CASE.replace('"3 bar"', '"3 GPa"')},
+        "Pressure = 3",
+    ),
+    "a speed in another unit": (
+        {"case": CASE.replace('"0.3 m/s"', "300")},
+        "Speed = 300 m/s",
+    ),
+    "a footprint without its unit": (
+        {"case": CASE.replace('"100 mm"', "100")},
+        "Footprint = ",
+    ),
+    "a rubber in place of a road": (
+        {"road": DMA},
+        "expected",
+    ),
+    "a road in place of a rubber": (
+        {"dma": road_text()},
+        "expected",
+    ),
     "a footprint in another unit": (
         {"case": CASE.replace('"100 mm"', '"100 um"')},
         "is its unit right?",

@@ -127,9 +127,7 @@ def test_a_melt_is_told_before_any_solve():
         lambda: gs.solve_profile(rubber, line, **at_rest),
         lambda: gs.solve_rough_contact(rubber, line, **at_rest),
     ):
-        with pytest.raises(
-            InputError, match=r"a melt at rest, flat: .* leave out the static contact"
-        ):
+        with pytest.raises(InputError, match=r"a melt at rest, .* leave out the static contact"):
             solve()
     with pytest.raises(InputError, match=r"the relaxation modulus after 100 s .* at least 1/10"):
         gs.predict(rubber, SINES, speed=1e-3, **load)
@@ -155,7 +153,7 @@ def test_a_case_with_a_melt_ends_before_it_writes(tmp_path: Path):
         '[load]\npressure = "3 bar"\nspeed = "0.3 m/s"\nfootprint = "100 mm"\n'
         "static = true\n"
     )
-    with pytest.raises(InputError, match=r"a melt at rest, flat: .* leave out the static contact"):
+    with pytest.raises(InputError, match=r"a melt at rest, .* leave out the static contact"):
         run_case(tmp_path / "case.toml", output=tmp_path / "results")
     assert not (tmp_path / "results").exists()
 

@@ -74,7 +74,10 @@ def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> surfaces.
     paths = [resolve(name) for name in surface.measured_files]
     measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
     counted = _options(surface, surfaces.height_difference)
-    correlation = surfaces.height_difference(measured.cleaned, **counted)
+    try:
+        correlation = surfaces.height_difference(measured.cleaned, **counted)
+    except InputError as error:  # a wrong unit may leave no heights
+        raise InputError("; ".join([*measured.doubts, str(error)])) from error
     try:
         measured = replace(measured, self_affine=surfaces.fit_self_affine(correlation))
     except GripscaleError as error:  # the sine waves do not need a self-affine surface

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 DYNAMIC, STATIC = "dynamic", "static"
 
 
+PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
+"""Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit."""
+
+
 @dataclass
 class CaseResults:
     """Everything a case gave: its inputs as prepared, and predictions as far as they were got."""
@@ -103,8 +107,16 @@ class CaseResults:
         ]
 
     def doubts(self) -> list[str]:
-        """Return why the answer may be that of another road or rubber, a sentence each."""
-        texts = [f"{text}." for text in self.surface.doubts]
+        """Return why the answer may be that of another road, rubber or load, a sentence each."""
+        texts = [text if text.endswith("?") else f"{text}." for text in self.surface.doubts]
+        for name, (least, most) in PLAUSIBLE.items():
+            value = float(getattr(self.load, name))
+            if value != 0.0 and not least <= value <= most:
+                unit = self.display_unit(name)
+                texts.append(
+                    f"{name.capitalize()} = {unit.text(value, 3)} is not between "
+                    f"{unit.text(least, 3)} and {unit.text(most, 3)}: is its unit right?"
+                )
         if self.rubber.rubber.reference_temperature is None:
             texts.append(
                 "Neither the file of the rubber nor the case states the temperature of its moduli: "
