@@ -98,6 +98,7 @@ settings! {
     roughening_patience: usize = 4 in 1..=1000, "Newton iterations without a smaller residual after which waves are added in smaller parts.";
     roughening_iterations: usize = 20 in 1..=1000, "Newton iterations after which waves are added in smaller parts.";
     roughening_share: f64 = 0.03 in 1e-12..=0.9, "Largest share of the residual forces to which the linearised problem is solved while waves are added [-].";
+    roughening_step: f64 = 1.0 in 1e-6..=100.0, "Largest change of the displacement gradient in one Newton iteration while waves are added [-].";
     smallest_roughening: f64 = 0.01 in 1e-6..=1.0, "Smallest part of the heights of new waves that is added at once [-].";
 
     coarsest_nodes: usize = 32 in 8..=2048, "Fewest nodes along the wave on the coarsest mesh of a sequence.";

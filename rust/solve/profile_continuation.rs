@@ -152,6 +152,7 @@ impl ProfileContinuation<'_> {
             patience: self.settings.roughening_patience,
             max_iterations: self.settings.roughening_iterations,
             krylov_share: self.settings.roughening_share,
+            largest_step: self.settings.roughening_step,
             ..*self.settings
         };
         let rougher = self.model.heights.smoothed(target.waves);

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 import gripscale as gs
+from gripscale.half_space import one_period
 from tests.samples import EXAMPLES
 from tests.verification.families import tread
 
@@ -30,19 +31,20 @@ class ProfileCase:
 
     def solve(self, **mesh: int) -> gs.ScaleResult:
         """Return the answer of the finite-strain block."""
-        return gs.solve_profile(tread(), self.profile, **self._options(), **mesh)
+        return gs.solve_profile(tread(), self.line, **self._options, **mesh)
 
     def half_plane(self) -> gs.RoughContact:
         """Return the answer at small strain."""
-        return gs.solve_rough_contact(tread(), self.profile, **self._options(), workers=1)
+        return gs.solve_rough_contact(tread(), self.line, **self._options, workers=1)
 
-    def _options(self) -> dict[str, float | bool | None]:
-        return {
-            "pressure": self.pressure,
-            "speed": self.speed,
-            "periodic": self.periodic,
-            "smallest_wavelength": self.smallest_wavelength,
-        }
+    @property
+    def line(self) -> gs.Profile:
+        """The periodic line of both models."""
+        return self.profile if self.periodic else one_period(self.profile, self.smallest_wavelength)
+
+    @property
+    def _options(self) -> dict[str, float]:
+        return {"pressure": self.pressure, "speed": self.speed, "periodic": True}
 
 
 @cache

@@ -22,9 +22,10 @@ from gripscale.core.arrays import Array
 from gripscale.core.parallel import Stopped, in_threads, worker_count
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.half_space.windows import one_period, windows
+from gripscale.half_space.windows import windows
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile
+from gripscale.surface.period import one_period
 from gripscale.wave.problem import SampledProfile
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import WaveResult

@@ -17,11 +17,12 @@ import scipy.fft
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import DEFAULT_STEPS, joined, periodic_heights, surface_axes
+from gripscale.half_space.grid import joined, surface_axes
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
+from gripscale.surface.period import one_period as one_period
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import filled
 
@@ -144,23 +145,6 @@ def solve_windows(
     return WindowContacts(
         [solve_rough_contact(rubber, window, **load) for window in windows(surface, length)]
     )
-
-
-def one_period(line: Profile, smallest_wavelength: float | None = None) -> Profile:
-    """Return the periodic line of `solve_rough_contact`, for any model with `periodic=True`.
-
-    Missing heights are filled, ends joined, and waves shorter than `smallest_wavelength` [m], by
-    default four steps, left out. The smallest wave has four points.
-
-    Raises `InputError` as `solve_rough_contact` does for its surface.
-    """
-    checks.instance("line", line, Profile)
-    heights = periodic_heights(line, smallest_wavelength=smallest_wavelength, periodic=False)
-    period = heights.grid.lengths[0]
-    waves = int(period / heights.smallest_wavelength * (1.0 + 1e-9))
-    points = max(FEWEST_POINTS, DEFAULT_STEPS * waves)
-    x = heights.origin[0] + np.linspace(0.0, period, points, endpoint=False)
-    return Profile(x, heights.on((points,)), line.name, source=line.source)
 
 
 def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:

@@ -1,6 +1,6 @@
 """The finite-strain block on one period of a measured profile: all its waves in one solution.
 
-The profile is made periodic, cut off below the smallest wavelength, and pressed into one block: no
+The profile is made `gripscale.surface.period.one_period` and pressed into one block: no
 separation of scales, no random phases, and no small strain.
 """
 
@@ -9,8 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from gripscale.core import checks
@@ -18,14 +16,12 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import Profile
+from gripscale.surface.period import one_period, without_short_waves
 from gripscale.surface.resampling import filled
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem
 from gripscale.wave.result import WaveResult
-
-if TYPE_CHECKING:
-    pass
 
 COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
@@ -63,7 +59,8 @@ def solve_profile(
     """Press a rubber block on one period of a profile, slide it, and find contact and friction.
 
     As `gripscale.solve_scale`, on sampled heights in place of one sine. Missing heights are
-    interpolated linearly.
+    interpolated linearly, and a profile that is not periodic is made so by
+    `gripscale.half_space.one_period`, with flanks no steeper than 4.
 
     Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
     columns, or the rubber at rest is a melt: the pressure is more than ten times the equilibrium
@@ -78,11 +75,11 @@ def solve_profile(
     pressure, speed, load_time, element_order, tolerance, time_limit, workers, max_iterations
         As in `gripscale.solve_scale`.
     smallest_wavelength : float, optional
-        Shorter waves are left out [m]; by default none.
+        Shorter waves are left out [m]; by default none of a periodic profile, else those shorter
+        than four steps.
     periodic : bool
         Whether the profile is one period as it stands, its last point one step before the first of
-        the next period. Otherwise the line through its end points, which then coincide, is
-        subtracted.
+        the next period.
     depth : float
         Height of the block in periods.
     columns, rows : int, optional
@@ -108,7 +105,7 @@ def solve_profile(
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
     checks.flag("periodic", periodic)
-    heights = _one_period(profile, smallest_wavelength, periodic)
+    heights = _heights(profile, smallest_wavelength, periodic)
     if columns is None:
         if FEWEST_PER_WAVE * heights.waves > COLUMNS[-1]:
             least = FEWEST_PER_WAVE * heights.wavelength / COLUMNS[-1]
@@ -150,23 +147,12 @@ def solve_profile(
     return replace(result, details={**result.details, **further})
 
 
-def _one_period(profile: Profile, smallest: float | None, periodic: bool) -> SampledProfile:
-    """Return the heights without gaps and tilt, and without waves below the smallest."""
-    period = len(profile) * profile.step if periodic else profile.length
-    z = filled(profile.z, periodic=periodic)
-    if not periodic:
-        z = (z - np.linspace(z[0], z[-1], z.size))[:-1]
+def _heights(profile: Profile, smallest: float | None, periodic: bool) -> SampledProfile:
+    """Return the heights of one period without waves below the smallest."""
+    line = profile if periodic else one_period(profile, smallest)
+    period, z = len(line) * line.step, filled(line.z, periodic=True)
     if smallest is not None:
-        cut = checks.positive("smallest_wavelength", smallest, unit="m")
-        # round-off must not drop a wave that is exactly the smallest
-        waves = math.floor(min(period / cut * (1.0 + 1e-9), z.size))
-        if waves < 1:
-            raise InputError(
-                f"smallest_wavelength must be at most the period {period:g} m; got {cut:g} m"
-            )
-        spectrum = np.fft.rfft(z)[: waves + 1]
-        count = max(4 * (spectrum.size - 1), 16)
-        z = np.asarray(np.fft.irfft(spectrum, count) * (count / z.size))
+        z = without_short_waves(Profile(line.x, z), smallest).z
     after, before = np.ptp(z), float(np.nanmax(profile.z) - np.nanmin(profile.z))
     if after <= ROUND_OFF * before:
         raise InputError(
