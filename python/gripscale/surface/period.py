@@ -45,6 +45,7 @@ def one_period(
     step, period = line.step, len(line) * line.step
     z = filled(line.z)
     z = z - np.linspace(0.0, z[-1] - z[0], z.size, endpoint=False)
+    z -= z.mean()
     if smallest_wavelength is None:
         smallest = min(RESOLVED_STEPS * step, period)
     else:
@@ -54,7 +55,7 @@ def one_period(
             f"smallest_wavelength must be at least two steps of the line, {2.0 * step:.4g} m; "
             f"got {smallest:.4g} m"
         )
-    envelope = z if math.isinf(slope) else _envelope(z - z.mean(), slope * step)
+    envelope = z if math.isinf(slope) else _envelope(z, slope * step)
     whole = Profile(line.x, envelope, line.name, line.source)
     return without_short_waves(whole, smallest)
 
