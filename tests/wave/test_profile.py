@@ -131,7 +131,7 @@ def test_gaps_tilt_and_short_waves_are_taken_out():
     """A tilted cosine of 4 waves with a short ripple and a hole where it is straight."""
     x = np.linspace(0.0, 4e-3, 4 * 96, endpoint=False)
     z = 1e-4 * np.cos(2.0 * np.pi * x / 1e-3)
-    dirty = z + 0.005 * x + 2e-6 * np.sin(2.0 * np.pi * x / 1e-4)
+    dirty = z + 0.005 * x + 2e-6 * np.cos(2.0 * np.pi * x / 1e-4)
     dirty[[23, 25]] = np.nan
     load = {"pressure": 1e6, "speed": 1.0, "columns": 128, "rows": 10}
     clean = gs.solve_profile(RUBBER, gs.Profile(x, z), periodic=True, **load)
@@ -139,8 +139,9 @@ def test_gaps_tilt_and_short_waves_are_taken_out():
     assert taken.wavelength == pytest.approx(4e-3)
     assert taken.details["missing_share"] == pytest.approx(2 / 384)
     assert taken.details["smallest_wavelength"] == pytest.approx(1e-3)
-    # The bridged holes are 1e-6 m wrong at most on 1 % of the points, and a step of tilt is left.
-    assert taken.amplitude == pytest.approx(clean.amplitude, rel=2e-3)
+    # The bridged holes are 1e-6 m wrong at most on 1 % of the points; the ripple moves the line
+    # through the end points by 4e-7 m from one end to the other.
+    assert taken.amplitude == pytest.approx(clean.amplitude, rel=3e-3)
     assert taken.contact_fraction == pytest.approx(clean.contact_fraction, abs=2e-3)
     assert len(taken.details["contact_edges"]) == 4
 
@@ -170,9 +171,7 @@ def test_bad_input_is_named(change, sentence):
 
 def test_a_wave_beyond_the_finest_mesh_is_refused():
     noisy = gs.Profile(1e-5 * np.arange(2000), 1e-6 * np.random.default_rng(0).normal(size=2000))
-    sentence = (
-        r"must be at least 2\.93e-05 m, 6 of 4096 columns; got waves down to 2e-05 m"
-    )
+    sentence = r"must be at least 2\.93e-05 m, 6 of 4096 columns; got waves down to 2e-05 m"
     with pytest.raises(gs.InputError, match=sentence):
         gs.solve_profile(RUBBER, noisy, pressure=3e5, speed=0.3, periodic=True)
 
