@@ -179,6 +179,10 @@ class DirectContact(Checked, model.Model):
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 
 
+QUICK = {"smallest_roughening": 0.1, "roughening_iterations": 12, "rescue_columns": 256}
+"""Settings that give up a window after seconds: to follow the steepest contacts takes minutes."""
+
+
 class BlockOnProfile(Checked, model.Model):
     """Model of measured profiles: each cleaned profile in one block, averaged by length.
 
@@ -214,6 +218,7 @@ class BlockOnProfile(Checked, model.Model):
                 smallest_wavelength=self.smallest_wavelength,
                 periodic=self.periodic,
                 tolerance=self.tolerance,
+                settings=QUICK,
             )
             results.append(result)
             if on_progress is not None:
