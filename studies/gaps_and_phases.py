@@ -98,7 +98,10 @@ def _rows(rubber: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> Non
         area = np.mean([one.contact_fraction for one in found])
         friction = np.mean([one.friction for one in found])
         slope = np.mean(
-            [_slope(one_period(one) if way == AS_MEASURED else one, cut_off) for one in lines]
+            [
+                _slope(one_period(one, steepest=np.inf) if way == AS_MEASURED else one, cut_off)
+                for one in lines
+            ]
         )
         held = np.mean([one.missing_share for one in found])
         print(
