@@ -107,6 +107,10 @@ def at_one_temperature(
     return together, (*shifted, *temperature_doubts(together))
 
 
+TEMPERATURE = "temperature_K"
+"""Attribute of a comparison of compounds: the temperature that all of them hold for [K]."""
+
+
 def _celsius(kelvin: float) -> str:
     return f"{kelvin - ZERO_CELSIUS:.1f} °C"
 
@@ -293,6 +297,9 @@ def compare_compounds(
         data = data.assign(_ranges(study, data, bench))
     data = data.assign(_believed(data if best is None else with_best_estimate(best), data))
     data = data.assign(_differences(data)).assign_attrs(notes="\n".join(notes))
+    kelvins = [rubber.reference_temperature for rubber in together.values()]
+    if kelvins[0] is not None and len({*kelvins}) == 1:
+        data = data.assign_attrs({TEMPERATURE: kelvins[0]})
     return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
 
 

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.rubber_comparison import TEMPERATURE
 from gripscale.charts.style import power_of_ten
 from gripscale.charts.view import CONVERGED, SYMBOLS
-from gripscale.core.units import MILLI
+from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.axis import EFFECTS, MODELS
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
@@ -134,6 +135,13 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
     yield f"Answer: {head}{level}."
     if INPUT_DOUBTS in data.attrs:
         yield f"  not to be relied on: {data.attrs[INPUT_DOUBTS]}"
+    if TEMPERATURE in data.attrs:
+        pressure, speed = (
+            display_unit_of(data.attrs, name).text(float(data.attrs[f"nominal_{name}"]))
+            for name in ("pressure", "speed")
+        )
+        celsius = data.attrs[TEMPERATURE] - ZERO_CELSIUS
+        yield f"  for {pressure} and {speed}, all at {celsius:.4g} °C"
     yield f"  by the {_judge(data)}"
 
 
