@@ -90,8 +90,8 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
 def _total_panel(views: Views, name: str) -> Panel:
     """Return the panel of the contact fraction or the friction, of and down to each wave."""
     if name == "contact_fraction":
-        words, sum_of, title = "real contact area $A_r/A_0$", "A_r/A_0", "contact-area"
-        axis = Axis(f"{words} [-]", log=True, high=1.15)
+        words, sum_of, title = "real contact area", "A_r/A_0", "contact-area"
+        axis = Axis(f"{words} $A_r/A_0$ [-]", log=True, high=1.15)
     else:
         words, sum_of, title = HEADINGS[name], "sum", name
         least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
