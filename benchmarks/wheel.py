@@ -31,6 +31,7 @@ MORE = (
     ("init", "made_up", "--example", "synthetic"),
     ("run", "made_up/case.toml"),
     ("keys", "load"),
+    ("docs", "limits"),
 )
 SOURCE_NEEDED = ("reproduce",)
 """What a wheel cannot do, and says so."""

@@ -15,6 +15,7 @@ POINTER = re.compile(r"docs/([\w-]+)\.md(?:#([\w-]+))?")
 
 
 def test_all_pages_are_listed_by_name_and_title(shell: Shell) -> None:
+    """The package holds links to them, so that a wheel has the files."""
     listed = shell("docs")
     assert listed.exit_code == 0
     for path in DOCS.glob("*.md"):
