@@ -77,6 +77,7 @@ def test_the_commands_of_a_page_run(
     for name in ("dma.txt", "new_compound.txt", "competitor.txt"):
         shutil.copy(EXAMPLES / "data" / "rubber" / "measured_dma.txt", name)
     ran("gripscale run case.toml")
+    ran("gripscale study case.toml --vary speed=0.1,1")
     ran('gripscale fit-rubber sweeps.csv --reference-temperature "20 C" --output .')  # rubber.json
     for words in wanted:
         ran(words)
