@@ -232,18 +232,23 @@ def sensitivity(shipped: Shipped) -> Figure:
     return sensitivity_figure(shipped.sensitivity)
 
 
+def answers(shipped: Shipped) -> dict[str, xr.Dataset]:
+    """Return what the models answer for the shipped road."""
+    case, rubber = shipped.case, shipped.rubber
+    small = replace(case.chain, solver=HalfPlane())
+    return {
+        "chain, finite strain": shipped.chain,
+        "chain, small strain": small.predict(rubber, case.surface, case.load),
+        "Persson": Persson().predict(rubber, case.surface, case.load),
+        "direct contact": shipped.direct,
+    }
+
+
 def models(shipped: Shipped) -> Figure:
     """Draw what the models answer for one road, friction over contact area."""
-    case, direct = shipped.case, shipped.direct
-    small = replace(case.chain, solver=HalfPlane())
-    answers = {
-        "chain, finite strain": shipped.chain,
-        "chain, small strain": small.predict(shipped.rubber, case.surface, case.load),
-        "Persson": Persson().predict(shipped.rubber, case.surface, case.load),
-        "direct contact": direct,
-    }
+    direct = shipped.direct
     marks: list[Mark] = []
-    looks = zip(answers.items(), (BLUE, SKY, GREY, ORANGE), "osD^", strict=True)
+    looks = zip(answers(shipped).items(), (BLUE, SKY, GREY, ORANGE), "osD^", strict=True)
     for (label, data), colour, marker in looks:
         at = [float(data.total_contact_fraction)], [float(data.total_friction)]
         marks.append(Series(*at, colour, label, "", marker=marker, size=7.0))
