@@ -24,7 +24,7 @@ import gripscale as gs
 from gripscale.analysis import case_sensitivity
 from gripscale.analysis.comparison import reference
 from gripscale.case import prepare_case
-from gripscale.charts import block_figure, draw
+from gripscale.charts import blocks_figure, draw
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.direct_contact import named_traces
 from gripscale.charts.paper import write_png
@@ -42,6 +42,8 @@ Array = NDArray[np.float64]
 FIGURES = ROOT / "docs" / "figures"
 WAVE = 1
 """The second of the waves, whose contact is neither narrow nor nearly closed."""
+PRESSURES = (0.3e6, 2e6, 6e6)
+"""On the block [Pa]."""
 SPEEDS = np.geomspace(1e-6, 1e2, 25)
 """Of a wave [m/s]: from relaxed rubber to the end of what was measured."""
 STACKED = (1, 2, 4, 8)
@@ -78,21 +80,23 @@ class Shipped:
         with tempfile.TemporaryDirectory() as folder:
             return case_sensitivity(CASE, folder=folder).load()
 
-    def wave(self, speed: float) -> gs.ScaleResult:
-        """Solve the wave of the pictures under the pressure that the chain hands to it."""
+    def wave(self, speed: float, pressure: float | None = None) -> gs.ScaleResult:
+        """Solve the wave of the pictures under a pressure [Pa], that of the chain by default."""
         assert self.sines is not None
         return gs.solve_scale(
             self.rubber,
             wavelength=float(self.sines.wavelength[WAVE]),
             amplitude=float(self.sines.amplitude[WAVE]),
-            pressure=float(self.chain.pressure_received[WAVE]),
+            pressure=pressure or float(self.chain.pressure_received[WAVE]),
             speed=speed,
         )
 
 
 def block(shipped: Shipped) -> Figure:
-    """Draw the deformed block of one wave, and its contact pressure."""
-    return block_figure(shipped.chain, WAVE + 1)
+    """Draw the deformed block of one wave under three pressures, and its contact pressure."""
+    speed = shipped.case.load.speed
+    results = [shipped.wave(speed, pressure) for pressure in PRESSURES]
+    return blocks_figure(waves_to_dataset(results))
 
 
 def wave(shipped: Shipped) -> Figure:
