@@ -1,0 +1,318 @@
+"""The pictures of the pages that explain the model, drawn from the shipped road and tread rubber.
+
+    python -m studies.book_figures [FOLDER]
+
+writes docs/figures/book_*.png; half a minute of one core. Each picture comes from results of the
+shipped case: waves and chain at finite strain, the direct contact, and its derivatives.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+import gripscale as gs
+from gripscale.analysis import case_sensitivity
+from gripscale.analysis.comparison import reference
+from gripscale.case import prepare_case
+from gripscale.charts import blocks_figure, draw
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.direct_contact import named_traces
+from gripscale.charts.paper import write_png
+from gripscale.charts.sensitivity import sensitivity_figure
+from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
+from gripscale.charts.view import PredictionView
+from gripscale.core.units import MEGA, MILLI
+from gripscale.theory import Persson
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.wave.result import waves_to_dataset
+from studies.shipped_numbers import CASE, ROOT
+
+Array = NDArray[np.float64]
+
+FIGURES = ROOT / "docs" / "figures"
+WAVE = 1
+"""The second of the waves, whose contact is neither narrow nor nearly closed."""
+PRESSURES = (0.3e6, 2e6, 6e6)
+"""On the block [Pa]."""
+SPEEDS = np.geomspace(1e-6, 1e2, 25)
+"""Of a wave [m/s]: from relaxed rubber to the end of what was measured."""
+STACKED = (1, 2, 4, 8)
+"""Numbers of waves whose sum is drawn."""
+PIECES = ((120.0, 1780.0), (640.0, 760.0), (668.0, 676.0))
+"""Of the road [mm], each a close-up of the one before."""
+STRETCH = 60.0
+"""Length of the road under the draped rubber [mm]."""
+
+
+class Shipped:
+    """The shipped case and its answers, each solved once."""
+
+    def __init__(self) -> None:
+        self.case = prepare_case(CASE)
+        self.rubber, self.sines = self.case.rubber.rubber, self.case.surface.sines
+        assert self.sines is not None
+
+    @cached_property
+    def chain(self) -> xr.Dataset:
+        """The prediction of the chain."""
+        return self.case.chain.predict(self.rubber, self.case.surface, self.case.load)
+
+    @cached_property
+    def direct(self) -> xr.Dataset:
+        """The direct contact of the profiles, with the answer of `gripscale run`."""
+        data = reference(self.case)
+        assert data is not None
+        return data
+
+    @cached_property
+    def sensitivity(self) -> xr.Dataset:
+        """The derivatives of the friction, and the errors that the inputs carry to it."""
+        with tempfile.TemporaryDirectory() as folder:
+            return case_sensitivity(CASE, folder=folder).load()
+
+    def wave(self, speed: float, pressure: float | None = None) -> gs.ScaleResult:
+        """Solve the wave of the pictures under a pressure [Pa], that of the chain by default."""
+        assert self.sines is not None
+        return gs.solve_scale(
+            self.rubber,
+            wavelength=float(self.sines.wavelength[WAVE]),
+            amplitude=float(self.sines.amplitude[WAVE]),
+            pressure=pressure or float(self.chain.pressure_received[WAVE]),
+            speed=speed,
+        )
+
+
+def block(shipped: Shipped) -> Figure:
+    """Draw the deformed block of one wave under three pressures, and its contact pressure."""
+    speed = shipped.case.load.speed
+    results = [shipped.wave(speed, pressure) for pressure in PRESSURES]
+    return blocks_figure(waves_to_dataset(results))
+
+
+def wave(shipped: Shipped) -> Figure:
+    """Draw the pressure of one wave at rest and sliding, and its friction over the speed."""
+    looks = {0.0: (GREY, "at rest"), 10.0: (ORANGE, "sliding, 10 m/s")}
+    pressure: list[Mark] = []
+    view = PredictionView(waves_to_dataset([shipped.wave(speed) for speed in looks]))
+    for number, (colour, label) in enumerate(looks.values()):
+        x, pascal = view.pressure_along(number)
+        p = pascal / MEGA
+        pressure += [Band(x, np.zeros(x.size), p, colour, alpha=0.15), Series(x, p, colour, label)]
+    results = [shipped.wave(speed) for speed in SPEEDS]
+    frequency = 2.0 * np.pi * SPEEDS / results[0].wavelength
+    modulus = shipped.rubber.complex_modulus(frequency)
+    solved = [result.converged for result in results]
+    friction = np.where(solved, [result.friction for result in results], np.nan)
+    panels = [
+        Panel(
+            Axis("place along the wave $x/\\lambda$ [-]", low=-0.5, high=0.5),
+            Axis("contact pressure [MPa]", low=0.0),
+            [
+                *pressure,
+                CrossLine(0.0, GREY, "", "dotted", upright=True),
+                Note(0.03, 0.95, "rubber slides $\\rightarrow$", frame="xy", top=True),
+            ],
+        ),
+        Panel(
+            Axis("sliding speed [m/s]", log=True, numbers=6),
+            Axis("friction $\\mu$, loss factor [-]", low=0.0),
+            [
+                Series(SPEEDS, friction, BLUE, "friction of the wave", marker="o", size=3.0),
+                Series(SPEEDS, modulus.imag / modulus.real, GREEN, "loss factor", "dashed"),
+            ],
+        ),
+    ]
+    return draw.on_paper(Sheet(panels, height=2.9, legend_columns=4))
+
+
+def stack(shipped: Shipped) -> Figure:
+    """Draw sums of the first waves, and contact area and friction as waves are added."""
+    sines, data = shipped.sines, shipped.chain
+    assert sines is not None
+    x = np.linspace(0.0, 1.5 * float(sines.wavelength[0]), 6000)
+    waves = sines.amplitude[:, None] * np.cos(2.0 * np.pi * x / sines.wavelength[:, None])
+    drop = 4.0 * float(sines.amplitude[0]) / MILLI
+    sums = [
+        Series(x / MILLI, waves[:count].sum(0) / MILLI - row * drop, colour, width=0.8)
+        for row, (count, colour) in enumerate(zip(STACKED, shades(len(STACKED)), strict=True))
+    ]
+    names = [
+        Note(0.98, (0.3 - row) * drop, f"{count} wave{'s' * (count > 1)}", frame="x", align="right")
+        for row, count in enumerate(STACKED)
+    ]
+    number = 1.0 + np.arange(data.sizes["scale"])
+    counted = Axis("waves taken in [-]", ticks={float(i): f"{i:.0f}" for i in number})
+    panels = [
+        Panel(Axis("distance $x$ [mm]"), Axis("height", ticks={}, grid=False), [*sums, *names]),
+        Panel(
+            counted,
+            Axis("share that touches, friction [-]", log=True),
+            [
+                Series(number, data.running_contact_fraction, BLUE, "share that touches",
+                       marker="o"),
+                Series(number, data.running_friction, ORANGE, "friction", marker="s"),
+            ],
+        ),
+    ]  # fmt: skip
+    return draw.on_paper(Sheet(panels, height=3.2))
+
+
+def road(shipped: Shipped) -> Figure:
+    """Draw the measured road in close-ups."""
+    measured = shipped.case.surface.measured
+    assert measured is not None
+    profile = measured.surfaces[0]
+    x, z = profile.x / MILLI, profile.z / MILLI
+    panels = []
+    for number, (start, end) in enumerate(PIECES):
+        inside = (x >= start) & (x <= end)
+        marks: list[Mark] = [Series(x[inside], z[inside], INK, width=0.7)]
+        if number + 1 < len(PIECES):
+            low, high = PIECES[number + 1]
+            marks.append(CrossLine(low, SKY, upright=True, to=high))
+        heights = Axis("height $z$ [mm]")
+        panels.append(Panel(Axis("distance $x$ [mm]", low=start, high=end), heights, marks))
+    return draw.on_paper(Sheet(panels, 1, height=5.0))
+
+
+def draped(shipped: Shipped) -> Figure:
+    """Draw the rubber of the direct contact on the road, from afar and close up."""
+    _, trace = named_traces(shipped.direct)[0]
+    start, end = (float(trace[f"stretch_{name}"]) / MILLI for name in ("start", "end"))
+    afar = start - 0.35 * STRETCH
+    far = _draped_panel(trace, (afar, afar + STRETCH), room=0.0)
+    far = far.with_marks([CrossLine(start, SKY, upright=True, to=end)])
+    close = _draped_panel(trace, (start, end), room=0.35)
+    return draw.on_paper(
+        Sheet([replace(far, x=replace(far.x, label="")), close], 1, height=5.4, legend_columns=4)
+    )
+
+
+def _draped_panel(trace: xr.Dataset, ends: tuple[float, float], room: float) -> Panel:
+    """Return rubber on the road between two places [mm].
+
+    The largest pressure takes the share `room` of the heights.
+    """
+    x = trace.x.values / MILLI
+    inside = (x >= ends[0]) & (x <= ends[1])
+    x = x[inside]
+    surface, rubber, pressure = (
+        trace[name].values[inside] / unit
+        for name, unit in (("height_low", MILLI), ("rubber_low", MILLI), ("pressure_high", MEGA))
+    )
+    low = float(surface.min())
+    span = float(rubber.max()) - low
+    top = low + (1.15 + room) * span
+    touching = np.where(pressure > 0.0, rubber, np.nan)
+    marks: list[Mark] = [
+        Band(x, np.full(x.size, low), surface, FAINT, "road", alpha=1.0),
+        Band(x, rubber, np.full(x.size, top), SKY, "rubber", alpha=0.3),
+    ]
+    if room:
+        height = rubber + room * span * pressure / pressure.max()
+        marks.append(Band(x, rubber, height, ORANGE, "pressure", alpha=0.5))
+    marks += [
+        Series(x, surface, INK, width=0.6),
+        Series(x, rubber, BLUE, width=0.9),
+        Series(x, touching, ORANGE, "contact", width=2.4),
+        Note(0.02, 0.93, "rubber slides $\\rightarrow$", frame="xy", top=True, boxed=True),
+    ]
+    along = Axis("distance $x$ [mm]", low=ends[0], high=ends[1])
+    return Panel(along, Axis("height $z$ [mm]", low=low, high=top), marks)
+
+
+def sensitivity(shipped: Shipped) -> Figure:
+    """Draw the master curve, and below it what each decade of it is worth."""
+    return sensitivity_figure(shipped.sensitivity)
+
+
+def answers(shipped: Shipped) -> dict[str, xr.Dataset]:
+    """Return what the models answer for the shipped road."""
+    case, rubber = shipped.case, shipped.rubber
+    small = replace(case.chain, solver=HalfPlane())
+    return {
+        "chain, finite strain": shipped.chain,
+        "chain, small strain": small.predict(rubber, case.surface, case.load),
+        "Persson": Persson().predict(rubber, case.surface, case.load),
+        "direct contact": shipped.direct,
+    }
+
+
+def models(shipped: Shipped) -> Figure:
+    """Draw what the models answer for one road, friction over contact area."""
+    direct = shipped.direct
+    marks: list[Mark] = []
+    looks = zip(answers(shipped).items(), (BLUE, SKY, GREY, ORANGE), "osD^", strict=True)
+    for (label, data), colour, marker in looks:
+        at = [float(data.total_contact_fraction)], [float(data.total_friction)]
+        marks.append(Series(*at, colour, label, "", marker=marker, size=7.0))
+    area, friction = float(direct.best_contact_fraction), float(direct.best_friction)
+    widths = (
+        np.arcsinh(float(direct[f"best_{name}_half_width"]))
+        for name in ("contact_fraction", "friction")
+    )
+    (left, right), (low, high) = (
+        (best * np.exp(-width), best * np.exp(width))
+        for best, width in zip((area, friction), widths, strict=True)
+    )
+    interval = Bars(left, right, low, high, ORANGE, "answer, 90 %", alpha=0.2)
+    star = Series([area], [friction], INK, "answer of gripscale run", "", marker="*", size=10.0)
+    panel = Panel(
+        Axis("real contact area $A_r/A_0$ [-]", True, 0.005, 0.1),
+        Axis("friction $\\mu$ [-]", True, 0.1, 1.0),
+        [interval, *marks, star],
+    )
+    return draw.on_paper(Sheet([panel], 1, 6.4, 3.4, legend="beside"))
+
+
+def errors(shipped: Shipped) -> Figure:
+    """Draw the standard errors of the friction: of inputs, and of the factors of the answer."""
+    data, direct = shipped.sensitivity, shipped.direct
+    parts = [
+        (str(label), float(error), BLUE)
+        for label, error in zip(data.label.values, data.source_friction_error.values, strict=True)
+    ]
+    factors = zip(
+        direct.factor_label.values, direct.best_friction_factor_uncertainty.values, strict=True
+    )
+    parts += [(f"factor: {label}", float(error), ORANGE) for label, error in factors]
+    parts.append(("grid of the answer", float(direct.best_friction_grid_error), ORANGE))
+    parts.sort(key=lambda part: part[1])
+    rows = Axis(ticks={float(row): label for row, (label, *_) in enumerate(parts)}, grid=False)
+    bars = [
+        Bars(0.0, 100.0 * error, row - 0.3, row + 0.3, colour)
+        for row, (_, error, colour) in enumerate(parts)
+    ]
+    keys = [Bars(0, 0, 0, 0, BLUE, "of the inputs"), Bars(0, 0, 0, 0, ORANGE, "of the model")]
+    panel = Panel(Axis("standard error of friction $\\mu$ [%]", low=0.0), rows, bars)
+    return draw.on_paper(Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys))
+
+
+PICTURES = (block, wave, stack, road, draped, sensitivity, models, errors)
+
+
+def pictures() -> Iterator[tuple[str, Figure]]:
+    """Yield the name of each picture and the picture."""
+    shipped = Shipped()
+    for picture in PICTURES:
+        yield f"book_{picture.__name__}", picture(shipped)
+
+
+def main(folder: Path = FIGURES) -> None:
+    """Write the pictures into a folder."""
+    for name, figure in pictures():
+        write_png(figure, folder / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:2]))
