@@ -46,7 +46,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
 
     A bar runs from one rung to the next: blue where the number falls, orange where it rises, the
     factor beside it. Marks carry one standard uncertainty of the mean, dots are the samples. The
-    profile as measured, at once, is the one to judge the others by; below it stand the theories,
+    direct contact of the measured surface judges the others; below it stand the theories,
     the factors of the best estimate and the estimate itself, and what was measured at this speed. A
     rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
     band.
