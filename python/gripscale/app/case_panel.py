@@ -6,21 +6,32 @@ Files are uploaded by dropping them; each is stored in the folder of the visit u
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 
 import panel as pn
 
-from gripscale.app.case import MAX_UPLOAD, CaseState
-from gripscale.app.elements import column, error_notice, html, refusals_in
+from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
+from gripscale.app.elements import column, html, in_worker, work_button
 from gripscale.case.examples import EXAMPLES
 from gripscale.report.elements import Notice
 
-OnUpload = Callable[[Mapping[str, bytes]], None]
+NewText = Callable[[Mapping[str, bytes]], str]
+"""From uploads by name to the text of the case with them; may read them, in the worker thread."""
 
 
-def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn.Column:
-    """Return an area to drop files on; `on_upload` gets them by name, its error is shown below."""
+def file_upload(
+    state: CaseState,
+    table: str,
+    label: str,
+    new_text: NewText,
+    *,
+    several: bool = False,
+    then: Callable[[], Awaitable[None]] | None = None,
+) -> pn.Column:
+    """Return an area to drop files on, which gives the case a new text, and what follows `then`.
+
+    What is refused of them is the problem of the case in `table`; the case stays as it is.
+    """
     area = pn.widgets.FileDropper(
         multiple=several,
         max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
@@ -28,21 +39,37 @@ def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn
         margin=(0, 8),
         previews=[],
     )
-    message = column()
+    column_of_area = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)), area)
 
-    def receive(_: object) -> None:
-        message.objects = []
+    async def receive(_: object) -> None:
         uploads = {
             name: content.encode("utf-8") if isinstance(content, str) else content
             for name, content in area.value.items()
         }
-        if uploads:
-            with refusals_in(message):
-                on_upload(uploads)
+        if not uploads:
+            return
+        column_of_area.loading = True
+        try:
+            accepted = False
+            with state.refusals(table):
+                state.set_text(await in_worker(lambda: new_text(uploads)))
+                accepted = True
+            if accepted and then is not None:
+                await then()
+        finally:
+            column_of_area.loading = False
 
     area.param.watch(receive, "value")
-    title = pn.pane.Markdown(label, margin=(4, 8, 0, 8), sizing_mode="stretch_width")
-    return column(title, area, message)
+    return column_of_area
+
+
+def with_upload(state: CaseState, path: Sequence[str]) -> NewText:
+    """Return what states the file uploaded last at a path of the case."""
+
+    def new_text(uploads: Mapping[str, bytes]) -> str:
+        return with_value(state.text, path, state.visit.store(*list(uploads.items())[-1]))
+
+    return new_text
 
 
 def case_panel(state: CaseState) -> pn.Column:
@@ -57,18 +84,8 @@ def case_panel(state: CaseState) -> pn.Column:
         css_classes=["case"],
         stylesheets=["textarea { font: 12.5px/1.4 ui-monospace, Consolas, monospace; }"],
     )
-    message = column()
     text.param.watch(lambda event: state.set_text(event.new), "value")
-
-    def follow(*_: Any) -> None:
-        text.value = state.text
-        valid = html(Notice("good", "This case can be run."))
-        invalid = error_notice(state.validation_message)
-        message.objects = [invalid if state.validation_message else valid]
-
-    follow()
-    state.param.watch(follow, ["text", "validation_message"])
-
+    state.param.watch(lambda event: text.param.update(value=event.new), "text")
     example = pn.widgets.Select(
         label="Shipped example",
         options={f"{name}: {example.about}": name for name, example in EXAMPLES.items()},
@@ -76,13 +93,11 @@ def case_panel(state: CaseState) -> pn.Column:
         sizing_mode="stretch_width",
         styles={"flex": "1 1 180px", "min-width": "0"},
     )
-    load = pn.widgets.Button(label="Load the example", margin=(4, 8))
 
-    def load_example(_: Any) -> None:
-        with refusals_in(message, state.visit.short):
-            state.load_example(example.value)
+    async def load_example() -> None:
+        with state.refusals(""):
+            state.set_text(await in_worker(lambda: state.example(example.value)))
 
-    load.on_click(load_example)
     save = pn.widgets.FileDownload(
         callback=lambda: io.BytesIO(state.text.encode("utf-8")),
         filename="case.toml",
@@ -93,26 +108,30 @@ def case_panel(state: CaseState) -> pn.Column:
         "Drop a case together with the files it names to open it, or a surface and a measurement "
         "of a rubber to make one."
     )
+    load = work_button("Load the example", load_example)
     return column(
         pn.FlexBox(example, load, align_items="end", sizing_mode="stretch_width"),
         text,
-        message,
+        problem_pane(state),
         save,
-        file_upload(prompt, state.open, several=True),
+        file_upload(state, "", prompt, state.open, several=True),
     )
 
 
-def validation_pane(state: CaseState, *tables: str) -> pn.Column:
-    """Return a pane that shows what is wrong with the case if it is about one of `tables`."""
+def problem_pane(state: CaseState, *tables: str) -> pn.Column:
+    """Return a pane that shows what is wrong with the case, if it is about one of `tables`.
+
+    Without tables it shows every problem, and says where there is none.
+    """
     pane = column()
 
     def follow(*_: object) -> None:
-        message = state.validation_message
-        starts = [f"[{name}{end}" for name in tables for end in "].["]
-        relevant = any(start in message for start in starts)
-        relevant = relevant or message.startswith(tuple(f"{name} file " for name in tables))
-        pane.objects = [error_notice(message)] if relevant else []
+        problem = state.problem
+        if problem is not None and (not tables or problem.table in tables):
+            pane.objects = [html(Notice("error", problem.sentence))]
+        else:
+            pane.objects = [] if tables else [html(Notice("good", "This case can be run."))]
 
     follow()
-    state.param.watch(follow, "validation_message")
+    state.param.watch(follow, "problem")
     return pane
