@@ -291,8 +291,7 @@ class CaseState(param.Parameterized):
         if not cases:
             paths = [self.visit.path / self.visit.store(n, c) for n, c in uploads.items()]
             tables, _ = propose(paths, self.visit.path)
-            self.set_text(case_text(tables))
-            return None
+            return case_text(tables)
         if len(cases) != 1:
             raise InputError(
                 f"{len(cases)} of the dropped files end in .toml; expected one case with the files "

@@ -5,8 +5,10 @@ Files are uploaded by dropping them; each is stored in the folder of the visit u
 
 from __future__ import annotations
 
+import asyncio
 import io
 from collections.abc import Awaitable, Callable, Mapping, Sequence
+from typing import Any
 
 import panel as pn
 
@@ -32,35 +34,52 @@ def file_upload(
 
     What is refused of them is the problem of the case in `table`; the case stays as it is.
     """
-    area = pn.widgets.FileDropper(
-        multiple=several,
-        max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
-        sizing_mode="stretch_width",
-        margin=(0, 8),
-        previews=[],
-    )
-    column_of_area = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)), area)
 
-    async def receive(_: object) -> None:
-        uploads = {
-            name: content.encode("utf-8") if isinstance(content, str) else content
-            for name, content in area.value.items()
-        }
-        if not uploads:
-            return
-        column_of_area.loading = True
+    def empty_area() -> pn.widgets.FileDropper:
+        area = pn.widgets.FileDropper(
+            multiple=several,
+            max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
+            sizing_mode="stretch_width",
+            margin=(0, 8),
+            previews=[],
+        )
+        area.param.watch(receive, "value")
+        return area
+
+    async def receive(event: Any) -> None:
+        if place.loading:
+            return  # a further file of those that are awaited
+        place.loading, accepted = True, False
         try:
-            accepted = False
+            uploads = await all_uploads(event.obj)
+            place[1] = empty_area()
             with state.refusals(table):
                 state.set_text(await in_worker(lambda: new_text(uploads)))
                 accepted = True
             if accepted and then is not None:
                 await then()
         finally:
-            column_of_area.loading = False
+            place.loading = False
 
-    area.param.watch(receive, "value")
-    return column_of_area
+    place = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
+    place.append(empty_area())
+    return place
+
+
+PAUSE = 0.4
+"""Seconds without a further file after which those dropped together are complete."""
+
+
+async def all_uploads(area: pn.widgets.FileDropper) -> dict[str, bytes]:
+    """Return the files that were dropped together, by name, once all have arrived."""
+    count = 0
+    while count < len(area.value) or area._file_buffer:
+        count = len(area.value)
+        await asyncio.sleep(PAUSE)
+    return {
+        name: content.encode("utf-8") if isinstance(content, str) else content
+        for name, content in area.value.items()
+    }
 
 
 def with_upload(state: CaseState, path: Sequence[str]) -> NewText:
