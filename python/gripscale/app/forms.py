@@ -209,7 +209,7 @@ def _number_and_unit(value: Any, kind: str) -> tuple[str, str]:
     """Return a quantity as number and unit; anything else as it is, without a unit."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return field_text(value), next(iter(UNITS[kind]))
-    return number_and_unit(value, kind) or (field_text(value), "")
+    return number_and_unit(value, kind) or (field_text(value or None), "")
 
 
 def literals(annotation: Any) -> Iterator[Any]:

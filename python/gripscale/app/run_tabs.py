@@ -177,7 +177,8 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
             page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
             body.objects = [downloads(run), report_frame(state, run, page)]
         except FileError as error:
-            body.objects = [html(Text(f"{run.name} has no page: {state.visit.short(error)}"))]
+            why = state.visit.short(run.failure() or error)
+            body.objects = [html(Text(f"{run.name} has no page: {why}"))]
         finally:
             body.loading = False
 

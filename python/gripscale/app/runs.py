@@ -242,7 +242,7 @@ class Run:
         for event in self.events():
             if isinstance(event, RunFailed):
                 return event.message
-        return self.last_line() if self.state == "failed" else ""
+        return self.last_line().removeprefix("error: ") if self.state == "failed" else ""
 
     def last_line(self) -> str:
         """Return what the process printed last."""
