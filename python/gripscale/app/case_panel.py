@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import asyncio
 import io
+import time
 from collections.abc import Awaitable, Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import panel as pn
@@ -49,13 +51,15 @@ def file_upload(
     async def receive(event: Any) -> None:
         if place.loading:
             return  # a further file of those that are awaited
-        place.loading, accepted = True, False
+        place.loading, accepted, uploads = True, False, uploads_in(event.obj)
         try:
-            uploads = await all_uploads(event.obj)
+            while uploads:
+                accepted = False
+                with state.refusals(table):
+                    state.set_text(await in_worker(partial(new_text, uploads)))
+                    accepted = True
+                uploads = await further_uploads(event.obj, len(uploads)) if several else {}
             place[1] = empty_area()
-            with state.refusals(table):
-                state.set_text(await in_worker(lambda: new_text(uploads)))
-                accepted = True
             if accepted and then is not None:
                 await then()
         finally:
@@ -66,16 +70,23 @@ def file_upload(
     return place
 
 
-PAUSE = 0.4
-"""Seconds without a further file after which those dropped together are complete."""
+PAUSE = 3.0
+"""Seconds without a further file after which those dropped together are complete.
+
+The browser sends two at a time, with some 2 s between.
+"""
 
 
-async def all_uploads(area: pn.widgets.FileDropper) -> dict[str, bytes]:
-    """Return the files that were dropped together, by name, once all have arrived."""
-    count = 0
-    while count < len(area.value) or area._file_buffer:
-        count = len(area.value)
-        await asyncio.sleep(PAUSE)
+async def further_uploads(area: pn.widgets.FileDropper, count: int) -> dict[str, bytes]:
+    """Return all files that were dropped together once more than `count` are there, or none."""
+    end = time.monotonic() + PAUSE
+    while len(area.value) == count and (time.monotonic() < end or area._file_buffer):
+        await asyncio.sleep(0.1)
+    return uploads_in(area) if len(area.value) > count else {}
+
+
+def uploads_in(area: pn.widgets.FileDropper) -> dict[str, bytes]:
+    """Return the files at a place by name."""
     return {
         name: content.encode("utf-8") if isinstance(content, str) else content
         for name, content in area.value.items()

@@ -117,7 +117,8 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
             raise InputError(f"{run.name}: {run.failure()}")
 
     async def end() -> None:
-        await asyncio.get_running_loop().run_in_executor(None, runs.stop)
+        if runs.running is not None:  # what started it sees its end
+            await asyncio.get_running_loop().run_in_executor(None, runs.running.stop)
 
     choice.param.watch(show_options, "value")
     show_options()
