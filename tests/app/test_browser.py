@@ -119,6 +119,7 @@ def visit(browser: Any, server: str) -> Iterator[AppVisit]:
     seen.page.on("request", ask)
     seen.page.goto(server)
     seen.says("This case can be run")
+    seen.page.locator(".chart").wait_for(timeout=PATIENCE)  # the shipped road, as measured
     yield seen
     context.close()
 

@@ -49,9 +49,9 @@ def file_upload(
         return area
 
     async def receive(event: Any) -> None:
-        if place.loading:
+        if holder.loading:
             return  # a further file of those that are awaited
-        place.loading, accepted, uploads = True, False, uploads_in(event.obj)
+        holder.loading, accepted, uploads = True, False, uploads_in(event.obj)
         try:
             while uploads:
                 accepted = False
@@ -59,15 +59,15 @@ def file_upload(
                     state.set_text(await in_worker(partial(new_text, uploads)))
                     accepted = True
                 uploads = await further_uploads(event.obj, len(uploads)) if several else {}
-            place[1] = empty_area()
+            holder[1] = empty_area()
             if accepted and then is not None:
                 await then()
         finally:
-            place.loading = False
+            holder.loading = False
 
-    place = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
-    place.append(empty_area())
-    return place
+    holder = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
+    holder.append(empty_area())
+    return holder
 
 
 PAUSE = 3.0
@@ -86,7 +86,7 @@ async def further_uploads(area: pn.widgets.FileDropper, count: int) -> dict[str,
 
 
 def uploads_in(area: pn.widgets.FileDropper) -> dict[str, bytes]:
-    """Return the files at a place by name."""
+    """Return the files of an area by name."""
     return {
         name: content.encode("utf-8") if isinstance(content, str) else content
         for name, content in area.value.items()

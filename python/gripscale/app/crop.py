@@ -31,7 +31,8 @@ class RawSurface:
         self._drawn: list[Any] = []
         self.body = column(min_height=60)
         state.param.watch(self._schedule, "text")
-        self._schedule()
+        if pn.state.curdoc is not None:
+            pn.state.onload(self.update)
 
     def _schedule(self, *_: Any) -> None:
         if pn.state.curdoc is not None:  # else there is no page that could show it
