@@ -163,6 +163,7 @@ def test_road_and_rubber_are_drawn(whole_way: AppVisit) -> None:
 
 def test_results_are_those_of_the_files(whole_way: AppVisit, tmp_path: Path) -> None:
     whole_way.tab("5 Results")
+    whole_way.page.locator("iframe").wait_for(timeout=PATIENCE)
     with whole_way.page.expect_download(timeout=PATIENCE) as found:
         whole_way.page.get_by_text("Save everything").click()
     found.value.save_as(tmp_path / "all.zip")

@@ -43,6 +43,7 @@ from gripscale.model import with_adhesive
 from gripscale.report import source
 from gripscale.report.answer import has_answer
 from gripscale.report.elements import Element, Text
+from gripscale.report.head import with_answer
 from gripscale.report.pages import page_of
 
 POLL = 500
@@ -157,7 +158,7 @@ def answer_elements(run: Run) -> PageElements:
         result = source.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
-    page = page_of(result)
+    page = with_answer(page_of(result), result)
     return [Cards(page.cards), Text(page.subtitle), *map(Text, page.basis)]
 
 
