@@ -172,17 +172,18 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
         if run is None:
             return
         if run.running:
-            body.objects = [raw(f"<p>{run.name} is running; its page follows at its end.</p>")]
+            waiting = f"<p>{run.name} is running; its page follows at its end.</p>"
+            body.objects, body.loading = [raw(waiting)], False
             return
         body.objects, body.loading = [raw(f"<p>Writing the page of {run.name} ...</p>")], True
         try:
             page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
-            body.objects = [downloads(run), report_frame(state, run, page)]
+            parts = [downloads(run), report_frame(state, run, page)]
         except FileError as error:
             why = state.visit.short(run.failure() or error)
-            body.objects = [html(Text(f"{run.name} has no page: {why}"))]
-        finally:
-            body.loading = False
+            parts = [html(Text(f"{run.name} has no page: {why}"))]
+        if choice.value is run:  # else another was chosen meanwhile
+            body.objects, body.loading = parts, False
 
     async def follow(_: Any) -> None:
         options = {f"{run.name}: {run.command.title}": run for run in runs.all}
