@@ -400,12 +400,12 @@ def read_bytes(path: Path) -> bytes:
         raise FileError(f"{path}: expected a file; got a directory")
     try:
         content = path.read_bytes()
-        require_numbers(path, content)
-        return content
     except FileNotFoundError as error:
         raise FileError(f"{path}: cannot be read (no such file)") from error
     except (OSError, ValueError) as error:
         raise FileError(f"{path}: cannot be read ({error})") from error
+    require_numbers(path, content)
+    return content
 
 
 def require_numbers(name: object, content: bytes) -> None:
