@@ -66,7 +66,8 @@ class Visit:
         self.page.on("pageerror", lambda error: self.said.append(str(error)))
 
     def _listen(self, message: Any) -> None:
-        if message.type in ("error", "warning"):
+        of_this_test = "getImageData" in message.text  # `CURVES` looks at figures again and again
+        if message.type in ("error", "warning") and not of_this_test:
             self.said.append(message.text)
 
     def until(self, script: str, given: Any = None) -> None:

@@ -11,11 +11,12 @@ import pytest
 
 from gripscale.analysis.comparison import save_reference
 from gripscale.app.elements import Folded, html, notice_elements
-from gripscale.app.run_tabs import ComparedRun, results_elements, runs_table
+from gripscale.app.run_tabs import ComparedRun, runs_table
 from gripscale.case import read_case, run_case
 from gripscale.charts.page_elements import Chart
 from gripscale.report import source
-from gripscale.report.elements import Notice, Text
+from gripscale.report.elements import Element, Notice, Text
+from gripscale.report.pages import page_of
 
 from .conftest import CASE
 
@@ -39,6 +40,12 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     results = run_case(read_case(place / "case.toml"), output=place / "out")
     save_reference(results, place / "out")
     return place / "out"
+
+
+def results_elements(folder: Path) -> list[Element]:
+    """Return everything below the head of the page of a run."""
+    sections = page_of(source.read_result(folder)).sections
+    return [element for section in sections for element in section.elements]
 
 
 def test_measured_friction_is_drawn_with_what_is_predicted(ran: Path) -> None:

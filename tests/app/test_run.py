@@ -7,14 +7,15 @@ import time
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 from gripscale.app.case import CaseState, VisitFolder
+from gripscale.app.commands import COMMANDS, Command
 from gripscale.app.elements import Cards
-from gripscale.app.run_tabs import answer_elements, results_elements, run_status
+from gripscale.app.run_tabs import answer_elements, run_status
 from gripscale.app.runs import Run, Runs
-from gripscale.charts.page_elements import Chart
+from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.io.table import Table
 
 SLOW = """\
 [[surface.sines]]
@@ -93,18 +94,47 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     (small / "alone.toml").write_text(text)
     state.copy_case(small / "alone.toml")
     runs = Runs(state)
-    run = ended(runs.start("sensitivity"))
+    run = ended(runs.start(by_name("sensitivity")))
     assert run.state == "finished", run.log()
-    assert "has finished" in run_status(run, state).text
-    numbers, answer = answer_elements(run)
+    assert "has finished" in run_status(run).text
+    numbers, answer, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
     assert answer.text.startswith("Answer: 1 % more E''")
-    shown = list(results_elements(run.folder))
-    assert {each.name for each in shown if isinstance(each, Table)} >= {"sums", "decades"}
-    assert {each.name for each in shown if isinstance(each, Chart)} >= {"sensitivity-loss"}
+    page = run.write_page()
+    assert page == run.folder / "report.html"
+    text = page.read_text(encoding="utf-8")
+    assert 'id="plot-sensitivity-loss"' in text or "sensitivity-loss" in text
+    again = runs.start(by_name("sensitivity"))
+    assert again is run
+    assert len(runs.all) == 1, "what is finished is not repeated"
+
+
+def by_name(name: str) -> Command:
+    return next(command for command in COMMANDS if command.name == name)
+
+
+def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
+    """Words of the command lines, from what the commands print of themselves."""
+    for command in COMMANDS:
+        help_text = CliRunner().invoke(app, [command.name, "--help"], env={"COLUMNS": "200"}).stdout
+        assert help_text.startswith("Usage: "), command.name
+        assert all(option.flag in help_text for option in command.options), command.title
+    speeds = by_name("study")
+    assert speeds.arguments({"speeds": "1,2"}) == ["--vary", "speed=1,2"]
+    assert speeds.arguments({"speeds": " "}) == []
+    assert by_name("compare-rubbers").arguments({}, ["inputs/b.csv"]) == ["inputs/b.csv"]
+
+
+@pytest.mark.parametrize("name", ["../x.csv", "/etc/passwd", "--output", "~/x.csv"])
+def test_files_beside_the_case_are_those_of_the_visit(runs: Runs, name: str) -> None:
+    with pytest.raises(InputError, match="lies outside the folder of this page"):
+        runs.start(by_name("compare-rubbers"), others=[name])
+    with pytest.raises(InputError, match="expected other compounds; got none"):
+        runs.start(by_name("compare-rubbers"))
+    assert runs.all == []
 
 
 def test_a_design_that_cannot_be_made_says_why(runs: Runs) -> None:
-    run = ended(runs.start("design"))
+    run = ended(runs.start(by_name("design")))
     assert run.state == "failed"
     assert "measured" in run.failure() or "shift" in run.failure(), run.log()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from gripscale.app.case import (
     CaseState,
+    Problem,
     VisitFolder,
     field_text,
     field_value,
@@ -20,7 +22,8 @@ from gripscale.app.case import (
     value_at,
     with_value,
 )
-from gripscale.app.forms import table_form
+from gripscale.app.case_panel import problem_pane
+from gripscale.app.forms import field, table_form
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.case import EXAMPLES
 from gripscale.case.keys import sections
@@ -47,6 +50,11 @@ def state(tmp_path: Path) -> CaseState:
 def fields(form: pn.Column) -> dict[str, Any]:
     """Return the fields of a form by their names."""
     return {one.label.removesuffix(" *"): one for one in form.select(pn.widgets.Widget)}
+
+
+def opened(state: CaseState, uploads: dict[str, bytes]) -> None:
+    """Take uploads as the page does."""
+    state.set_text(state.open(uploads))
 
 
 @given(VALUES.filter(lambda value: not isinstance(value, str) or value.strip() == value != ""))
@@ -111,15 +119,69 @@ def test_a_file_in_place_of_a_law_is_shown_and_can_be_taken_out(state: CaseState
 
 def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: CaseState) -> None:
     shown = fields(table_form(state, "load", ()))
-    shown["speed"].value = "2 m/s"
+    shown["speed"].value = "2"
     shown["static"].value = "true"
-    shown["pressure"].value = "4e5"
+    shown["pressure"].value = "4 MPa"
     assert tables_of(state.text)["load"] == {
-        "pressure": 4e5, "speed": "2 m/s", "footprint": "100 mm", "static": True}  # fmt: skip
+        "pressure": "4 MPa", "speed": "2 m/s", "footprint": "100 mm", "static": True}  # fmt: skip
+    assert shown["pressure"].value == "4"
     state.set_text(CASE)
     assert state.text == CASE
-    assert [shown[name].value for name in ("speed", "pressure")] == ["0.3 m/s", "3 bar"]
+    assert [shown[name].value for name in ("speed", "pressure")] == ["0.3", "3"]
     assert shown["static"].value == "by default: false"
+
+
+@pytest.mark.parametrize(
+    ("stated", "numbers", "unit"),
+    [
+        (["120 mm", "1780 mm"], ["120", "1780"], "mm"),
+        ([0.12, 1.78], ["0.12", "1.78"], "m"),
+        (["12 cm", "1780 mm"], ["12 cm", "1780 mm"], "mm"),
+        ("all of it", ["all of it", ""], "mm"),
+        (None, ["", ""], "mm"),
+    ],
+)
+def test_numbers_stand_apart_from_their_unit(
+    state: CaseState, stated: object, numbers: list[str], unit: str
+) -> None:
+    crop = next(
+        key for s in sections() if s.name == "surface" for key in s.keys if key.name == "crop"
+    )
+    section = next(s for s in sections() if s.name == "surface")
+    low, high, choice = field(state, section, crop).objects
+    state.set(("surface", "crop"), stated)
+    assert ([low.value, high.value], choice.value) == (numbers, unit)
+    assert state.get(("surface", "crop")) == stated, "to show a value changes nothing"
+    low.value, high.value, choice.value = "1", "2e1", "cm"
+    assert state.get(("surface", "crop")) == ["1 cm", "2e1 cm"]
+    low.value = high.value = ""
+    assert state.get(("surface", "crop")) is None
+
+
+def test_a_refusal_is_the_one_problem_of_the_case_until_it_is_cured(state: CaseState) -> None:
+    shown = [problem_pane(state), problem_pane(state, "surface"), problem_pane(state, "rubber")]
+
+    def levels() -> list[list[str]]:
+        return [re.findall(r'notice (\w+)"', "".join(e.object for e in pane)) for pane in shown]
+
+    state.set_text(CASE.replace("../elsewhere/", ""))
+    assert levels() == [["good"], [], []]
+    with state.refusals("surface"):
+        state.visit.store("road.png", b"\x89PNG\r\n")
+    assert state.problem == Problem(
+        "surface", "road.png: expected a file with measured values; got a picture (PNG)"
+    )
+    assert levels() == [["error"], ["error"], []]
+    with state.refusals("rubber"):
+        pass
+    assert levels() == [["error"], ["error"], []]
+    with state.refusals("surface"):
+        pass
+    assert levels() == [["good"], [], []]
+    state.set(("load", "speed"), "3 furlongs")
+    assert levels() == [["error"], [], []]
+    assert state.problem is not None
+    assert state.problem.table == "load"
 
 
 def test_a_value_that_cannot_be_shown_stays_in_the_text(state: CaseState) -> None:
@@ -138,13 +200,14 @@ def test_each_example_fills_every_form_and_no_form_changes_it(state: CaseState) 
         state.load_example(name)
         assert state.validation_message == "", name
         assert state.visit.case.read_text(encoding="utf-8") == state.text, name
-        assert fields(tabs[2])["pressure"].value == state.get(("load", "pressure")), name
+        number = fields(tabs[2])["pressure"].value
+        assert str(state.get(("load", "pressure"))).startswith(f"{number} "), name
 
 
 def test_a_case_is_opened_with_the_files_it_names(
     state: CaseState, dropped: dict[str, bytes]
 ) -> None:
-    state.open(dropped)
+    opened(state, dropped)
     assert state.validation_message == ""
     assert state.get(("surface", "files")) == ["inputs/road.txt"]
     assert state.text == CASE.replace("../elsewhere/road", "inputs/road").replace(
@@ -156,21 +219,21 @@ def test_a_case_is_opened_with_the_files_it_names(
 def test_a_surface_and_a_rubber_dropped_together_make_a_case(
     state: CaseState, dropped: dict[str, bytes]
 ) -> None:
-    state.open({name: dropped[name] for name in ("dma.txt", "road.txt")})
+    opened(state, {name: dropped[name] for name in ("dma.txt", "road.txt")})
     assert state.validation_message == ""
     assert state.get(("surface", "files")) == ["inputs/road.txt"]
     assert state.get(("surface", "cut_off")) == "instrument"
     assert state.get(("rubber", "file")) == "inputs/dma.txt"
     assert "# Doubts, the weightiest first:" in state.text
     with pytest.raises(InputError, match="expected a file with a surface, too"):
-        state.open({"dma.txt": dropped["dma.txt"]})
+        opened(state, {"dma.txt": dropped["dma.txt"]})
 
 
 def test_two_cases_dropped_at_once_are_refused(state: CaseState) -> None:
     with pytest.raises(InputError, match=r"2 of the dropped files end in \.toml"):
-        state.open({"a.toml": b"", "b.TOML": b""})
+        opened(state, {"a.toml": b"", "b.TOML": b""})
     with pytest.raises(InputError, match=r"a\.toml cannot be read: it is not UTF-8 text"):
-        state.open({"a.toml": b"\xff"})
+        opened(state, {"a.toml": b"\xff"})
     assert state.text == CASE
 
 

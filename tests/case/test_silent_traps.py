@@ -96,7 +96,7 @@ TRAPS: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "a picture as a road": (
         {"road": b"\x89PNG\r\n" + bytes(range(256)) * 9},
-        "expected a text file",
+        "expected a file with measured values; got a picture (PNG)",
     ),
     "no temperature anywhere": (
         {"case": CASE.replace('reference_temperature = "20 C"\n', "")},

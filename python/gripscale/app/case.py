@@ -11,7 +11,8 @@ import secrets
 import shutil
 import time
 import tomllib
-from collections.abc import Mapping, MutableMapping, Sequence
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PureWindowsPath
 from typing import Any
@@ -25,6 +26,7 @@ from gripscale.case.examples import write_example
 from gripscale.case.folder import CASE, INPUTS, renamed
 from gripscale.case.new import case_text, propose
 from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.io.text_table import require_numbers
 
 MAX_UPLOAD = 50_000_000
 """Bytes of an uploaded file."""
@@ -61,6 +63,7 @@ class VisitFolder:
                 f"{safe} has {len(content) / 1e6:.0f} MB; expected at most "
                 f"{MAX_UPLOAD / 1e6:.0f} MB"
             )
+        require_numbers(safe, content)
         path = self.path / INPUTS / safe
         while path.exists() and path.read_bytes() != content:
             number += 1
@@ -80,6 +83,19 @@ class VisitFolder:
                     f'{role} file "{name}" lies outside the folder of this page; '
                     "drop the file itself on the page"
                 )
+
+    def require_name_inside(self, name: str, role: str) -> None:
+        """Raise `InputError` if `name` is a file outside this folder; a plain word may be known."""
+        if re.fullmatch(r"\w+", name):
+            return
+        try:
+            inside = (self.path / name).resolve().is_relative_to(self.path)
+        except (OSError, RuntimeError, ValueError):
+            inside = False
+        if name.startswith(("-", "~")) or not inside:
+            raise InputError(
+                f'{role}: "{name}" lies outside the folder of this page; drop the file itself'
+            )
 
     def short(self, message: object) -> str:
         """Return an error or a text with its paths relative to this folder."""
@@ -174,33 +190,67 @@ def _inline(value: Any) -> str:
     return str(tomlkit.item(value).as_string())
 
 
+@dataclass(frozen=True)
+class Problem:
+    """What is wrong with the case: the table it is about, and a sentence."""
+
+    table: str
+    sentence: str
+
+
+def table_of_message(message: str) -> str:
+    """Return the table of a case that a message is about; empty if it names none."""
+    match = re.search(r"\[(\w+)[].]|^(\w+) file \"", message)
+    return "" if match is None else match[1] or match[2]
+
+
 class CaseState(param.Parameterized):
-    """Text of the case, and one sentence on what is wrong with it."""
+    """Text of the case, and what is wrong with it, which every part of the page shows alike."""
 
     text: str = param.String("")  # type: ignore[assignment]
-    validation_message: str = param.String("")  # type: ignore[assignment]
+    problem: Problem | None = param.ClassSelector(class_=Problem)  # type: ignore[assignment]
 
     def __init__(self, visit: VisitFolder) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self.visit = visit
 
+    @property
+    def validation_message(self) -> str:
+        """What is wrong with the case, in a sentence; empty if nothing is."""
+        return "" if self.problem is None else self.problem.sentence
+
     def set_text(self, text: str) -> None:
         """Take `text` as the case, valid or not."""
         text = text.replace("\r\n", "\n")
         folder.write_text(self.visit.case, text)
+        self.param.update(text=text, problem=self._problem_of_text())
+
+    def _problem_of_text(self) -> Problem | None:
         try:
             self.file()
-            message = ""
         except GripscaleError as error:
-            message = self.visit.short(error)
-        self.param.update(text=text, validation_message=message)
+            sentence = self.visit.short(error)
+            return Problem(table_of_message(sentence), sentence)
+        return None
+
+    @contextmanager
+    def refusals(self, table: str) -> Iterator[None]:
+        """Let what gripscale refuses be the problem of the case, in one of its tables.
+
+        It stays until the text changes, or until the same table is accepted.
+        """
+        try:
+            yield
+        except GripscaleError as error:
+            self.problem = Problem(table, self.visit.short(error))
+        else:
+            if self.problem is not None and self.problem.table == table:
+                self.problem = self._problem_of_text()
 
     def set(self, path: Sequence[str], value: Any) -> None:
         """State `value` at a path such as ("load", "speed"); None removes the key."""
-        try:
+        with self.refusals(path[0]):
             self.set_text(with_value(self.text, path, value))
-        except GripscaleError as error:
-            self.validation_message = str(error)
 
     def get(self, path: Sequence[str]) -> Any:
         """Return the value the case states at a path, or None."""
@@ -214,17 +264,25 @@ class CaseState(param.Parameterized):
 
     def copy_case(self, path: Path) -> None:
         """Take a case of this machine, with copies of its files."""
+        self.set_text(self.text_of(path))
+
+    def text_of(self, path: Path) -> str:
+        """Return the text of a case of this machine, with its files copied into the visit."""
         folder.save_case(read_case(path), self.visit.path)
-        self.set_text(self.visit.case.read_text(encoding="utf-8"))
+        return self.visit.case.read_text(encoding="utf-8")
 
     def load_example(self, name: str) -> None:
         """Take a shipped example."""
+        self.set_text(self.example(name))
+
+    def example(self, name: str) -> str:
+        """Return the text of a shipped example, with its files copied into the visit."""
         source = self.visit.path / "examples" / name
         case = source / "case.toml"
-        self.copy_case(case if case.exists() else write_example(source, name)[0])
+        return self.text_of(case if case.exists() else write_example(source, name)[0])
 
-    def open(self, uploads: Mapping[str, bytes]) -> None:
-        """Take an uploaded case; files uploaded with it replace those of the same name in it.
+    def open(self, uploads: Mapping[str, bytes]) -> str:
+        """Return the text of an uploaded case, with the files uploaded with it under their names.
 
         Files without a case make a new one. Raises `InputError` if several of `uploads` are cases
         or one is no text, and as `gripscale.case.new.propose`.
@@ -233,8 +291,7 @@ class CaseState(param.Parameterized):
         if not cases:
             paths = [self.visit.path / self.visit.store(n, c) for n, c in uploads.items()]
             tables, _ = propose(paths, self.visit.path)
-            self.set_text(case_text(tables))
-            return
+            return case_text(tables)
         if len(cases) != 1:
             raise InputError(
                 f"{len(cases)} of the dropped files end in .toml; expected one case with the files "
@@ -245,10 +302,10 @@ class CaseState(param.Parameterized):
         except UnicodeDecodeError as error:
             raise InputError(f"{cases[0]} cannot be read: it is not UTF-8 text") from error
         stored = {n: self.visit.store(n, c) for n, c in uploads.items() if n not in cases}
-        self.set_text(text)
+        folder.write_text(self.visit.case, text)
         try:
             names = [name for _, name in read_case(self.visit.case).case.named_files()]
         except GripscaleError:
-            return  # the message says what is wrong with the text
+            return text  # the problem of the case says what is wrong with it
         last = {name: name.replace("\\", "/").rpartition("/")[2] for name in names}
-        self.set_text(renamed(text, {n: stored[last[n]] for n in names if last[n] in stored}))
+        return renamed(text, {n: stored[last[n]] for n in names if last[n] in stored})

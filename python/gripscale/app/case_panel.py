@@ -5,44 +5,101 @@ Files are uploaded by dropping them; each is stored in the folder of the visit u
 
 from __future__ import annotations
 
+import asyncio
 import io
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import panel as pn
 
-from gripscale.app.case import MAX_UPLOAD, CaseState
-from gripscale.app.elements import column, error_notice, html, refusals_in
+from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
+from gripscale.app.elements import column, html, in_worker, work_button
 from gripscale.case.examples import EXAMPLES
 from gripscale.report.elements import Notice
 
-OnUpload = Callable[[Mapping[str, bytes]], None]
+NewText = Callable[[Mapping[str, bytes]], str]
+"""From uploads by name to the text of the case with them; may read them, in the worker thread."""
 
 
-def file_upload(label: str, on_upload: OnUpload, *, several: bool = False) -> pn.Column:
-    """Return an area to drop files on; `on_upload` gets them by name, its error is shown below."""
-    area = pn.widgets.FileDropper(
-        multiple=several,
-        max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
-        sizing_mode="stretch_width",
-        margin=(0, 8),
-        previews=[],
-    )
-    message = column()
+def file_upload(
+    state: CaseState,
+    table: str,
+    label: str,
+    new_text: NewText,
+    *,
+    several: bool = False,
+    then: Callable[[], Awaitable[None]] | None = None,
+) -> pn.Column:
+    """Return an area to drop files on, which gives the case a new text, and what follows `then`.
 
-    def receive(_: object) -> None:
-        message.objects = []
-        uploads = {
-            name: content.encode("utf-8") if isinstance(content, str) else content
-            for name, content in area.value.items()
-        }
-        if uploads:
-            with refusals_in(message):
-                on_upload(uploads)
+    What is refused of them is the problem of the case in `table`; the case stays as it is.
+    """
 
-    area.param.watch(receive, "value")
-    title = pn.pane.Markdown(label, margin=(4, 8, 0, 8), sizing_mode="stretch_width")
-    return column(title, area, message)
+    def empty_area() -> pn.widgets.FileDropper:
+        area = pn.widgets.FileDropper(
+            multiple=several,
+            max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
+            sizing_mode="stretch_width",
+            margin=(0, 8),
+            previews=[],
+        )
+        area.param.watch(receive, "value")
+        return area
+
+    async def receive(event: Any) -> None:
+        if holder.loading:
+            return  # a further file of those that are awaited
+        holder.loading, accepted, uploads = True, False, uploads_in(event.obj)
+        try:
+            while uploads:
+                accepted = False
+                with state.refusals(table):
+                    state.set_text(await in_worker(partial(new_text, uploads)))
+                    accepted = True
+                uploads = await further_uploads(event.obj, len(uploads)) if several else {}
+            holder[1] = empty_area()
+            if accepted and then is not None:
+                await then()
+        finally:
+            holder.loading = False
+
+    holder = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
+    holder.append(empty_area())
+    return holder
+
+
+PAUSE = 3.0
+"""Seconds without a further file after which those dropped together are complete.
+
+The browser sends two at a time, with some 2 s between.
+"""
+
+
+async def further_uploads(area: pn.widgets.FileDropper, count: int) -> dict[str, bytes]:
+    """Return all files that were dropped together once more than `count` are there, or none."""
+    end = time.monotonic() + PAUSE
+    while len(area.value) == count and (time.monotonic() < end or area._file_buffer):
+        await asyncio.sleep(0.1)
+    return uploads_in(area) if len(area.value) > count else {}
+
+
+def uploads_in(area: pn.widgets.FileDropper) -> dict[str, bytes]:
+    """Return the files of an area by name."""
+    return {
+        name: content.encode("utf-8") if isinstance(content, str) else content
+        for name, content in area.value.items()
+    }
+
+
+def with_upload(state: CaseState, path: Sequence[str]) -> NewText:
+    """Return what states the file uploaded last at a path of the case."""
+
+    def new_text(uploads: Mapping[str, bytes]) -> str:
+        return with_value(state.text, path, state.visit.store(*list(uploads.items())[-1]))
+
+    return new_text
 
 
 def case_panel(state: CaseState) -> pn.Column:
@@ -57,18 +114,8 @@ def case_panel(state: CaseState) -> pn.Column:
         css_classes=["case"],
         stylesheets=["textarea { font: 12.5px/1.4 ui-monospace, Consolas, monospace; }"],
     )
-    message = column()
     text.param.watch(lambda event: state.set_text(event.new), "value")
-
-    def follow(*_: Any) -> None:
-        text.value = state.text
-        valid = html(Notice("good", "This case can be run."))
-        invalid = error_notice(state.validation_message)
-        message.objects = [invalid if state.validation_message else valid]
-
-    follow()
-    state.param.watch(follow, ["text", "validation_message"])
-
+    state.param.watch(lambda event: text.param.update(value=event.new), "text")
     example = pn.widgets.Select(
         label="Shipped example",
         options={f"{name}: {example.about}": name for name, example in EXAMPLES.items()},
@@ -76,13 +123,11 @@ def case_panel(state: CaseState) -> pn.Column:
         sizing_mode="stretch_width",
         styles={"flex": "1 1 180px", "min-width": "0"},
     )
-    load = pn.widgets.Button(label="Load the example", margin=(4, 8))
 
-    def load_example(_: Any) -> None:
-        with refusals_in(message, state.visit.short):
-            state.load_example(example.value)
+    async def load_example() -> None:
+        with state.refusals(""):
+            state.set_text(await in_worker(lambda: state.example(example.value)))
 
-    load.on_click(load_example)
     save = pn.widgets.FileDownload(
         callback=lambda: io.BytesIO(state.text.encode("utf-8")),
         filename="case.toml",
@@ -93,26 +138,30 @@ def case_panel(state: CaseState) -> pn.Column:
         "Drop a case together with the files it names to open it, or a surface and a measurement "
         "of a rubber to make one."
     )
+    load = work_button("Load the example", load_example)
     return column(
         pn.FlexBox(example, load, align_items="end", sizing_mode="stretch_width"),
         text,
-        message,
+        problem_pane(state),
         save,
-        file_upload(prompt, state.open, several=True),
+        file_upload(state, "", prompt, state.open, several=True),
     )
 
 
-def validation_pane(state: CaseState, *tables: str) -> pn.Column:
-    """Return a pane that shows what is wrong with the case if it is about one of `tables`."""
+def problem_pane(state: CaseState, *tables: str) -> pn.Column:
+    """Return a pane that shows what is wrong with the case, if it is about one of `tables`.
+
+    Without tables it shows every problem, and says where there is none.
+    """
     pane = column()
 
     def follow(*_: object) -> None:
-        message = state.validation_message
-        starts = [f"[{name}{end}" for name in tables for end in "].["]
-        relevant = any(start in message for start in starts)
-        relevant = relevant or message.startswith(tuple(f"{name} file " for name in tables))
-        pane.objects = [error_notice(message)] if relevant else []
+        problem = state.problem
+        if problem is not None and (not tables or problem.table in tables):
+            pane.objects = [html(Notice("error", problem.sentence))]
+        else:
+            pane.objects = [] if tables else [html(Notice("good", "This case can be run."))]
 
     follow()
-    state.param.watch(follow, "validation_message")
+    state.param.watch(follow, "problem")
     return pane

@@ -6,9 +6,8 @@ All texts are escaped by the template.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -18,7 +17,6 @@ import panel as pn
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.page_elements import Chart
-from gripscale.core.errors import GripscaleError
 from gripscale.report.elements import Card, Code, Element, Notice, Text, open_and_folded
 
 T = TypeVar("T")
@@ -40,7 +38,8 @@ class Folded:
     kind: ClassVar[str] = "folded"
 
 
-AppElement = Element | Cards | Folded
+AppElement = Element | Cards | Folded | Callable[[], pn.viewable.Viewable]
+"""What a tab shows; a function makes what is more than words and figures."""
 PageElements = Sequence[AppElement]
 
 
@@ -70,10 +69,12 @@ def column(*parts: Any, **options: Any) -> pn.Column:
 
 def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     """Return the panes that show `elements`, in order."""
-    return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
+    return [
+        e() if callable(e) else chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements
+    ]
 
 
-def html(element: AppElement) -> pn.pane.HTML:
+def html(element: Element | Cards | Folded) -> pn.pane.HTML:
     """Return the pane of a text, a notice, a table, facts, code or cards."""
     return raw(_environment().get_template("elements.html").render(e=element))
 
@@ -91,25 +92,6 @@ def chart_pane(chart: Chart) -> pn.Column:
     return column(figure, html(Text(chart.caption)), css_classes=["chart"])
 
 
-def error_notice(sentence: str) -> pn.pane.HTML:
-    """Return the pane of an error."""
-    return html(Notice("error", sentence))
-
-
-@contextmanager
-def refusals_in(
-    pane: pn.Column, words: Callable[[object], str] = str, above: Sequence[Any] = ()
-) -> Iterator[None]:
-    """Show what gripscale refuses in `pane`, below what stays `above` it.
-
-    `words` makes a sentence of the error, such as `Visit.short`.
-    """
-    try:
-        yield
-    except GripscaleError as refusal:
-        pane.objects = [*above, error_notice(words(refusal))]
-
-
 def code(caption: str, text: str) -> pn.pane.HTML:
     """Return the pane of a long text that opens at a click."""
     return html(Code("text", caption, text))
@@ -124,6 +106,28 @@ async def in_worker(work: Callable[[], T]) -> T:
     return await asyncio.get_running_loop().run_in_executor(_WORKER, work)
 
 
-def wait_for_worker(work: Callable[[], T]) -> T:
-    """Return the result of `work` from the worker thread; the page waits for it."""
-    return _WORKER.submit(work).result()
+BUSY = """\
+@keyframes busy { 50% { opacity: 0.35; } }
+:host .bk-btn[disabled] { cursor: progress; animation: busy 1s infinite; }
+:host .bk-btn[disabled]::after { content: " ..."; }
+"""
+
+
+def work_button(label: str, work: Callable[[], Awaitable[None]], **look: Any) -> pn.widgets.Button:
+    """Return a button that starts `work` and shows until its end that it is under way.
+
+    The browser itself disables it at the click, whatever the server does, and that starts the work:
+    no message of the server can come before.
+    """
+    button = pn.widgets.Button(label=label, margin=(8, 8), stylesheets=[BUSY], **look)
+    button.js_on_click(args={"button": button}, code="button.disabled = true")
+
+    async def follow(event: Any) -> None:
+        if event.new:
+            try:
+                await work()
+            finally:
+                button.disabled = False
+
+    button.param.watch(follow, "disabled")
+    return button

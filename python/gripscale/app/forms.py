@@ -5,16 +5,18 @@ A field that is left empty removes its key from the case.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Any, Literal, get_args, get_origin
 
 import panel as pn
 
 from gripscale.app.case import CaseState, field_text, field_value
-from gripscale.app.elements import PageElements, column, in_worker, panes, refusals_in
+from gripscale.app.elements import PageElements, column, in_worker, panes, work_button
 from gripscale.case import CaseFile
 from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
 from gripscale.case.schema import table_of
+from gripscale.core.units import UNITS, number_and_unit
 
 BY_DEFAULT = "by default"
 LOOK: dict[str, Any] = {
@@ -93,13 +95,16 @@ def law_form(state: CaseState, name: str) -> pn.Column:
                 keys = [key for key in laws[kind].keys if key.name != "kind"]
                 body.objects = [_rows([field(state, laws[kind], key) for key in keys])]
 
-    _bind(state, choice, edit, follow)
+    _bind(state, [choice], edit, follow)
     return column(_rows([choice]), body)
 
 
-def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | pn.widgets.TextInput:
-    """Return the widget that shows and changes one key of a table."""
+def field(state: CaseState, section: Section, key: Key) -> Any:
+    """Return what shows and changes one key of a table; numbers stand apart from their unit."""
     path = (*section.name.split("."), key.name)
+    quantity = QUANTITY.match(key.takes)
+    if quantity is not None:
+        return quantity_field(state, path, key, *quantity.groups())
     law = next(table for name, table, _ in TABLES if name == section.name)
     table = table_of(law[section.kind] if isinstance(law, Mapping) else law)
     annotation = table.model_fields[key.name].annotation
@@ -137,8 +142,74 @@ def field(state: CaseState, section: Section, key: Key) -> pn.widgets.Select | p
         else:
             widget.value = value if is_text and isinstance(value, str) else field_text(value)
 
-    _bind(state, widget, edit, follow)
+    _bind(state, [widget], edit, follow)
     return widget
+
+
+QUANTITY = re.compile(r'(a list of 2, each )?an? ([\w ]+) such as "[-\d.]+ ([^"]+)"')
+"""How `gripscale.case.keys` says that a key takes a quantity, or two, with an example."""
+
+
+def quantity_field(
+    state: CaseState, path: Sequence[str], key: Key, pair: str | None, kind: str, usual: str
+) -> pn.Row:
+    """Return the number of a quantity, or two, and the choice of their unit.
+
+    What is typed as a number may be anything else the key takes, such as a quantity with its unit.
+    """
+    needed = " *" if key.default == NEEDED else ""
+    labels = [key.name.replace("_", " ") + needed, *(["to"] if pair else [])]
+    numbers = [
+        pn.widgets.TextInput(
+            label=label,
+            width=max(80, 40 + 7 * len(label)),  # the label, and the mark that explains it
+            margin=(2, 4, 2, 8),
+            description=f"{key.meaning} Takes {key.takes}.",
+            placeholder="" if key.default in (NEEDED, NOTHING) else key.default,
+        )
+        for label in labels
+    ]
+    unit = pn.widgets.Select(
+        label="unit", options=list(UNITS[kind]), value=usual, width=90, margin=(2, 8, 2, 4)
+    )
+
+    def edit() -> None:
+        texts = [str(number.value or "").strip() for number in numbers]
+        values: list[Any] = [
+            f"{text} {unit.value}" if NUMBER.fullmatch(text) else field_value(text)
+            for text in texts
+        ]
+        value: Any = None
+        if any(texts):
+            value = [text or "" for text in values] if pair else values[0]
+        if value != state.get(path):
+            state.set(path, value)
+
+    def follow() -> None:
+        value = state.get(path)
+        values = value if pair and isinstance(value, list) else [value]
+        parts = [_number_and_unit(each, kind) for each in values]
+        units = {part[1] for part in parts if part[1]}
+        if len(units) > 1:
+            parts = [(field_text(each), "") for each in values]
+        texts = [*(text for text, _ in parts), *[""] * len(numbers)]
+        for number, text in zip(numbers, texts, strict=False):
+            number.value = text
+        if len(units) == 1:
+            unit.value = units.pop()
+
+    _bind(state, [*numbers, unit], edit, follow)
+    return pn.Row(*numbers, unit, margin=0)
+
+
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+
+
+def _number_and_unit(value: Any, kind: str) -> tuple[str, str]:
+    """Return a quantity as number and unit; anything else as it is, without a unit."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return field_text(value), next(iter(UNITS[kind]))
+    return number_and_unit(value, kind) or (field_text(value or None), "")
 
 
 def literals(annotation: Any) -> Iterator[Any]:
@@ -153,9 +224,9 @@ def literals(annotation: Any) -> Iterator[Any]:
 
 
 def _bind(
-    state: CaseState, widget: Any, edit: Callable[[], None], follow: Callable[[], None]
+    state: CaseState, widgets: Sequence[Any], edit: Callable[[], None], follow: Callable[[], None]
 ) -> None:
-    """Bind a widget and a case key both ways, without feedback loops."""
+    """Bind widgets and a case key both ways, without feedback loops."""
     following: list[bool] = []
 
     def on_text(*_: Any) -> None:
@@ -171,36 +242,33 @@ def _bind(
 
     on_text()
     state.param.watch(on_text, "text")
-    widget.param.watch(on_value, "value")
+    for widget in widgets:
+        widget.param.watch(on_value, "value")
 
 
 def _rows(fields: list[Any]) -> pn.FlexBox:
     return pn.FlexBox(*fields, sizing_mode="stretch_width", align_items="end")
 
 
-async def fill(body: pn.Column, make: Callable[[], PageElements], state: CaseState) -> None:
-    """Fill `body` with what `make` returns or its error; the page stays responsive meanwhile."""
-    body.loading = True
-    try:
-        with refusals_in(body, state.visit.short):
-            body.objects = panes(await in_worker(make))
-    finally:
-        body.loading = False
-
-
 class PreviewPanel:
-    """A button, and the elements `make` returns for the case at the click."""
+    """What `make` returns for the case as it is, at a click or on `update`.
+
+    What is refused is the problem of the case, in its `table`.
+    """
 
     def __init__(
-        self, state: CaseState, label: str, make: Callable[[CaseFile], PageElements]
+        self, state: CaseState, table: str, label: str, make: Callable[[CaseFile], PageElements]
     ) -> None:
-        self._state, self._make = state, make
-        self.button = pn.widgets.Button(label=label, color="primary", margin=(8, 8))
+        self._state, self._table, self._make = state, table, make
+        self.button = work_button(label, self.update, color="primary")
         self.body = column()
-        self.button.on_click(self.update)
 
-    async def update(self, _: Any = None) -> None:
+    async def update(self) -> None:
         """Make the preview of the case as it is now."""
-        self.button.disabled = True
-        await fill(self.body, lambda: self._make(self._state.file()), self._state)
-        self.button.disabled = False
+        self.body.loading, elements = True, []
+        try:
+            with self._state.refusals(self._table):
+                elements = list(await in_worker(lambda: self._make(self._state.file())))
+            self.body.objects = panes(elements)
+        finally:
+            self.body.loading = False

@@ -6,16 +6,20 @@ and fitted from the files.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import panel as pn
 
-from gripscale.app.case import CaseState
-from gripscale.app.case_panel import file_upload, validation_pane
+from gripscale.app.case import CaseState, with_value
+from gripscale.app.case_panel import NewText, file_upload, problem_pane, with_upload
+from gripscale.app.crop import RawSurface
 from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
+from gripscale.app.superposition import Redraw, superposition_elements
 from gripscale.case import (
     CaseFile,
     CaseResults,
@@ -27,7 +31,7 @@ from gripscale.case import (
     record,
     validate,
 )
-from gripscale.case.proposals import rubber_proposal, surface_proposal
+from gripscale.case.proposals import Proposal, rubber_proposal, surface_proposal
 from gripscale.case.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.rubber import rubber_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
@@ -87,8 +91,8 @@ def surface_elements(file: CaseFile) -> list[AppElement]:
     ]
 
 
-def rubber_elements(file: CaseFile) -> list[AppElement]:
-    """Return findings, moduli with the fit, the ends of the data, and shifts of the sweeps."""
+def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[AppElement]:
+    """Return findings, superposition, moduli with the fit and the ends of the data."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
     results = _prepared_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
     inputs = record.inputs(results)
@@ -96,97 +100,98 @@ def rubber_elements(file: CaseFile) -> list[AppElement]:
     elements = [*notice_elements([Notice("warning", f"{text}.") for text in findings])]
     for part in shift_parts(results.rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
+    elements += superposition_elements(state, results.rubber, redraw)
     return [*elements, *rubber_charts(inputs, None), rubber_facts(InputRecord(inputs))]
 
 
 def road_tab(state: CaseState) -> pn.Column:
-    """Return the tab of the surface: upload, fields, preview."""
-    kind = pn.widgets.RadioButtonGroup(
-        options={"Profiles along a line": "files", "A map": "map"}, margin=(4, 8)
-    )
-    preview = PreviewPanel(state, "Read, clean and fit", surface_elements)
-
-    def upload_surface(uploads: Mapping[str, bytes]) -> None:
-        names = [state.visit.store(name, content) for name, content in uploads.items()]
-        names = names if kind.value == "files" else names[-1:]
-        paths = [state.visit.path / name for name in names]
-        state.set(("surface",), surface_proposal(paths, names).keys)
-        pn.state.execute(preview.update)
-
+    """Return the tab of the surface: upload, the surface as measured, fields, preview."""
+    preview = PreviewPanel(state, "surface", "Read, clean and fit", surface_elements)
     return column(
-        validation_pane(state, "surface"),
-        kind,
+        problem_pane(state, "surface"),
         file_upload(
+            state,
+            "surface",
             "Drop profiles or a map; they replace the surface of the case.",
-            upload_surface,
+            with_proposal(state, "surface", surface_proposal),
             several=True,
+            then=preview.update,
         ),
+        RawSurface(state).body,
         table_form(state, "surface", ROAD_FIELDS),
         preview.button,
         preview.body,
     )
 
 
-def rubber_tab(state: CaseState) -> pn.Column:
-    """Return the tab of the rubber: uploads, fields, preview."""
-    preview = PreviewPanel(state, "Read and fit", rubber_elements)
+def with_proposal(
+    state: CaseState, table: str, propose: Callable[[list[Path], list[str]], Proposal]
+) -> NewText:
+    """Return what states uploads as a table of the case, with what is proposed for them."""
 
-    def upload_rubber(uploads: Mapping[str, bytes]) -> None:
+    def new_text(uploads: Mapping[str, bytes]) -> str:
         names = [state.visit.store(name, content) for name, content in uploads.items()]
         paths = [state.visit.path / name for name in names]
-        state.set(("rubber",), rubber_proposal(paths, names).keys)
-        pn.state.execute(preview.update)
+        return with_value(state.text, (table,), propose(paths, names).keys)
 
-    def upload_shift(uploads: Mapping[str, bytes]) -> None:
-        state.set(("rubber", "shift"), store_last(state, uploads))
+    return new_text
 
+
+def rubber_tab(state: CaseState) -> pn.Column:
+    """Return the tab of the rubber: uploads, fields, preview."""
+
+    async def redraw() -> None:
+        await preview.update()
+
+    preview = PreviewPanel(state, "rubber", "Read and fit", partial(rubber_elements, state, redraw))
     return column(
-        validation_pane(state, "rubber"),
+        problem_pane(state, "rubber"),
         file_upload(
+            state,
+            "rubber",
             "Drop a master curve, or sweeps at several temperatures; they replace the rubber "
             "of the case.",
-            upload_rubber,
+            with_proposal(state, "rubber", rubber_proposal),
             several=True,
+            then=preview.update,
         ),
         table_form(state, "rubber", RUBBER_FIELDS),
         file_upload(
-            "Drop a table of shift factors; it replaces the shift law of the rubber.", upload_shift
+            state,
+            "rubber",
+            "Drop a table of shift factors; it replaces the shift law of the rubber.",
+            with_upload(state, ("rubber", "shift")),
+            then=preview.update,
         ),
         preview.button,
         preview.body,
     )
 
 
-def store_last(state: CaseState, uploads: Mapping[str, bytes]) -> str:
-    """Store the file uploaded last; return its name in the case."""
-    return state.visit.store(*list(uploads.items())[-1])
-
-
 def load_tab(state: CaseState) -> pn.Column:
     """Return the tab of load, conditions, solver, chain and measured friction."""
 
-    def upload_softening(uploads: Mapping[str, bytes]) -> None:
+    def with_softening(uploads: Mapping[str, bytes]) -> str:
         path = ("conditions", "softening")
         names = [state.visit.store(name, content) for name, content in uploads.items()]
         law = state.get(path)
         table = law if isinstance(law, dict) and law.get("kind") == "table" else {}
-        state.set(path, {**table, "kind": "table", "files": names})
-
-    def upload_friction(uploads: Mapping[str, bytes]) -> None:
-        state.set(("measured", "friction"), store_last(state, uploads))
+        return with_value(state.text, path, {**table, "kind": "table", "files": names})
 
     parts: list[Any] = []
     for name, (title, first) in LOAD_TABLES.items():
         parts += [pn.pane.Markdown(f"### {title}", margin=(4, 8)), table_form(state, name, first)]
         if name == "conditions":
             prompt = "Drop strain sweeps; they replace the softening of the case."
-            parts.append(file_upload(prompt, upload_softening, several=True))
+            parts.append(file_upload(state, name, prompt, with_softening, several=True))
     return column(
-        validation_pane(state, *LOAD_TABLES, "measured"),
+        problem_pane(state, *LOAD_TABLES, "measured"),
         *parts,
         pn.pane.Markdown("### Measured friction", margin=(4, 8)),
         file_upload(
+            state,
+            "measured",
             "Drop a table of speed and friction; the results show it beside the predictions.",
-            upload_friction,
+            with_upload(state, ("measured", "friction")),
         ),
     )

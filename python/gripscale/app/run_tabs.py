@@ -1,16 +1,17 @@
-"""Tabs for what comes of the case: run, results, and all runs of the visit compared.
+"""Tabs for what comes of the case: run, the page of a result, and all runs of the visit.
 
 Figures, tables and sentences are those of the report.
 """
 
 from __future__ import annotations
 
+import asyncio
 import io
 import math
+import shlex
 import zipfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,185 +20,190 @@ import panel as pn
 import xarray as xr
 
 from gripscale.analysis.intervals import interval_ends
-from gripscale.analysis.measured_comparison import friction_of_case
 from gripscale.app.case import CaseState, field_text, tables_of
+from gripscale.app.case_panel import file_upload, problem_pane
+from gripscale.app.commands import COMMANDS, Command
 from gripscale.app.elements import (
-    AppElement,
     Cards,
     PageElements,
     code,
     column,
     html,
     in_worker,
-    notice_elements,
     panes,
     raw,
-    refusals_in,
-    wait_for_worker,
+    work_button,
 )
-from gripscale.app.forms import fill
-from gripscale.app.runs import COMMANDS, Run, Runs
-from gripscale.case import read_case
-from gripscale.case.folder import CASE
+from gripscale.app.runs import Run, Runs
 from gripscale.charts.view import SYMBOLS, PredictionView
-from gripscale.charts.wave_and_chain import contact_charts, measured_chart
-from gripscale.core.errors import GripscaleError
+from gripscale.charts.wave_and_chain import contact_charts
+from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
-from gripscale.report import source, write_report
-from gripscale.report.answer import basis_lines, has_answer
-from gripscale.report.elements import Code, Element, Notice, Page, Text
-from gripscale.report.measured import measured_lines
-from gripscale.report.notices import cards, exponent_sentence, notices
-from gripscale.report.pages import effects_elements, judgement_elements, page_of
-from gripscale.report.waves import wave_tables
+from gripscale.report import source
+from gripscale.report.answer import has_answer
+from gripscale.report.elements import Element, Text
+from gripscale.report.head import with_answer
+from gripscale.report.pages import page_of
 
 POLL = 500
 """Milliseconds between two readings of the events of a run."""
+REPORTS = "reports"
+"""Where the server gives the pages of results, by visit and run."""
 NO_RUN = "<p>No case was run yet.</p>"
 
 
 def run_tab(state: CaseState, runs: Runs) -> pn.Column:
-    """Return the tab that runs the case: command, start, stop, progress and output."""
-    command = pn.widgets.Select(label="Result", options=COMMANDS, margin=(4, 8), width=220)
-    start = pn.widgets.Button(label="Run the case", color="primary", margin=(8, 8))
-    stop = pn.widgets.Button(label="Stop", color="danger", disabled=True, margin=(8, 8))
+    """Return the tab that runs the case: command, options, start, stop, progress and answer."""
+    choice = pn.widgets.Select(
+        label="Question",
+        options={command.title: command for command in COMMANDS},
+        margin=(4, 8),
+        width=300,
+    )
+    form = column()
+    others = pn.widgets.TextInput(label="others, by name", margin=(4, 8), width=420)
+    fields: dict[str, pn.widgets.TextInput] = {}
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
-    status = column()
-    last_state: list[tuple[str, int, str]] = []
+    status, answer = column(), column()
 
-    def on_start(_: Any) -> None:
-        with refusals_in(status, state.visit.short):
-            runs.start(str(command.value))
+    def with_others(uploads: Mapping[str, bytes]) -> str:
+        names = [state.visit.store(name, content) for name, content in uploads.items()]
+        others.value = ", ".join([*filter(None, [others.value]), *names])
+        return state.text
 
-    def update() -> None:
-        run = runs.all[-1] if runs.all else None
-        start.disabled, stop.disabled = runs.running is not None, runs.running is None
-        if run is None:
-            return
-        log = state.visit.short(run.log())
-        now = (run.state, len(run.events()), log)
-        if last_state == [now]:
-            return
-        ended = bool(last_state) and last_state[0][0] == "running" and not run.running
-        last_state[:] = [now]
-        share = run.progress().share
-        bar.param.update(visible=run.running, value=-1 if share is None else round(100 * share))
-        answer = panes(answer_elements(run)) if run.state == "finished" else []
-        output = [code("Output", log)] if log else []
-        status.objects = [html(run_status(run, state)), *answer, *output]
-        if ended:
-            runs.changes += 1
-
-    def on_stop(_: Any) -> None:
-        runs.stop()
-        update()
-
-    start.on_click(on_start)
-    stop.on_click(on_stop)
-    runs.param.watch(lambda _: update(), "changes")
-    pn.state.add_periodic_callback(update, period=POLL)
-    return column(command, pn.Row(start, stop), bar, status)
-
-
-def run_status(run: Run, state: CaseState) -> Element:
-    """Return the state of a run in a sentence."""
-    progress = run.how_far()
-    if run.state == "running":
-        return Text(f"{run.name} is running: {progress}.")
-    if run.state == "stopped":
-        return Notice(
-            "warning", f"{run.name} was stopped ({progress}); the same case continues from there."
+    def show_options(*_: Any) -> None:
+        command: Command = choice.value
+        fields.clear()
+        fields.update(
+            {
+                option.label: pn.widgets.TextInput(
+                    label=option.label, value=option.value, margin=(4, 8), width=220
+                )
+                for option in command.options
+            }
         )
-    if run.state == "failed":
-        return Notice("error", f"{run.name}: {state.visit.short(run.failure())}")
-    return Notice("good", f"{run.name} has finished; the next tab shows its results.")
+        drop = []
+        if command.others:
+            others.value = ""
+            words = f"Drop other {command.others}; they are compared with that of the case."
+            drop = [others, file_upload(state, "run", words, with_others, several=True)]
+        form.objects = [html(Text(command.about)), pn.FlexBox(*fields.values()), *drop]
+
+    async def start() -> None:
+        names = [name.strip() for name in (others.value or "").split(",") if name.strip()]
+        command: Command = choice.value
+        values = {label: str(field.value or "") for label, field in fields.items()}
+        answer.objects = []
+        with state.refusals("run"):
+            run = runs.start(command, values, names if command.others else ())
+            stop.visible = True
+            while run.running:
+                show_progress(run)
+                await asyncio.sleep(POLL / 1e3)
+            await conclude(run)
+
+    def show_progress(run: Run) -> None:
+        share = run.progress().share
+        bar.param.update(visible=True, value=-1 if share is None else round(100 * share))
+        status.objects = [html(run_status(run)), *output_elements(run, state)]
+
+    async def conclude(run: Run) -> None:
+        bar.visible = stop.visible = False
+        status.objects = [html(run_status(run)), *output_elements(run, state)]
+        if run.state == "finished":
+            answer.objects = panes(await in_worker(lambda: answer_elements(run)))
+        runs.changes += 1
+        if run.state == "failed":
+            raise InputError(f"{run.name}: {run.failure()}")
+
+    async def end() -> None:
+        if runs.running is not None:  # what started it sees its end
+            await asyncio.get_running_loop().run_in_executor(None, runs.running.stop)
+
+    choice.param.watch(show_options, "value")
+    show_options()
+    stop = work_button("Stop", end, color="danger", visible=False)
+    return column(
+        problem_pane(state, "run"),
+        choice,
+        form,
+        pn.Row(work_button("Run", start, color="primary"), stop),
+        bar,
+        status,
+        answer,
+    )
+
+
+def run_status(run: Run) -> Element:
+    """Return the state of a run in a sentence; what it failed with is the problem of the case."""
+    words = {
+        "running": f"is running: {run.how_far()}.",
+        "stopped": f"was stopped ({run.how_far()}); the same case continues from there.",
+        "failed": "failed.",
+        "finished": "has finished; the next tab shows its page.",
+    }
+    return Text(f"{run.name}, {run.command.title.lower()}, {words[run.state]}")
+
+
+def output_elements(run: Run, state: CaseState) -> list[pn.pane.HTML]:
+    """Return the command of a run, and what it printed, if anything."""
+    command = f"$ {shlex.join(['gripscale', *run.words])}"
+    return [code("Command and output", f"{command}\n{state.visit.short(run.log())}")]
 
 
 def answer_elements(run: Run) -> PageElements:
     """Return the answer of a finished run: of its contact where the surface was measured."""
     try:
-        result = wait_for_worker(lambda: source.read_result(run.folder))
+        result = source.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
-    if isinstance(result, source.Run):
-        return [Cards(cards(result))]
-    page = page_of(result)
-    return [Cards(page.cards), Text(page.subtitle)]
+    page = with_answer(page_of(result), result)
+    return [Cards(page.cards), Text(page.subtitle), *map(Text, page.basis)]
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
-    """Return the tab that shows one run: results, output, downloads and the report."""
-    choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=200)
+    """Return the tab that shows the page of one run, and saves its files."""
+    choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=320)
     body = column(raw(NO_RUN))
-    footer = column()
 
     async def show(*_: Any) -> None:
-        run = next((run for run in runs.all if run.name == choice.value), None)
+        run = choice.value
         if run is None:
             return
-        footer.objects = []
         if run.running:
-            body.objects = [raw(f"<p>{run.name} is running; its results follow at its end.</p>")]
+            waiting = f"<p>{run.name} is running; its page follows at its end.</p>"
+            body.objects, body.loading = [raw(waiting)], False
             return
-        await fill(body, lambda: list(results_elements(run.folder)), state)
-        if any(run.folder.glob("*.nc")):
-            log = code("Output of the run", state.visit.short(run.log()))
-            footer.objects = [log, downloads(run), report_pane(state, run)]
+        body.objects, body.loading = [raw(f"<p>Writing the page of {run.name} ...</p>")], True
+        try:
+            page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
+            parts = [downloads(run), report_frame(state, run, page)]
+        except FileError as error:
+            why = state.visit.short(run.failure() or error)
+            parts = [html(Text(f"{run.name} has no page: {why}"))]
+        if choice.value is run:  # else another was chosen meanwhile
+            body.objects, body.loading = parts, False
 
     async def follow(_: Any) -> None:
-        names = [run.name for run in runs.all]
-        if choice.options != names:
-            choice.param.update(options=names, value=names[-1])  # which shows it
+        options = {f"{run.name}: {run.command.title}": run for run in runs.all}
+        if options and choice.options != options:
+            choice.param.update(options=options, value=runs.all[-1])  # which shows it
         else:
             await show()
 
     choice.param.watch(show, "value")
     runs.param.watch(follow, "changes")
-    return column(choice, body, footer)
+    return column(choice, body)
 
 
-def results_elements(folder: Path) -> Iterator[AppElement]:
-    """Yield the results in the folder of a run, in the order of the page."""
-    run = source.read_result(folder)
-    if not isinstance(run, source.Run):
-        yield from page_elements(page_of(run))
-        return
-    yield Cards(cards(run))
-    if run.direct is not None:
-        yield from map(Text, basis_lines(run.direct))
-    yield from notice_elements(notices(run))
-    yield from judgement_elements(run)
-    for prediction in run.predictions:
-        sentence = exponent_sentence(prediction.data)
-        if sentence:
-            yield Text(f"{prediction.title}. {sentence}")
-    yield from contact_charts(run.by_wave, run.direct)
-    yield from measured_elements(folder, run)
-    tables = {table.name: table for table in wave_tables(run.by_wave)}
-    yield from (tables[name] for name in ("contact", "load", "conditions") if name in tables)
-    yield from effects_elements(run.effects)
-
-
-def page_elements(page: Page) -> Iterator[AppElement]:
-    """Yield what a page shows, without how to run it again."""
-    yield Cards(page.cards)
-    yield from map(Text, (page.subtitle, *page.basis))
-    yield from notice_elements(page.notices)
-    for section in page.sections:
-        yield from (each for each in section.elements if not isinstance(each, Code))
-
-
-def measured_elements(folder: Path, run: source.Run) -> Iterator[Element]:
-    """Yield the measured friction the case of the run names, with the predictions."""
-    friction = friction_of_case(read_case(folder / CASE))
-    sliding = [view for view in run.predictions if view.moving and view.complete]
-    if friction is None or not sliding:
-        return
-    direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
-    yield measured_chart(friction, [*sliding, *direct])
-    lines = measured_lines(friction, sliding[0].speed, sliding[0].display_unit("speed"))
-    yield from (Text(line) for line in lines)
+def report_frame(state: CaseState, run: Run, page: Path) -> pn.pane.HTML:
+    """Return the page of a run as wide as this one, with a link that opens it alone."""
+    address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
+    return raw(
+        f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
+        f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
+    )
 
 
 def downloads(run: Run) -> pn.FlexBox:
@@ -211,54 +217,29 @@ def downloads(run: Run) -> pn.FlexBox:
         buffer.seek(0)
         return buffer
 
-    report = pn.widgets.FileDownload(
-        callback=lambda: io.BytesIO(wait_for_worker(lambda: new_report(run))),
-        filename=f"{run.name}.html",
-        label="Save the report",
-    )
-    data = [
+    files = [
         pn.widgets.FileDownload(
             file=str(path), filename=f"{run.name}-{path.name}", label=f"Save {path.name}"
         )
-        for path in sorted(run.folder.glob("*.nc"))
+        for path in sorted([*run.folder.glob("*.html"), *run.folder.glob("*.nc")])
     ]
     folder = pn.widgets.FileDownload(
         callback=zipped, filename=f"{run.name}.zip", label="Save everything"
     )
-    return pn.FlexBox(report, *data, folder)
-
-
-def new_report(run: Run) -> bytes:
-    """Return the report of a run, written now."""
-    return write_report(run.folder).read_bytes()
-
-
-def report_pane(state: CaseState, run: Run) -> pn.Column:
-    """Return a button that shows the report of a run inside the page."""
-    button = pn.widgets.Button(label="Show the report here", margin=(8, 8))
-    pane = column(button)
-
-    async def show(_: Any) -> None:
-        with refusals_in(pane, state.visit.short, above=[button]):
-            page = (await in_worker(lambda: new_report(run))).decode("utf-8")
-            options = f'title="Report of {run.name}" sandbox="allow-scripts"'
-            pane.objects = [raw(f'<iframe {options} srcdoc="{escape(page)}"></iframe>')]
-
-    button.on_click(show)
-    return pane
+    return pn.FlexBox(*files, folder)
 
 
 COMPARED_CHARTS = ("contact-area", "friction")
 """Figures with one curve a run; the others show one run alone."""
 
 
-def compare_tab(state: CaseState, runs: Runs) -> pn.Column:
-    """Return the tab that compares all runs of the visit."""
+def all_runs_tab(runs: Runs) -> pn.Column:
+    """Return the tab with the answers of all runs of the visit."""
     body = column(raw(NO_RUN))
 
     async def follow(_: Any) -> None:
         if any(not run.running for run in runs.all):
-            await fill(body, lambda: compared_elements(runs), state)
+            body.objects = panes(await in_worker(lambda: compared_elements(runs)))
 
     runs.param.watch(follow, "changes")
     return body

@@ -13,14 +13,16 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import param
 
 from gripscale.app.case import CaseState
+from gripscale.app.commands import COMMANDS, RUN, Command
 from gripscale.case import CaseFile, folder
 from gripscale.case.events import (
     DirectContactSolved,
@@ -32,15 +34,10 @@ from gripscale.case.events import (
     WaveSolved,
     from_json,
 )
-from gripscale.core.errors import InputError
+from gripscale.core.errors import FileError, InputError
 
-RUN = "run"
-COMMANDS = {
-    "Contact and friction": RUN,
-    "What decides the grip": "sensitivity",
-    "Design of a compound": "design",
-}
-"""Commands that the page runs on a case, by what they are called there."""
+REPORT = "report.html"
+"""The page of a result in its folder, as `gripscale report` names it."""
 GRACE = 5.0
 """Seconds a process has to end before it is killed."""
 
@@ -130,7 +127,9 @@ class Run:
     case: Path
     folder: Path
     text: str
-    command: str = RUN
+    command: Command = COMMANDS[0]
+    arguments: tuple[str, ...] = ()
+    """What follows the case on the command line."""
     stopped: bool = field(default=False, init=False)
     _process: Any = field(default=None, init=False, repr=False)
 
@@ -138,8 +137,9 @@ class Run:
         """Start the process; its events and its text go into files beside the results."""
         atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
-        reports = self.command == RUN
-        command = [sys.executable, "-m", "gripscale", self.command, self.case.name]
+        (self.folder / REPORT).unlink(missing_ok=True)
+        reports = self.command.name == RUN
+        command = [sys.executable, "-m", "gripscale", *self.words]
         command += ["--progress", "json"] if reports else []
         process_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
         with self._events_file.open("wb") as events, self._log_file.open("wb") as log:
@@ -152,6 +152,29 @@ class Run:
                 env=os.environ | {"PYTHONUNBUFFERED": "1", "COLUMNS": "110"},
                 **process_group,
             )
+
+    @property
+    def words(self) -> list[str]:
+        """The command and its arguments, from the folder of the visit."""
+        return [self.command.name, self.case.name, *self.arguments]
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """What it answers: the command, its arguments and the text of the case."""
+        return (self.command.title, *self.arguments, self.text)
+
+    def write_page(self) -> Path:
+        """Write the page of the result, unless it is there, in a process; return its path.
+
+        Raises `FileError` with the sentence of the process if it cannot be written.
+        """
+        page = self.folder / REPORT
+        if not page.exists():
+            command = [sys.executable, "-m", "gripscale", "report", str(self.folder)]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode:
+                raise FileError(done.stderr.strip().removeprefix("error: "))
+        return page
 
     @property
     def pid(self) -> int:
@@ -219,7 +242,7 @@ class Run:
         for event in self.events():
             if isinstance(event, RunFailed):
                 return event.message
-        return self.last_line() if self.state == "failed" else ""
+        return self.last_line().removeprefix("error: ") if self.state == "failed" else ""
 
     def last_line(self) -> str:
         """Return what the process printed last."""
@@ -232,7 +255,7 @@ class Run:
 
     def how_far(self) -> str:
         """Return how far it is, in words."""
-        return self.progress().sentence if self.command == RUN else self.last_line()
+        return self.progress().sentence if self.command.name == RUN else self.last_line()
 
 
 class Runs(param.Parameterized):
@@ -250,19 +273,35 @@ class Runs(param.Parameterized):
         """The run whose process exists."""
         return next((run for run in self.all if run.running), None)
 
-    def start(self, command: str = RUN) -> Run:
-        """Run a command on the case as it is now; a stopped run of the same text continues.
+    def start(
+        self,
+        command: Command = COMMANDS[0],
+        values: Mapping[str, str] = MappingProxyType({}),
+        others: Sequence[str] = (),
+    ) -> Run:
+        """Run a command on the case as it is now, with the values of its options by their labels.
 
-        Raises what is wrong with the case, and `InputError` while another run is running.
+        `others` are files of the visit beside the case, or names that gripscale knows. A finished
+        run of the same is not repeated, a stopped one continues. Raises what is wrong with the case
+        or with a name, and `InputError` while another run is running.
         """
         if self.running is not None:
             raise InputError(f"{self.running.name} is still running; stop it or wait for its end")
         file = self._state.file()
-        asked = (command, file.text)
-        stopped = [run for run in self.all if run.stopped and (run.command, run.text) == asked]
-        run = stopped[0] if stopped else self._new(file, command)
-        run.stopped = False
-        run.start()
+        if command.others and not others:
+            raise InputError(f"{command.title}: expected other {command.others}; got none")
+        for name in others:
+            self._state.visit.require_name_inside(name, command.others)
+        run = self._new(file, command, tuple(command.arguments(values, others)))
+        earlier = [each for each in self.all if each.asked == run.asked]
+        if earlier and earlier[-1].state in ("finished", "stopped"):
+            run = earlier[-1]
+        else:
+            folder.write_text(run.case, file.text)
+            self.all.append(run)
+        if run.state != "finished":
+            run.stopped = False
+            run.start()
         self.changes += 1
         return run
 
@@ -272,10 +311,7 @@ class Runs(param.Parameterized):
             run.stop()
         self.changes += 1
 
-    def _new(self, file: CaseFile, command: str) -> Run:
-        """Add a run of a case, saved beside the files it names."""
+    def _new(self, file: CaseFile, command: Command, arguments: tuple[str, ...]) -> Run:
+        """Return a further run of a case, to be saved beside the files it names."""
         name, path = f"run-{len(self.all) + 1}", self._state.visit.path
-        case = folder.write_text(path / f"{name}.toml", file.text)
-        run = Run(name, case, path / "runs" / name, file.text, command)
-        self.all.append(run)
-        return run
+        return Run(name, path / f"{name}.toml", path / "runs" / name, file.text, command, arguments)

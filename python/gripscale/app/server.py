@@ -5,18 +5,20 @@ from __future__ import annotations
 import os
 import socket
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import panel as pn
 from bokeh.util.warnings import BokehUserWarning
+from tornado.web import HTTPError, StaticFileHandler
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
 from gripscale.app.case_panel import case_panel
 from gripscale.app.elements import column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
-from gripscale.app.run_tabs import compare_tab, results_tab, run_tab
-from gripscale.app.runs import Runs
+from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
+from gripscale.app.runs import REPORT, Runs
 from gripscale.case import folder, read_case
 from gripscale.case.examples import EXAMPLES
 from gripscale.core.errors import InputError
@@ -48,13 +50,16 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
         visit.remove_if_unused()
 
     pn.state.on_session_destroyed(leave)
-    tabs = pn.Tabs(
+    of_case = (
         ("1 Road", road_tab(state)),
         ("2 Rubber", rubber_tab(state)),
         ("3 Load and conditions", load_tab(state)),
         ("4 Run", run_tab(state, runs)),
+    )
+    tabs = pn.Tabs(
+        *of_case,
         ("5 Results", results_tab(state, runs)),
-        ("6 Compare", compare_tab(state, runs)),
+        ("6 All runs", all_runs_tab(runs)),
         dynamic=True,
         sizing_mode="stretch_width",
         stylesheets=[TABS_STYLE],
@@ -63,6 +68,11 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
     side = column(
         case_panel(state), styles={"flex": "1 1 300px", "min-width": "0", "max-width": "100%"}
     )
+
+    def give_room(event: Any) -> None:
+        side.visible = event.new < len(of_case)  # a result has a case of its own
+
+    tabs.param.watch(give_room, "active")
     body = pn.FlexBox(tabs, side, sizing_mode="stretch_width", align_items="start")
     return column(raw(INTRO), body, max_width=1500)
 
@@ -82,12 +92,15 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     # BokehJS returns models that the server has just added to the page; the server keeps its own
     # and warns each time.
     warnings.filterwarnings("ignore", "reference already known", BokehUserWarning)
+    origins = [f"{HOST}:{port}", f"localhost:{port}"]
+    reports = {"path": str(root.resolve()), "hosts": origins}
     server = pn.serve(
         {"/": page},
+        extra_patterns=[(rf"/{REPORTS}/([^/]+/runs/[^/]+/{REPORT})", ReportHandler, reports)],
         title={"/": TITLE},
         address=HOST,
         port=port,
-        websocket_origin=[f"{HOST}:{port}", f"localhost:{port}"],
+        websocket_origin=origins,
         websocket_max_message_size=2 * MAX_UPLOAD,
         show=browser,
         start=False,
@@ -100,6 +113,28 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     )
     print(f"Files and results are kept in {root.resolve()}", flush=True)
     server.run_until_shutdown()
+
+
+class ReportHandler(StaticFileHandler):
+    """Serves reports of visits to this very page, each as a document of an origin of its own."""
+
+    def initialize(self, path: str, hosts: Sequence[str]) -> None:  # type: ignore[override]
+        """Take the folder of all visits and the hosts under which the page is served."""
+        super().initialize(path)
+        self._hosts = hosts
+
+    def prepare(self) -> None:
+        """Turn away whoever asks under another name."""
+        if self.request.host not in self._hosts:
+            raise HTTPError(403)
+
+    def set_extra_headers(self, path: str) -> None:
+        """Keep the report from the page around it, and its older versions from the browser."""
+        self.set_header("Content-Security-Policy", SANDBOX)
+        self.set_header("Cache-Control", "no-cache")
+
+
+SANDBOX = "sandbox allow-scripts allow-downloads allow-popups; frame-ancestors 'self'"
 
 
 def _free_port(port: int) -> int:

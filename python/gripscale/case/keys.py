@@ -11,6 +11,7 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 from typing import Any
 
@@ -83,6 +84,7 @@ class Section:
         return f"[{self.name}]" + (f' kind = "{self.kind}"' if self.kind else "")
 
 
+@cache
 def sections() -> list[Section]:
     """Return all tables of a case with their keys, in the order of the documentation."""
     return [

@@ -135,6 +135,22 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     return prepare_surface(table.model_copy(update={"cut_off": solved}), file.resolve)
 
 
+@about_keys("surface")
+def raw_surface(
+    surface: SurfaceTable, resolve: Resolve = Path
+) -> surfaces.HeightMap | list[surfaces.Profile]:
+    """Return what the files of `surface` hold before any cleaning; no profile without files.
+
+    Along x of a map is the way of sliding. Raises `FileError` and `InputError` as reading does.
+    """
+    paths = [resolve(name) for name in surface.measured_files]
+    if surface.map is None:
+        options = _options(surface, surfaces.read_profile)
+        return [surfaces.read_profile(path, **options) for path in paths]
+    raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
+    return raw if surface.direction == "x" else raw.turned()
+
+
 def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:
     """Read and clean profiles."""
     profiles, reports = [], []

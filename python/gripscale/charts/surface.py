@@ -15,15 +15,25 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.case.record import CLOSE_UP, close_up, sine_curves
+from gripscale.case.record import CLOSE_UP, close_up, envelope, sine_curves
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Outline, Panel, Series, Sheet
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    CrossLine,
+    Mark,
+    Outline,
+    Panel,
+    Series,
+    Sheet,
+    ValueMap,
+)
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
-from gripscale.surface.profile import Profile
+from gripscale.surface.profile import HeightMap, Profile
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -133,6 +143,34 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
             height=300,
         ))  # fmt: skip
     return draw.on_page(panels)
+
+
+MOST_PIXELS = 400
+"""Points of a map along each side that are drawn."""
+KEPT = "#cfe3f3"
+"""Colour of what a crop keeps."""
+
+
+def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None = None) -> Chart:
+    """Return a surface as it was measured, the part that a crop along x [m] keeps in a shade."""
+    kept: list[Mark] = []
+    if crop is not None:
+        low, high = (end / MILLI for end in crop)
+        kept = [CrossLine(low, KEPT, upright=True, to=high)]
+    if isinstance(raw, HeightMap):
+        along, across = (-(-size // MOST_PIXELS) for size in raw.z.shape)
+        heights = (raw.z - np.nanmin(raw.z))[::along, ::across].T / MILLI
+        x, y = raw.x[::along] / MILLI, raw.y[::across] / MILLI
+        marks: list[Mark] = [ValueMap(x, y, heights, "height above the lowest [mm]")]
+        words = "The map as measured; the rubber slides along x, to the right."
+        ordinate = Axis("distance across $y$ [mm]")
+    else:
+        pieces = [envelope(profile.x, profile.z) for profile in raw]
+        marks = [_outline(x, ends, "as read", GREY) for x, *ends in pieces]
+        words, ordinate = "The profiles as measured.", HEIGHT
+    return draw.on_page([Panel(DISTANCE, ordinate, [*marks, *kept], name="raw", caption=words,
+                               alt="The surface as measured, before cleaning.", height=300,
+                               to_scale=isinstance(raw, HeightMap))])[0]  # fmt: skip
 
 
 def correlation_figure(

@@ -166,6 +166,13 @@ def unit_of(value: object, kind: str) -> str:
     return "" if match is None else spelled(match[2], kind) or ""
 
 
+def number_and_unit(value: object, kind: str) -> tuple[str, str] | None:
+    """Return the number of a quantity such as "3 bar" as written and its usual unit, or None."""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    unit = unit_of(value, kind)
+    return (match[1], unit) if match is not None and unit else None
+
+
 def _finite(value: float, kind: str) -> float:
     if not abs(value) <= MOST:
         raise ValueError(f"expected a finite {kind} {such_as(kind)}")

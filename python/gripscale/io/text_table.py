@@ -390,16 +390,29 @@ def file_paths(path: object) -> list[Path]:
     return [file_path(path)]
 
 
+PICTURES = {b"\x89PNG": "PNG", b"\xff\xd8\xff": "JPEG", b"GIF8": "GIF", b"%PDF": "PDF"}
+"""Files that show measured values instead of holding them, by their first bytes."""
+
+
 def read_bytes(path: Path) -> bytes:
-    """Return the content of a file; raise `FileError` if it cannot be read."""
+    """Return the content of a file; raise `FileError` if it cannot be read or is a picture."""
     if path.is_dir():
         raise FileError(f"{path}: expected a file; got a directory")
     try:
-        return path.read_bytes()
+        content = path.read_bytes()
     except FileNotFoundError as error:
         raise FileError(f"{path}: cannot be read (no such file)") from error
     except (OSError, ValueError) as error:
         raise FileError(f"{path}: cannot be read ({error})") from error
+    require_numbers(path, content)
+    return content
+
+
+def require_numbers(name: object, content: bytes) -> None:
+    """Raise `FileError` if the content of a file is a picture."""
+    for start, kind in PICTURES.items():
+        if content.startswith(start):
+            raise FileError(f"{name}: expected a file with measured values; got a picture ({kind})")
 
 
 def read_text(path: Path) -> str:

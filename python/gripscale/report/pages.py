@@ -23,8 +23,8 @@ from gripscale.charts.side_by_side import compound_pictures, road_pictures
 from gripscale.charts.study import study_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
 from gripscale.charts.uncertainty import calibration_pictures
-from gripscale.charts.view import SYMBOLS
-from gripscale.charts.wave_and_chain import contact_charts, verification_charts
+from gripscale.charts.view import SYMBOLS, PredictionView
+from gripscale.charts.wave_and_chain import contact_charts, measured_chart, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.io.table import Table
 from gripscale.model import FRICTION_OUTSIDE_BAND
@@ -54,6 +54,7 @@ from gripscale.report.elements import (
     ranked,
 )
 from gripscale.report.equations import equations
+from gripscale.report.measured import measured_lines
 from gripscale.report.source import Compared, Run, Source, Study, case_name
 from gripscale.report.waves import wave_tables
 
@@ -163,6 +164,7 @@ def run_page(run: Run) -> Page:
             Section("surface", "Surface", _surface(run)),
             Section("rubber", "Rubber", _rubber(run)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
+            Section("measured", "Measured friction", _measured(run)),
             Section("cut-off", "Against the cut-off", cut_off_elements(run.cut_off)),
             Section("effects", "What each effect is worth", effects_elements(run.effects)),
             Section(
@@ -228,6 +230,17 @@ def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
         rest = "Nothing slides at rest: the columns of friction are left out there."
         elements.insert(0, Text(rest))
     return [*elements, *below, *contact_charts(run.by_wave, run.direct)]
+
+
+def _measured(run: Run) -> list[Element]:
+    """Return the measured friction that the case names, with the predictions."""
+    sliding = [view for view in run.predictions if view.moving and view.complete]
+    if run.measured is None or not sliding:
+        return []
+    direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
+    first = sliding[0]
+    lines = measured_lines(run.measured, first.speed, first.display_unit("speed"))
+    return [measured_chart(run.measured, [*sliding, *direct]), *map(Text, lines)]
 
 
 def judgement_elements(run: Run) -> list[Element]:

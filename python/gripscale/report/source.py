@@ -14,11 +14,15 @@ from gripscale.analysis.cut_off_curve import FILE as CUT_OFF
 from gripscale.analysis.cut_off_curve import FRICTION as CURVE
 from gripscale.analysis.effects import stored_effects
 from gripscale.analysis.friction_sensitivity import LOSS as SENSITIVITY
+from gripscale.analysis.measured_comparison import friction_of_case
 from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
+from gripscale.case.folder import CASE
+from gripscale.case.read import read_case
 from gripscale.charts.ladder import varied
 from gripscale.charts.view import PredictionView
 from gripscale.core.errors import FileError
 from gripscale.experiment.axis import dimensions
+from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.report.record import InputRecord
 
@@ -85,6 +89,8 @@ class Run:
     """Totals of the direct contact of the measured profiles."""
     cut_off: xr.Dataset | None = None
     """Contact and friction against the cut-off."""
+    measured: MeasuredFriction | None = None
+    """Measured friction that its case names."""
 
     @property
     def data(self) -> xr.Dataset:
@@ -193,6 +199,7 @@ def _read_folder(folder: Path) -> Source:
             uncertainty=stored_uncertainty(folder),
             direct=direct if direct is not None and direct.attrs.get("case") == case else None,
             cut_off=curve if curve is not None and curve.attrs.get("case") == case else None,
+            measured=_measured(folder / CASE),
         )
     compared = replace(_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
     if compared.parts:
@@ -206,6 +213,11 @@ def _read_folder(folder: Path) -> Source:
         names = ", ".join(path.name for path in others)
         raise FileError(f"{folder} holds several results; name one of them: {names}")
     return read_result(others[0])
+
+
+def _measured(case: Path) -> MeasuredFriction | None:
+    """Read the measured friction that a saved case names; none without one."""
+    return friction_of_case(read_case(case)) if case.is_file() else None
 
 
 def _comparisons(folder: Path) -> Compared:
