@@ -59,6 +59,7 @@ def file_upload(
                     state.set_text(await in_worker(partial(new_text, uploads)))
                     accepted = True
                 uploads = await further_uploads(event.obj, len(uploads)) if several else {}
+            await asyncio.sleep(SETTLING)
             holder[1] = empty_area()
             if accepted and then is not None:
                 await then()
@@ -70,6 +71,8 @@ def file_upload(
     return holder
 
 
+SETTLING = 0.5
+"""Seconds in which the widget marks a file as done in the browser; before, it must not go away."""
 PAUSE = 3.0
 """Seconds without a further file after which those dropped together are complete.
 
