@@ -49,7 +49,6 @@ WITHOUT_FIGURE: set[str] = {
     "cut-off.md",
     "method.md",
     "theories.md",
-    "tutorial.md",
     "uncertainty.md",
 }
 """Pages of Start and Understand."""
