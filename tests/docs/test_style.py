@@ -39,7 +39,6 @@ TOO_LONG_SENTENCES: dict[str, float] = {
     "direct-contact.md": 20.7,
     "measured-friction.md": 21.0,
     "performance.md": 23.7,
-    "reading-results.md": 20.4,
     "side-by-side.md": 27.6,
     "uncertainty.md": 21.8,
 }
