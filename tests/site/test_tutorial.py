@@ -65,8 +65,6 @@ def test_the_tutorial_does_what_it_says(tmp_path, monkeypatch, capsys):
         if language == "python":
             exec(compile(block, TUTORIAL.name, "exec"), names)
             printed = capsys.readouterr().out
-        elif language == "toml":
-            Path(block.partition("\n")[0].removeprefix("# ")).write_text(block, encoding="utf-8")
         elif language == "console":
             run_console(block)
             commands += 1
@@ -76,7 +74,7 @@ def test_the_tutorial_does_what_it_says(tmp_path, monkeypatch, capsys):
             assert_shown(block, printed)
         else:
             pytest.fail(f"a block of {language} is not tested")
-    assert commands == 5
+    assert commands == 6
     assert (tmp_path / "results" / "report.html").stat().st_size > 1e6
 
 
