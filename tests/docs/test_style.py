@@ -29,7 +29,7 @@ TOO_MANY_NUMBERS: dict[str, float] = {}
 MOST_WORDS = 20.0
 """Of a sentence, in the mean of a page."""
 TOO_LONG_SENTENCES: dict[str, float] = {}
-WITHOUT_FIGURE: set[str] = {"app.md"}
+WITHOUT_FIGURE: set[str] = set()
 """Pages of Start and Understand."""
 MOST_RUNS = 5
 """Runs of ten words that two pages share."""
