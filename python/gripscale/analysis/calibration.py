@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy.stats
 import xarray as xr
+from scipy import special
 
 from gripscale.analysis import calibration_law as fit
 from gripscale.analysis import profile_likelihood as likelihood
@@ -117,7 +117,7 @@ class Calibration:
         """
         if not self.spread_known:
             return math.nan
-        return float(scipy.stats.chi2.sf(self.optimum.sum_of_squares, self.freedom))
+        return float(special.chdtrc(self.freedom, self.optimum.sum_of_squares))
 
     @property
     def threshold(self) -> float:
@@ -168,9 +168,7 @@ class Calibration:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
         tail = 0.5 * (1.0 + likelihood.LEVEL)
         return self.friction_error * float(
-            scipy.stats.norm.ppf(tail)
-            if self.spread_known
-            else scipy.stats.t.ppf(tail, self.freedom)
+            special.ndtri(tail) if self.spread_known else special.stdtrit(self.freedom, tail)
         )
 
     @cached_property

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.optimize
-import scipy.stats
+from scipy import special
 
 from gripscale.analysis.calibration_law import (
     Optimum,
@@ -146,9 +146,9 @@ class Profile:
 def threshold_of(optimum: Optimum, *, spread_known: bool) -> float:
     """Return the excess that ends an interval, with spreads known or taken from the residuals."""
     if spread_known:
-        return float(scipy.stats.chi2.ppf(LEVEL, 1))
+        return float(special.chdtri(1, 1.0 - LEVEL))
     points, free = optimum.jacobian.shape
-    ratio = float(scipy.stats.f.ppf(LEVEL, 1, points - free))
+    ratio = float(special.fdtri(1, points - free, LEVEL))
     return ratio * optimum.sum_of_squares / float(points - free)
 
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import permutations
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -20,11 +20,12 @@ from numpy.typing import ArrayLike
 from gripscale.core.arrays import Array
 from gripscale.experiment.axis import Axis
 from gripscale.experiment.design import attributes
-from gripscale.experiment.inputs import rubber_before
-from gripscale.experiment.task import Task
 from gripscale.model import TOTALS
 from gripscale.rubber import Rubber
 from gripscale.wave.result import harmonics
+
+if TYPE_CHECKING:
+    from gripscale.experiment.task import Task
 
 # How far curves lie apart that should be one: friction at several temperatures over a_T v.
 #
@@ -139,6 +140,8 @@ def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.Da
 
     Of the tasks of all points, last axis fastest. Empty where no temperature is stated.
     """
+    from gripscale.experiment.inputs import rubber_before  # all of a case with it: not for pages
+
     asked = [task.model.conditions for task in tasks]
     if all(conditions is None or conditions.temperature is None for conditions in asked):
         return {}
