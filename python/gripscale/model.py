@@ -35,8 +35,13 @@ INPUT_DOUBTS = "input_doubts"
 
 def input_doubts(*surfaces: Surface) -> dict[str, str]:
     """Return the attribute `INPUT_DOUBTS` of an answer on surfaces; nothing without a doubt."""
-    texts = dict.fromkeys(f"{text}." for surface in surfaces for text in surface.doubts)
+    texts = dict.fromkeys(text for surface in surfaces for text in doubt_sentences(surface))
     return {INPUT_DOUBTS: " ".join(texts)} if texts else {}
+
+
+def doubt_sentences(surface: Surface) -> list[str]:
+    """Return the doubts of a surface as sentences."""
+    return [text if text.endswith("?") else f"{text}." for text in surface.doubts]
 
 
 OCTAVE = 2.0

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
+from gripscale.cli.docs import anchor_of
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.model import status_words
 from gripscale.report.notices import Failure, chapter_words, explained
@@ -20,9 +21,7 @@ BEYOND = ExtrapolationError.see.removeprefix("docs/")
 
 def anchors(page: Path) -> set[str]:
     """Return the anchors of a page's headings, as its site names them."""
-    titles = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
-    plain = (re.sub(r"[^\w\s-]", "", title).strip().lower() for title in titles)
-    return {re.sub(r"[\s-]+", "-", title) for title in plain}
+    return {*map(anchor_of, re.findall(r"^#+ (.+)$", page.read_text("utf-8"), re.MULTILINE))}
 
 
 FAILURES = [status for status in Status if status != "converged"]

@@ -29,7 +29,7 @@ from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
-from gripscale.core.units import parse_quantity
+from gripscale.core.units import stated_temperature
 from gripscale.rubber.extrapolation import require_measured
 
 LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
@@ -119,7 +119,7 @@ def propose(
 
     Arguments and errors are those of `new_case`.
     """
-    kelvin = None if temperature is None else _kelvin(temperature)
+    kelvin = None if temperature is None else stated_temperature(temperature)
     surfaces, rubbers, skipped = _sorted(files, step)
     names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers)}
     tables = {
@@ -137,13 +137,6 @@ def ranked(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> tup
     """Return the doubts of proposals and further ones, the weightiest first."""
     every = [doubt for table in tables.values() for doubt in table.doubts] + [*further]
     return tuple(sorted(every, key=lambda doubt: -doubt.weight))
-
-
-def _kelvin(temperature: str) -> float:
-    try:
-        return parse_quantity(temperature, "temperature")
-    except ValueError as error:
-        raise InputError(f"temperature: {error}") from error
 
 
 def _sorted(

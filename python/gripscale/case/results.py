@@ -13,7 +13,7 @@ from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.units import DisplayUnit, display_unit
-from gripscale.model import Load
+from gripscale.model import Load, doubt_sentences
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import Surface
 
@@ -108,7 +108,7 @@ class CaseResults:
 
     def doubts(self) -> list[str]:
         """Return why the answer may be that of another road, rubber or load, a sentence each."""
-        texts = [text if text.endswith("?") else f"{text}." for text in self.surface.doubts]
+        texts = doubt_sentences(self.surface)
         for name, (least, most) in PLAUSIBLE.items():
             value = float(getattr(self.load, name))
             if value != 0.0 and not least <= value <= most:

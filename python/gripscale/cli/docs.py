@@ -16,7 +16,7 @@ PICTURE = re.compile(r"^!\[([^\]]*)\]\([^)]*\)\s*$", flags=re.MULTILINE)
 
 
 def pages() -> dict[str, Traversable]:
-    """Return the pages by name, the first ones first."""
+    """Return the pages by name, in the order of the names."""
     home = files("gripscale").joinpath("pages")
     names = sorted(path.name for path in home.iterdir() if path.name.endswith(".md"))
     return {name.removesuffix(".md"): home.joinpath(name) for name in names}

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from gripscale.case import CaseResults
     from gripscale.case.events import Event, OnEvent
+    from gripscale.case.read import CaseFile
     from gripscale.core.units import DisplayUnit
     from gripscale.io.table import Table
 
@@ -61,10 +62,18 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
-    if progress == ProgressFormat.TEXT and not fresh and _print_finished(case, output):
-        return
+    from gripscale.case.finished import is_finished
+    from gripscale.case.read import read_case
+
+    as_json = progress == ProgressFormat.JSON
+    console = terminal.screen(stderr=as_json)
     with _json_events(progress) as emit:
-        _run(terminal.screen(stderr=progress == ProgressFormat.JSON), emit, case, output, fresh)
+        file = read_case(case)
+        target = output if output is not None else file.resolve(file.case.output.folder)
+        if not (fresh or as_json) and is_finished(file, target, _shown_too(target)):
+            _print_finished(console, target)
+        else:
+            _run(console, emit, file, target, fresh)
 
 
 @contextmanager
@@ -84,21 +93,13 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     emit(RunFinished())
 
 
-def _print_finished(case: Path, output: Path | None) -> bool:
-    """Print the report of a run that is finished; return whether it is."""
-    from gripscale.case.finished import is_finished
-    from gripscale.case.read import read_case
-
-    file = read_case(case)
-    target = output if output is not None else file.resolve(file.case.output.folder)
-    if not is_finished(file, target, _shown_too(target)):
-        return False
-    report, console = target / REPORT, terminal.screen()
+def _print_finished(console: Console, target: Path) -> None:
+    """Print the report of a run that is finished."""
+    report = target / REPORT
     date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
     typer.echo(report.read_text(encoding="utf-8"))
     words = f"Finished {date}; case, files and software are the same, so that nothing was solved "
     terminal.print_wrapped(console, f"{words}again (--fresh does). {CLOSING} {target}")
-    return True
 
 
 def _shown_too(target: Path) -> tuple[Path, ...]:
@@ -106,7 +107,7 @@ def _shown_too(target: Path) -> tuple[Path, ...]:
     return (target / "uncertainty" / "uncertainty.nc",)
 
 
-def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh: bool) -> None:
+def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: bool) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
     from gripscale.analysis.comparison import FILE as DIRECT
     from gripscale.analysis.comparison import reference, save_reference
@@ -114,7 +115,7 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case import folder, prepare_case, read_case, record, run_case
+    from gripscale.case import folder, prepare_case, record, run_case
     from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
     from gripscale.case.finished import note_finished
     from gripscale.case.run import require_feasible
@@ -129,8 +130,6 @@ def _run(console: Console, emit: OnEvent, case: Path, output: Path | None, fresh
     from gripscale.report.record import InputRecord
     from gripscale.report.uncertainty import uncertainty_lines
 
-    file = read_case(case)
-    target = output if output is not None else file.resolve(file.case.output.folder)
     folder.require_writable(target)
     friction = friction_of_case(file)
     results = prepare_case(file)
