@@ -29,7 +29,7 @@ from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
-from gripscale.core.units import stated_temperature
+from gripscale.core.units import temperature_in_kelvin
 from gripscale.rubber.extrapolation import require_measured
 
 LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
@@ -119,7 +119,7 @@ def propose(
 
     Arguments and errors are those of `new_case`.
     """
-    kelvin = None if temperature is None else stated_temperature(temperature)
+    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     surfaces, rubbers, skipped = _sorted(files, step)
     names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers)}
     tables = {

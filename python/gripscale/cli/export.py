@@ -53,13 +53,13 @@ def rubber(
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
-    from gripscale.core.units import stated_temperature
+    from gripscale.core.units import temperature_in_kelvin
     from gripscale.export import write_rubber
     from gripscale.export.reduction import reduced
 
     rubber = _rubber_of(source)
     if temperature is not None:
-        rubber = rubber.at(stated_temperature(temperature))
+        rubber = rubber.at(temperature_in_kelvin(temperature))
     console = screen()
     if band is not None or terms is not None:
         reduction = reduced(rubber, band=None if band is None else _band(band), terms=terms)

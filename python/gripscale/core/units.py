@@ -166,7 +166,7 @@ def unit_of(value: object, kind: str) -> str:
     return "" if match is None else spelled(match[2], kind) or ""
 
 
-def stated_temperature(text: str) -> float:
+def temperature_in_kelvin(text: str) -> float:
     """Return a temperature [K] such as "40 C"; raise `InputError` for what is none."""
     try:
         return parse_quantity(text, "temperature")
