@@ -47,7 +47,10 @@ def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None
     assert results.dynamic.to_dataset().sizes["pressure_class"] == 2
 
 
-def test_files_are_written_where_they_are_wanted(case: Path, tmp_path: Path) -> None:
+def test_files_are_written_where_they_are_wanted(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gripscale.case.run.SAVE_EVERY", 0.0)
     target = tmp_path / "out"
     seen: list[tuple[str, int, int]] = []
 

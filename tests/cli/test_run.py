@@ -133,9 +133,15 @@ def test_wave_that_fails_keeps_what_was_solved(
     assert rest.sizes["scale"] == 3
 
 
-def test_waves_are_on_disk_before_the_next_one_starts(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("save_every", "on_disk"), [(0.0, [0, 1, 2]), (60.0, [0, 0, 0])])
+def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
+    shell: Shell,
+    changed: Callable[..., Path],
+    monkeypatch: pytest.MonkeyPatch,
+    save_every: float,
+    on_disk: list[int],
 ) -> None:
+    monkeypatch.setattr("gripscale.case.run.SAVE_EVERY", save_every)
     case = changed("static = true", "static = false")
     seen: list[int] = []
 
@@ -154,7 +160,7 @@ def test_waves_are_on_disk_before_the_next_one_starts(
     monkeypatch.setattr(write, "save_figure", lambda *_: [])
     result = shell("run", case)
     assert result.exit_code == 130
-    assert seen == [0, 1, 2]
+    assert seen == on_disk
     assert netcdf.load(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
 
 

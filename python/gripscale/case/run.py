@@ -28,6 +28,9 @@ from gripscale.wave.result import WaveResult
 KEY, FINISHED = "prediction_key", "prediction_finished"
 """Attributes of a result: what it depends on, and whether its chain came to its end."""
 
+SAVE_EVERY = 2.0
+"""Least time between two savings of an unfinished prediction [s]; each takes 0.1 s."""
+
 
 @dataclass(frozen=True)
 class StoredPrediction:
@@ -109,8 +112,8 @@ def run_case(
     case : path, CaseFile or CaseResults
         The case file, read, or with its inputs prepared.
     output : path, optional
-        Folder for the result files, written wave by wave, with the case and its files, so that it
-        runs from there. Results of an earlier run are replaced, unless they are of exactly this
+        Folder for the result files, written as the waves are solved, with the case and its files,
+        so that it runs from there. Results of an earlier run are replaced, unless they are of exactly this
         case: then what was finished is taken up and not solved again. Without it nothing is
         written.
     on_event : callable, optional
@@ -179,17 +182,20 @@ def require_feasible(results: CaseResults) -> None:
 def _solve(
     results: CaseResults, name: str, speed: float, emit: OnEvent, stored: StoredPrediction | None
 ) -> None:
-    """Add one prediction to `results`, on disk after each wave; the inputs follow at the end."""
+    """Add one prediction to `results`, on disk as it grows; the inputs follow at the end."""
     chain = results.chain
     stored_waves = 0 if stored is None else len(stored.prediction.scales)
-    clock, pass_number = time.perf_counter(), 0
+    clock = saved = time.perf_counter()
+    pass_number = 0
 
     def keep(so_far: Prediction) -> None:
-        nonlocal clock, pass_number
+        nonlocal clock, saved, pass_number
         results.predictions[name] = so_far
         is_stored = len(so_far.scales) <= stored_waves
         if not is_stored:
-            _save(results, name)
+            if time.perf_counter() - saved > SAVE_EVERY:
+                _save(results, name)
+                saved = time.perf_counter()
             if events.PASSES in so_far.scales[-1].details:
                 return  # rubber and contact agree: no wave was solved anew
         pass_number += len(so_far.scales) == 1

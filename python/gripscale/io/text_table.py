@@ -81,7 +81,8 @@ def fits(cell: str) -> bool:
 
 def cells_of(line: str, separator: str | None) -> list[str]:
     """Return the cells of a line, without quotation marks."""
-    return [cell.strip().strip('"').strip() for cell in line.strip(" \r\n").split(separator)]
+    cells = list(map(str.strip, line.strip(" \r\n").split(separator)))
+    return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
 
 
 EXCEL = (".xlsx", ".xlsm")
