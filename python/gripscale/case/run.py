@@ -113,9 +113,9 @@ def run_case(
         The case file, read, or with its inputs prepared.
     output : path, optional
         Folder for the result files, written as the waves are solved, with the case and its files,
-        so that it runs from there. Results of an earlier run are replaced, unless they are of exactly this
-        case: then what was finished is taken up and not solved again. Without it nothing is
-        written.
+        so that it runs from there. Results of an earlier run are replaced, unless they are of
+        exactly this case: then what was finished is taken up and not solved again. Without it
+        nothing is written.
     on_event : callable, optional
         Called with each event of `gripscale.case.events`: start, waves, predictions, files.
     fresh : bool, optional
