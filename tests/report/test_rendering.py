@@ -43,6 +43,16 @@ def test_a_table_that_is_too_wide_is_divided_between_groups() -> None:
     assert max(map(len, lines)) <= 38
 
 
+def test_a_table_without_groups_is_divided_between_columns() -> None:
+    model = Column("model", ["chain", "direct"])
+    parts = [Column(f"part {i}", np.array([1.0, 2.0])) for i in range(8)]
+    lines = as_text(Table("parts", [model, *parts]), width=30).splitlines()
+    heads = [line for line in lines if line.startswith("model")]
+    assert len(heads) == 3
+    assert " ".join(heads).count("part") == 8
+    assert max(map(len, lines)) <= 30
+
+
 def test_what_must_not_be_trusted_is_red() -> None:
     console = Console(width=80, record=True, force_terminal=True, color_system="standard")
     with console.capture() as capture:

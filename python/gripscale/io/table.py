@@ -246,12 +246,15 @@ class Table:
         yield from map(Text, self.notes)
 
     def _parts(self, width: int) -> Iterator[Sequence[Column]]:
-        """Yield all columns, or where they are too wide groups of them behind the keys."""
+        """Yield all columns, or where they are too wide as many as fit behind the keys.
+
+        Columns of a group stay together.
+        """
         if not self.columns or _width(self.columns, 1) <= width:
             yield from [self.columns] if self.columns else []
             return
         keys, part = list(self.columns[: self.keys]), list[Column]()
-        for _, group in itertools.groupby(self.columns[self.keys :], key=lambda c: c.group):
+        for _, group in itertools.groupby(self.columns[self.keys :], key=lambda c: c.group or id(c)):
             columns = list(group)
             if part and _width([*keys, *part, *columns], 1) > width:
                 yield [*keys, *part]
