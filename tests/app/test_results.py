@@ -13,6 +13,7 @@ from gripscale.analysis.comparison import save_reference
 from gripscale.app.elements import Folded, html, notice_elements
 from gripscale.app.run_tabs import ComparedRun, runs_table
 from gripscale.case import read_case, run_case
+from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.report import source
 from gripscale.report.elements import Element, Notice, Text
@@ -49,15 +50,16 @@ def results_elements(folder: Path) -> list[Element]:
 
 
 def test_measured_friction_is_drawn_with_what_is_predicted(ran: Path) -> None:
-    charts = {one.name: one.model for one in results_elements(ran) if isinstance(one, Chart)}
-    sources = [one.data_source.data for one in charts["measured-friction"].renderers]
+    charts = {one.name: one.figure for one in results_elements(ran) if isinstance(one, Chart)}
+    figure = model(charts["measured-friction"])
+    sources = [one.data_source.data for one in figure.renderers]
     pairs = [zip(data["x"], data["y"], strict=True) for data in sources if "x" in data]
     points = [point for pair in pairs for point in pair]
     assert {(0.1, 0.5), (1.0, 0.7), (1.0, 0.6)} <= set(points)
     predicted = [y for x, y in points if x == 0.3]
     assert len(predicted) == 2, "the chain and the direct contact"
     assert all(np.isfinite(predicted))
-    labels = [one.label.value for one in charts["measured-friction"].legend[0].items]
+    labels = [one.label.value for one in figure.legend[0].items]
     assert labels == [
         "measured, 20 °C",
         "measured, 40 °C",

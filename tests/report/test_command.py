@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
+import pytest
 from typer.testing import CliRunner
 
 from gripscale.cli import app
@@ -37,3 +40,20 @@ def test_place_that_cannot_be_written_is_named(run_folder: Path, tmp_path: Path)
     done = CliRunner().invoke(app, ["report", str(run_folder), "--output", str(target)])
     assert done.exit_code == 2
     assert "cannot be written" in done.stderr
+
+
+@pytest.mark.parametrize(("result", "more"), [("study_file", ["matplotlib"]), ("run_folder", [])])
+def test_page_imports_only_what_it_is_made_with(
+    result: str, more: list[str], request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    code = (
+        "import sys, gc, gripscale.report\n"
+        "gripscale.report.write_report(sys.argv[1], sys.argv[2])\n"
+        "assert gc.isenabled()\n"
+        "print(*sys.modules)"
+    )
+    path = request.getfixturevalue(result)
+    command = [sys.executable, "-c", code, str(path), str(tmp_path / "page.html")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    unneeded = {"bokeh.models", "fontTools.subset", "scipy.optimize", "rich", "typer", *more}
+    assert unneeded & set(done.stdout.split()) == set()

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from bokeh.models import ColumnDataSource
 
+from gripscale.charts.bokeh_parts import model
 from gripscale.charts.study import study_charts
 from gripscale.experiment import Study
 from gripscale.io import netcdf
@@ -123,7 +124,8 @@ def test_friction_by_relaxation_time_is_summed_up_and_never_falls(solved: Path) 
     data["friction_by_decade"] = alternating  # a series with no element in every other decade
     charts = study_charts(data)
     chart = next(one for one in charts if one.name == "friction_by_decade-over-decade")
-    curves = [np.asarray(one.data["y"]) for one in chart.model.select({"type": ColumnDataSource})]
+    sources = model(chart.figure).select({"type": ColumnDataSource})
+    curves = [np.asarray(one.data["y"]) for one in sources]
     full = [y for y in curves if y.size == parts.sizes["decade"]]
     assert full
     assert all((np.diff(y) >= 0.0).all() for y in full)

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy import special
 
 from gripscale.analysis import calibration_law as fit
 from gripscale.analysis import profile_likelihood as likelihood
@@ -117,7 +117,7 @@ class Calibration:
         """
         if not self.spread_known:
             return math.nan
-        return float(special.chdtrc(self.freedom, self.optimum.sum_of_squares))
+        return float(scipy.special.chdtrc(self.freedom, self.optimum.sum_of_squares))
 
     @property
     def threshold(self) -> float:
@@ -168,7 +168,9 @@ class Calibration:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
         tail = 0.5 * (1.0 + likelihood.LEVEL)
         return self.friction_error * float(
-            special.ndtri(tail) if self.spread_known else special.stdtrit(self.freedom, tail)
+            scipy.special.ndtri(tail)
+            if self.spread_known
+            else scipy.special.stdtrit(self.freedom, tail)
         )
 
     @cached_property

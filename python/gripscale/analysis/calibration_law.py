@@ -12,7 +12,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-import scipy.optimize
+import scipy
 
 from gripscale.analysis.measured_comparison import Predicted
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress

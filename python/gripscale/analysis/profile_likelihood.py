@@ -18,8 +18,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.optimize
-from scipy import special
+import scipy
 
 from gripscale.analysis.calibration_law import (
     Optimum,
@@ -146,9 +145,9 @@ class Profile:
 def threshold_of(optimum: Optimum, *, spread_known: bool) -> float:
     """Return the excess that ends an interval, with spreads known or taken from the residuals."""
     if spread_known:
-        return float(special.chdtri(1, 1.0 - LEVEL))
+        return float(scipy.special.chdtri(1, 1.0 - LEVEL))
     points, free = optimum.jacobian.shape
-    ratio = float(special.fdtri(1, points - free, LEVEL))
+    ratio = float(scipy.special.fdtri(1, points - free, LEVEL))
     return ratio * optimum.sum_of_squares / float(points - free)
 
 

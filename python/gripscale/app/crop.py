@@ -11,6 +11,7 @@ from bokeh.models import BoxSelectTool
 from gripscale.app.case import CaseState
 from gripscale.app.elements import chart_pane, column, in_worker
 from gripscale.case.prepare import raw_surface
+from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.surface import raw_chart
 from gripscale.core.errors import GripscaleError
@@ -64,8 +65,9 @@ class RawSurface:
         """Return the chart, on which a selection is the new crop."""
         of_map = self._state.get(("surface", "map")) is not None
         tool = BoxSelectTool(dimensions="both" if of_map else "width", renderers=[])
-        chart.model.add_tools(tool)
-        chart.model.toolbar.active_drag = tool
+        figure = model(chart.figure)
+        figure.add_tools(tool)
+        figure.toolbar.active_drag = tool
 
         def select(event: SelectionGeometry) -> None:
             if event.final:
@@ -74,8 +76,8 @@ class RawSurface:
                 if of_map:
                     self._state.set(("surface", "crop_across"), _range(ends["y0"], ends["y1"]))
 
-        chart.model.on_event(SelectionGeometry, select)
-        return chart_pane(chart)
+        figure.on_event(SelectionGeometry, select)
+        return chart_pane(chart, figure)
 
 
 def _range(first: float, last: float) -> list[str]:

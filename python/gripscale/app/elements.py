@@ -16,6 +16,7 @@ from typing import Any, ClassVar, TypeVar
 import panel as pn
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.report.elements import Card, Code, Element, Notice, Text, open_and_folded
 
@@ -85,11 +86,12 @@ def raw(markup: str, **options: Any) -> pn.pane.HTML:
     return pn.pane.HTML(markup, **(look | options))
 
 
-def chart_pane(chart: Chart) -> pn.Column:
-    """Return the pane of a chart and its caption."""
-    chart.model.html_attributes = {"role": "img", "aria-label": chart.alt}
-    figure = pn.pane.Bokeh(chart.model, sizing_mode="stretch_width", margin=(4, 8))
-    return column(figure, html(Text(chart.caption)), css_classes=["chart"])
+def chart_pane(chart: Chart, figure: Any = None) -> pn.Column:
+    """Return the pane of a chart and its caption; `figure` is its Bokeh model, if there is one."""
+    figure = figure or model(chart.figure)
+    figure.html_attributes = {"role": "img", "aria-label": chart.alt}
+    pane = pn.pane.Bokeh(figure, sizing_mode="stretch_width", margin=(4, 8))
+    return column(pane, html(Text(chart.caption)), css_classes=["chart"])
 
 
 def code(caption: str, text: str) -> pn.pane.HTML:

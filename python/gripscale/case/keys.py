@@ -17,7 +17,7 @@ from typing import Any
 
 from gripscale.case import tables
 from gripscale.case.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
-from gripscale.case.schema import expected, table_of
+from gripscale.case.schema import Table, expected, table_of
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
@@ -97,12 +97,13 @@ def sections() -> list[Section]:
 def _keys(law: type, page: str) -> Iterator[Key]:
     """Yield the keys of a table or a law, its own before those it shares with others."""
     table = table_of(law)
-    meanings = {} if table is law else {"kind": _about(law), **_field_texts(law)}
+    meanings = {"kind": _about(law)}
+    for source in [base for base in law.__mro__[:0:-1] if issubclass(base, Table)] + [law]:
+        meanings |= _field_texts(source)
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
         default = NEEDED if item.is_required() else _written(item.default)
-        meaning = meanings.get(name) or item.description or ""
-        yield Key(name, expected(item), default, meaning, CHAPTERS.get(name, page))
+        yield Key(name, expected(item), default, meanings.get(name, ""), CHAPTERS.get(name, page))
 
 
 def _field_texts(law: type) -> dict[str, str]:

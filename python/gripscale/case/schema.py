@@ -170,12 +170,11 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
 class Table(BaseModel):
     """One table of the case file: unknown keys are refused, values are not bent into shape.
 
-    The text below a key is its description, in the list of keys and in the documentation.
+    The text below a key is its meaning in the list of keys and in the documentation.
     """
 
-    model_config = ConfigDict(
-        extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True
-    )
+    # the tables that a case names are checked when it is read, the others never
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
 
 
 def _positive(value: float) -> float:

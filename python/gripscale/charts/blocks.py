@@ -222,7 +222,7 @@ def image(picture: Picture) -> Image:
     drawn, packed = io.BytesIO(), io.BytesIO()
     write_png(picture.figure, drawn, PICTURE_DPI)
     pixels = PIL.Image.open(drawn).convert("RGB")
-    pixels.quantize(SHADES).save(packed, "PNG", optimize=True)
+    pixels.quantize(SHADES).save(packed, "PNG")
     data = base64.b64encode(packed.getvalue()).decode("ascii")
     name = picture.name.replace("_", "-")
     return Image(name, picture.caption, picture.alt, data, "image/png", *pixels.size)

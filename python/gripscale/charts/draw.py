@@ -10,7 +10,8 @@ from gripscale.charts.chart import Panel, Sheet
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.page_elements import Chart
+    from gripscale.charts.page_elements import Chart, Image, Picture
+    from gripscale.charts.view import PredictionView
 
 
 def on_paper(sheet: Sheet) -> Figure:
@@ -32,3 +33,17 @@ def linked_on_page(panels: Sequence[Panel], name: str, caption: str, alt: str) -
     from gripscale.charts.page import draw_linked
 
     return draw_linked(panels, name, caption, alt)
+
+
+def image(picture: Picture) -> Image:
+    """Return a picture as a page holds it, drawn with matplotlib."""
+    from gripscale.charts import blocks
+
+    return blocks.image(picture)
+
+
+def blocks_image(prediction: PredictionView) -> Image:
+    """Draw the blocks of a prediction with matplotlib, as a page holds them."""
+    from gripscale.charts import blocks
+
+    return blocks.blocks_image(prediction)

@@ -1,4 +1,4 @@
-"""Charts on the page: draws a `Panel` with Bokeh, to be zoomed and read off under the pointer.
+"""Charts on the page: draws a `Panel` for Bokeh, to be zoomed and read off under the pointer.
 
 Bokeh: https://bokeh.org. Its core script, 1.3 MB, is a quarter of the size of Plotly's.
 """
@@ -10,22 +10,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from bokeh.layouts import gridplot
-from bokeh.models import (
-    BasicTickFormatter,
-    ColumnDataSource,
-    FixedTicker,
-    HoverTool,
-    LinearColorMapper,
-    LogTickFormatter,
-    Range1d,
-)
-from bokeh.models.annotations.geometry import BoxAnnotation, Span
-from bokeh.models.annotations.legends import ColorBar, LegendItem
-from bokeh.plotting import figure as Figure
+from bokeh.core.property.vectorization import Field, Value
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.charts import page_elements
+from gripscale.charts.bokeh_parts import Part, columns
 from gripscale.charts.chart import (
     Axis,
     Band,
@@ -42,9 +31,6 @@ from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, stretches
 from gripscale.core.arrays import Array
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
-TOOLS = "pan,box_zoom,wheel_zoom,reset,save"
-ALONG = "xpan,xbox_zoom,xwheel_zoom,reset,save"
-"""Tools of figures that are zoomed together along their abscissa; a drag draws a box."""
 LABELS = 70
 """Room for the numbers of the ordinates of linked figures [px], whose frames are aligned."""
 COLUMNS = 1000
@@ -64,7 +50,8 @@ MOST_HOVERED = 2000
 MOST_EXACT = 300
 """Points above which a curve is stored in single precision: enough to draw, half the size."""
 
-DASHES = {"dotted": "dotted", "dashed": "dashed", "dashdot": "dotdash", "solid": "solid"}
+DASHES = {"dotted": [2, 4], "dashed": [6], "dashdot": [2, 4, 6, 4], "solid": []}
+"""Lengths of dashes and gaps [px]."""
 MARKERS = {
     "o": "circle", ".": "circle", "s": "square", "^": "triangle", "v": "inverted_triangle",
     "D": "diamond", "P": "plus", "X": "x", "x": "x", "+": "cross", "<": "hex", "d": "diamond_cross",
@@ -74,20 +61,21 @@ MARKERS = {
 
 
 def draw_panel(panel: Panel) -> page_elements.Chart:
-    """Return a chart of the page: the panel's Bokeh figure, with its caption and alternative."""
+    """Return a chart of the page: the panel's figure, with its caption and alternative."""
     return page_elements.Chart(panel.name, panel.caption, panel.alt, _figure(panel, Store()))
 
 
 def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> page_elements.Chart:
     """Return panels below each other as one chart, zoomed together along their abscissa."""
     store = Store()
-    figures = [_figure(panel, store, tools=ALONG) for panel in panels]
-    for figure in figures[1:]:
-        figure.x_range = figures[0].x_range
+    figures = [_figure(panel, store, along=True) for panel in panels]
     for figure in figures:
-        figure.update(min_border_left=LABELS, toolbar_location=None)
-    figures[0].toolbar_location = "right"
-    column = gridplot([[figure] for figure in figures], sizing_mode="stretch_width")
+        figure.update(x_range=figures[0]["x_range"], min_border_left=LABELS, toolbar_location=None)
+    alike = zip(*(figure["toolbar"]["tools"][:4] for figure in figures), strict=True)
+    shared = [Part("ToolProxy", tools=list(tools)) for tools in alike]
+    toolbar = Part("Toolbar", tools=[*shared, Part("SaveTool")], logo=None, active_drag=shared[1])
+    rows = [(figure, row, 0) for row, figure in enumerate(figures)]
+    column = Part("GridPlot", children=rows, sizing_mode="stretch_width", toolbar=toolbar)
     return page_elements.Chart(name, caption, alt, column, wide=True)
 
 
@@ -95,40 +83,30 @@ class Store:
     """The columns that the outlines of a chart are drawn from, each array once."""
 
     def __init__(self) -> None:
-        self._sources: dict[int, Any] = {}
+        self._sources: dict[int, Part] = {}
         self._names: dict[int, str] = {}
 
-    def source(self, length: int) -> Any:
+    def source(self, length: int) -> Part:
         """Return the source of the columns of a length: all its columns must be equally long."""
-        return self._sources.setdefault(length, ColumnDataSource())
+        return self._sources.setdefault(length, columns({}))
 
     def name(self, values: ArrayLike) -> str:
         """Return the name of the column of an array."""
         if id(values) not in self._names:
             self._names[id(values)] = name = f"c{len(self._names)}"
-            self.source(np.size(values)).data[name] = np.asarray(values)
+            self.source(np.size(values))["data"][name] = np.asarray(values)
         return self._names[id(values)]
 
 
-def _figure(panel: Panel, store: Store, tools: str = TOOLS) -> Any:
-    figure = Figure(
-        height=panel.height,
-        sizing_mode="stretch_width",
-        match_aspect=panel.to_scale,
-        x_axis_type="log" if panel.x.log else "linear",
-        y_axis_type="log" if panel.y.log else "linear",
-        x_axis_label=spelled_out(panel.x.label),
-        y_axis_label=spelled_out(panel.y.label),
-        tools=tools,
-        active_drag=tools.split(",")[1],
-        toolbar_location="right",
-    )
-    _style(figure)
+def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
+    figure = Part("Figure", height=panel.height, sizing_mode="stretch_width",
+                  match_aspect=panel.to_scale, outline_line_color=None, renderers=[],
+                  toolbar=_toolbar(along), center=[], right=[], above=[_legend()])  # fmt: skip
     for which, axis in (("x", panel.x), ("y", panel.y)):
         # at equal scales Bokeh finds the limits
         free = replace(axis, low=None, high=None) if panel.to_scale else axis
         _set_axis(figure, which, free, _extent(panel.marks, which))
-    points: list[Any] = []
+    points: list[Part] = []
     for mark in panel.marks:
         match mark:
             case Series():
@@ -140,12 +118,7 @@ def _figure(panel: Panel, store: Store, tools: str = TOOLS) -> Any:
             case Band():
                 _draw_band(figure, mark, positive=panel.y.log)
             case Bars():
-                x0, x1, y0, y1 = np.broadcast_arrays(
-                    *np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1)
-                )
-                figure.quad(left=x0, right=x1, bottom=y0, top=y1, line_color=None,
-                            fill_color=mark.colour, fill_alpha=mark.alpha,
-                            **_labelled(mark.label))  # fmt: skip
+                _draw_bars(figure, mark)
             case CrossLine(to=None):
                 _draw_cross_line(figure, mark, panel)
             case CrossLine(to=float(end)):
@@ -153,40 +126,28 @@ def _figure(panel: Panel, store: Store, tools: str = TOOLS) -> Any:
                 look |= {"fill_alpha": 0.4, "level": "underlay"}
                 sides = ("left", "right") if mark.upright else ("bottom", "top")
                 look |= dict(zip(sides, (mark.at, end), strict=True))
-                figure.add_layout(BoxAnnotation(**look))
+                figure["center"].append(Part("BoxAnnotation", **look))
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
-        figure.line([np.nan] * 2, [np.nan] * 2, color=GREY, line_dash="dashed", legend_label=BEYOND)
-    if named := [point for point in points if point.name]:
+        _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND, line_color=GREY,
+                   line_dash=DASHES["dashed"])  # fmt: skip
+    if named := [point for point in points if point["name"]]:
         points = named
     if points:
         tips = [_tip(panel.x.label, "@x"), _tip(panel.y.label, "@y")]
         if sum(bool(curve.label) for curve in curves) > 1:
             tips.insert(0, ("curve", "$name"))
-        figure.add_tools(HoverTool(renderers=points, tooltips=tips))
-    if panel.legend == "none":
-        boxes = list(figure.legend)
-        figure.center = [part for part in figure.center if part not in boxes]
-    else:
-        _place_legend(figure)
+        figure["toolbar"]["tools"].append(Part("HoverTool", renderers=points, tooltips=tips))
+    _fit_legend(figure, wanted=panel.legend != "none")
     return figure
 
 
-def _style(figure: Any) -> None:
-    figure.toolbar.logo = None
-    figure.outline_line_color = None
-    figure.grid.grid_line_color = FAINT
-    for axis in figure.axis:
-        axis.axis_label_text_font = axis.major_label_text_font = FONT
-        axis.axis_label_text_font_style = "normal"
-        axis.axis_label_text_font_size = "13px"
-        axis.major_label_text_font_size = "12px"
-        axis.axis_line_color = axis.major_tick_line_color = INK
-        axis.axis_label_text_color = axis.major_label_text_color = INK
-        if isinstance(axis.formatter, LogTickFormatter):
-            axis.formatter.min_exponent = 4
-        else:
-            axis.minor_tick_line_color = None
+def _toolbar(along: bool) -> Part:
+    """Return the tools of a figure, `along` the abscissa only where it is zoomed with others."""
+    sides = "width" if along else "both"
+    moving = [Part(name, dimensions=sides) for name in ("PanTool", "BoxZoomTool", "WheelZoomTool")]
+    tools = [*moving, Part("ResetTool"), Part("SaveTool")]
+    return Part("Toolbar", tools=tools, active_drag=moving[1], logo=None)
 
 
 def _extent(marks: Sequence[Mark], which: str) -> Array:
@@ -210,107 +171,182 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
     return np.asarray(values[np.isfinite(values)])
 
 
-def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
-    """Set the limits of an axis and where its numbers stand."""
-    drawn, grid = getattr(figure, f"{which}axis"), getattr(figure, f"{which}grid")
-    limits = getattr(figure, f"{which}_range")
-    if axis.ticks is not None:
-        drawn.ticker = grid.ticker = FixedTicker(ticks=list(axis.ticks))
-        drawn.major_label_overrides = {at: spelled_out(name) for at, name in axis.ticks.items()}
+def _set_axis(figure: Part, which: str, axis: Axis, values: Array) -> None:
+    """Draw an axis with its grid: where its numbers stand, and its limits."""
+    kind = "Log" if axis.log else "Linear"
+    drawn = Part(
+        f"{kind}Axis",
+        axis_label=spelled_out(axis.label) or None,
+        axis_label_text_font=FONT,
+        axis_label_text_font_style="normal",
+        axis_label_text_font_size="13px",
+        axis_label_text_color=INK,
+        major_label_text_font=FONT,
+        major_label_text_font_size="12px",
+        major_label_text_color=INK,
+        axis_line_color=INK,
+        major_tick_line_color=INK,
+    )
+    if axis.log:
+        drawn.update(
+            ticker=Part("LogTicker", num_minor_ticks=10),
+            formatter=Part("LogTickFormatter", min_exponent=4),
+        )
+    else:
+        drawn.update(minor_tick_line_color=None)
+    grid = Part("Grid", axis=drawn, dimension="xy".index(which), grid_line_color=FAINT)
+    figure["center"].append(grid)
+    side = "below" if which == "x" else "left"
+    figure.update(**{side: [drawn], f"{which}_scale": Part(f"{kind}Scale")})
+    figure.update(**{f"{which}_range": _limits(which, axis, values)})
+    _set_ticks(drawn, axis, values)
+
+
+def _limits(which: str, axis: Axis, values: Array) -> Part:
+    """Return the limits of an axis, which Bokeh finds where they are not set."""
     if axis.low is not None and axis.high is not None:
         # room for markers at the ends, which Bokeh would cut
         ends = np.log([axis.low, axis.high]) if axis.log else np.array([axis.low, axis.high])
         ends += 0.02 * (ends[1] - ends[0]) * np.array([-1.0, 1.0])
         start, end = np.exp(ends) if axis.log else ends
-        setattr(figure, f"{which}_range", Range1d(start=float(start), end=float(end)))
-    elif not axis.log:
-        limited = {"start": axis.low, "end": axis.high}
-        limits.update(**{end: at for end, at in limited.items() if at is not None})
-    if axis.whole and values.size and axis.ticks is None:
-        whole = list(range(int(np.ceil(values.min())), int(values.max()) + 1))
-        drawn.ticker = grid.ticker = FixedTicker(ticks=whole)
-    values = values[values > 0.0]
-    if not axis.log or not values.size:
-        return
-    if which == "y" and (axis.low is None or axis.high is None):
+        return Part("Range1d", start=float(start), end=float(end))
+    limited = {"start": axis.low, "end": axis.high}
+    if axis.log:
+        values = values[values > 0.0]
+        if which == "x" or not values.size:
+            return Part("DataRange1d")
         room = max(LEAST_RANGE * values.min() / values.max(), 1.2) ** 0.5
-        limits.update(start=values.min() / room, end=values.max() * room)
-    if values.max() < 60.0 * values.min() and axis.ticks is None:
+        limited = {"start": float(values.min() / room), "end": float(values.max() * room)}
+    return Part("DataRange1d", **{end: at for end, at in limited.items() if at is not None})
+
+
+def _set_ticks(drawn: Part, axis: Axis, values: Array) -> None:
+    """Set where the numbers of an axis stand, if Bokeh would not find it well."""
+    if axis.ticks is not None:
+        names = {float(at): spelled_out(name) for at, name in axis.ticks.items()}
+        drawn.update(ticker=Part("FixedTicker", ticks=list(names)), major_label_overrides=names)
+        return
+    if axis.whole and values.size:
+        whole = list(range(int(np.ceil(values.min())), int(values.max()) + 1))
+        drawn.update(ticker=Part("FixedTicker", ticks=whole))
+    values = values[values > 0.0]
+    if axis.log and values.size and values.max() < 60.0 * values.min():
         # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1.
         first = int(np.floor(np.log10(values.min()))) - 1
         short = values.max() < 4.0 * values.min()
         steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9) if short else (1, 2, 5)
         ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
-        drawn.ticker = grid.ticker = FixedTicker(ticks=ticks)
-        drawn.formatter = BasicTickFormatter()
+        formatter = Part("BasicTickFormatter")
+        drawn.update(ticker=Part("FixedTicker", ticks=ticks), formatter=formatter)
 
 
-def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
+def _draw_glyph(figure: Part, source: Part, glyph: Part, label: str = "", name: str = "") -> Part:
+    """Draw the columns of a source, with an entry of the legend if there is a label."""
+    curve = Part("GlyphRenderer", data_source=source, glyph=glyph, name=name)
+    figure["renderers"].append(curve)
+    if label:
+        words = Value(spelled_out(label))
+        items = figure["above"][0]["items"]
+        for item in items:
+            if item["label"] == words:
+                item["renderers"].append(curve)
+                break
+        else:
+            items.append(Part("LegendItem", label=words, renderers=[curve]))
+    return curve
+
+
+def _draw_line(
+    figure: Part, x: ArrayLike, y: ArrayLike, label: str, name: str = "", **look: Any
+) -> Part:
+    source = columns({"x": x, "y": y})
+    return _draw_glyph(
+        figure, source, Part("Line", x=Field("x"), y=Field("y"), **look), label, name
+    )
+
+
+def _draw_series(figure: Part, series: Series, *, positive: bool) -> list[Part]:
     """Draw a curve, dashed beyond the measured band; return what shows its numbers."""
     x, y = _stored(series.x), _stored(series.y, positive=positive)
-    width, label = PIXELS * series.width, spelled_out(series.label)
-    look: dict[str, Any] = {"color": series.colour, "alpha": series.alpha, "name": label}
-    look |= _labelled(series.label)
-    drawn = []
+    width, name = PIXELS * series.width, spelled_out(series.label)
+    look: dict[str, Any] = {"line_color": series.colour, "line_alpha": series.alpha}
+    lines: list[Part] = []
+    points: list[Part] = []
     if series.low is not None and series.high is not None:
         low, high = _stored(series.low, positive=positive), _stored(series.high)
         ends = (low, y, high, y) if series.level_bars else (x, low, x, high)
-        figure.segment(*ends, line_width=1.6, **look)
+        source = columns(dict(zip(("x0", "y0", "x1", "y1"), ends, strict=True)))
+        bars = _glyph("Segment", source, line_width=1.6, **look)
+        _draw_glyph(figure, source, bars, series.label, name)
     if series.dash:
         for part, dashed in stretches(np.broadcast_to(series.beyond, x.shape)):
-            dash = "dashed" if dashed else DASHES[series.dash]
-            drawn.append(figure.line(x[part], y[part], line_width=width, line_dash=dash, **look))
+            dash = DASHES["dashed" if dashed else series.dash]
+            lines.append(_draw_line(figure, x[part], y[part], series.label, name,
+                                    line_width=width, line_dash=dash, **look))  # fmt: skip
     if series.marker:
         filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
         size = 4.5 if series.marker == "." else max(1.2 * PIXELS * series.size, LEAST_MARKER)
         for chosen, face in ((filled, series.colour), (~filled, "white")):
             if chosen.any():
-                drawn.append(figure.scatter(
-                    x[chosen], y[chosen], marker=MARKERS[series.marker], size=size,
+                source = columns({"x": x[chosen], "y": y[chosen]})
+                markers = _glyph(
+                    "Scatter", source, marker=MARKERS[series.marker], size=size,
                     line_width=max(width, 1.0) if series.marker in "x+|" else 1.2,
                     angle=0.5 * np.pi if series.marker == "|" else 0.0,
-                    **(look | {"fill_color": face}),
-                ))  # fmt: skip
-        drawn = [part for part in drawn if part.glyph.__class__.__name__ == "Scatter"]
-    return drawn if x.size <= MOST_HOVERED else []
+                    fill_color=face, fill_alpha=series.alpha, **look,
+                )  # fmt: skip
+                points.append(_draw_glyph(figure, source, markers, series.label, name))
+    return (points or lines) if x.size <= MOST_HOVERED else []
 
 
-def _draw_outline(figure: Any, outline: Outline, store: Store) -> None:
+def _glyph(kind: str, source: Part, **look: Any) -> Part:
+    """Return how all points of a source look, with an attribute for each of its columns."""
+    look = {name: Value(constant) for name, constant in look.items()}
+    return Part(kind, **{name: Field(name) for name in source["data"]}, **look)
+
+
+def _draw_outline(figure: Part, outline: Outline, store: Store) -> None:
     """Draw a curve in pieces; `templates/outlines.js` draws it anew as the reader zooms."""
     x, y = outline.drawn(COLUMNS)
-    columns = [store.name(values) for values in (outline.x, outline.low, outline.high)]
-    source = ColumnDataSource({"x": _stored(x), "y": _stored(y)})
-    source.tags = ["outline", store.source(np.size(outline.x)), *columns]
-    width = PIXELS * outline.width
-    figure.line("x", "y", source=source, color=outline.colour, line_width=width,
-                **_labelled(outline.label))  # fmt: skip
+    names = [store.name(values) for values in (outline.x, outline.low, outline.high)]
+    tags = ["outline", store.source(np.size(outline.x)), *names]
+    source = columns({"x": _stored(x), "y": _stored(y)}, tags=tags)
+    look = {"line_color": outline.colour, "line_width": PIXELS * outline.width}
+    _draw_glyph(figure, source, Part("Line", x=Field("x"), y=Field("y"), **look), outline.label)
 
 
-def _draw_field(figure: Any, field: ValueMap) -> None:
-    x, y = np.asarray(field.x), np.asarray(field.y)
-    values = np.asarray(field.values, dtype=np.float32)
-    palette = shades(256, "Inferno")
-    colours = LinearColorMapper(
-        palette=palette, low=0.0, high=float(np.nanmax(values)), nan_color="white"
-    )
+def _draw_field(figure: Part, drawn: ValueMap) -> None:
+    x, y = np.asarray(drawn.x), np.asarray(drawn.y)
+    values = np.asarray(drawn.values, dtype=np.float32)
+    palette, high = shades(256, "Inferno"), float(np.nanmax(values))
+    colours = Part("LinearColorMapper", palette=palette, low=0.0, high=high, nan_color="white")
     steps = float(x[1] - x[0]), float(y[1] - y[0])
-    figure.image(image=[values], x=float(x[0]), y=float(y[0]), dw=steps[0] * x.size,
-                 dh=steps[1] * y.size, color_mapper=colours)  # fmt: skip
-    bar = ColorBar(color_mapper=colours, title=spelled_out(field.label), title_text_font=FONT,
-                   title_text_font_style="normal")  # fmt: skip
-    figure.add_layout(bar, "right")
+    glyph = Part("Image", image=Field("image"), color_mapper=colours, x=Value(float(x[0])),
+                 y=Value(float(y[0])), dw=Value(steps[0] * x.size),
+                 dh=Value(steps[1] * y.size))  # fmt: skip
+    _draw_glyph(figure, columns({"image": [values]}), glyph)
+    figure["right"].append(Part("ColorBar", color_mapper=colours, title=spelled_out(drawn.label),
+                                title_text_font=FONT, title_text_font_style="normal"))  # fmt: skip
 
 
-def _draw_band(figure: Any, band: Band, *, positive: bool) -> None:
+def _draw_band(figure: Part, band: Band, *, positive: bool) -> None:
     arrays = np.broadcast_arrays(_stored(band.x), _stored(band.low, positive=positive), band.high)
     finite = np.isfinite(arrays).all(axis=0)
     x, low, high = (array[finite] for array in arrays)
-    look = {"fill_color": band.colour, "fill_alpha": band.alpha} | _labelled(band.label)
     if x.size:
-        figure.varea(x=x, y1=low, y2=high, **look)
+        area = Part("VArea", x=Field("x"), y1=Field("y1"), y2=Field("y2"),
+                    fill_color=band.colour, fill_alpha=band.alpha)  # fmt: skip
+        _draw_glyph(figure, columns({"x": x, "y1": low, "y2": high}), area, band.label)
 
 
-def _draw_cross_line(figure: Any, line: CrossLine, panel: Panel) -> None:
+def _draw_bars(figure: Part, bars: Bars) -> None:
+    ends = np.broadcast_arrays(*np.atleast_1d(bars.x0, bars.x1, bars.y0, bars.y1))
+    source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
+    look = {"fill_color": bars.colour, "fill_alpha": bars.alpha}
+    _draw_glyph(figure, source, _glyph("Quad", source, line_color=None, **look), bars.label)
+
+
+def _draw_cross_line(figure: Part, line: CrossLine, panel: Panel) -> None:
     """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
     look: dict[str, Any] = {
         "line_color": line.colour,
@@ -318,16 +354,11 @@ def _draw_cross_line(figure: Any, line: CrossLine, panel: Panel) -> None:
         "line_width": PIXELS * line.width,
     }
     if line.upright:
-        figure.add_layout(Span(location=line.at, dimension="height", **look))
+        figure["center"].append(Part("Span", location=line.at, dimension="height", **look))
     across = [end for end in (panel.x.low, panel.x.high) if end is not None]
     x = across or _extent(panel.marks, "x")
     ends = [np.nan] * 2 if line.upright or not len(x) else [min(x), max(x)]
-    figure.line(ends, [line.at] * 2, **look, **_labelled(line.label))
-
-
-def _labelled(label: str) -> dict[str, Any]:
-    """Return the entry of the legend, if there is one."""
-    return {"legend_label": spelled_out(label)} if label else {}
+    _draw_line(figure, ends, [line.at] * 2, line.label, **look)
 
 
 def _stored(values: ArrayLike, *, positive: bool = False) -> NDArray[Any]:
@@ -344,19 +375,21 @@ def _tip(label: str, value: str) -> tuple[str, str]:
     return words or value.removeprefix("@"), value if unit in ("-", "") else f"{value} {unit}"
 
 
-def _place_legend(figure: Any) -> None:
-    """Move the legend above the frame; a click on an entry hides or shows its curve."""
-    for box in list(figure.legend):
-        figure.center = [part for part in figure.center if part is not box]
-        items = [item for item in box.items if isinstance(item, LegendItem)]
-        longest = max((len(str(getattr(item.label, "value", ""))) for item in items), default=1)
-        box.ncols = min(max(LEGEND_WIDTH // (6 * longest + 33), 1), 4)
-        box.orientation = "horizontal"
-        box.click_policy = "hide"
-        box.label_text_font = FONT
-        box.label_text_font_size = "12px"
-        box.border_line_color = None
-        box.update(padding=2, margin=0, spacing=8)
-        figure.add_layout(box, "above")
-        rows = -(-len(items) // box.ncols)
-        figure.update(height=figure.height + LEGEND_ROW * max(rows - 2, 0))
+def _legend() -> Part:
+    """Return the legend above the frame; a click on an entry hides or shows its curve."""
+    return Part("Legend", items=[], orientation="horizontal", click_policy="hide", padding=2,
+                margin=0, spacing=8, border_line_color=None, label_text_font=FONT,
+                label_text_font_size="12px")  # fmt: skip
+
+
+def _fit_legend(figure: Part, *, wanted: bool) -> None:
+    """Give the legend as many columns as it has room for, and the figure room for its rows."""
+    (legend,) = figure["above"]
+    words = [item["label"]["value"] for item in legend["items"]]
+    if not words or not wanted:
+        figure.update(above=[])
+        return
+    fitting = min(max(LEGEND_WIDTH // (6 * max(map(len, words)) + 33), 1), 4)
+    legend.update(ncols=fitting)
+    rows = -(-len(words) // fitting)
+    figure.update(height=figure["height"] + LEGEND_ROW * max(rows - 2, 0))

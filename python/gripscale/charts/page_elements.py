@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import xarray as xr
@@ -15,15 +15,17 @@ from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, WHY_NO_EXP
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from gripscale.charts.bokeh_parts import Part
+
 
 @dataclass(frozen=True)
 class Chart:
-    """An interactive figure: a Bokeh model, its caption and a text for who cannot see it."""
+    """An interactive figure: its part for Bokeh, caption and a text for who cannot see it."""
 
     name: str
     caption: str
     alt: str
-    model: Any
+    figure: Part
     wide: bool = False
     kind: ClassVar[str] = "chart"
 

@@ -11,7 +11,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis as DrawnAxis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
@@ -370,6 +369,7 @@ def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
 
     Raises `FileError` if one cannot be written.
     """
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf  # brings fontTools: not for pages
 
     def write_pdf(target: Path) -> None:
         with mpl.rc_context(RULES):

@@ -27,7 +27,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask

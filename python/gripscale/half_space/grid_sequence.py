@@ -48,7 +48,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.half_space.active_set import TOLERANCE, OnIteration, solve_grid

@@ -18,7 +18,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from gripscale.core import checks
 from gripscale.core.errors import InputError
@@ -213,7 +213,7 @@ def _equivalent_slope(before: CutOffContact, last: CutOffContact) -> float:
     least, most = (math.log(slope) for slope in SLOPES)
     if not (last.slope > 0.0 and excess(least) * excess(most) < 0.0):
         return math.nan
-    return math.exp(brentq(excess, least, most, xtol=SLOPE_ERROR))
+    return math.exp(scipy.optimize.brentq(excess, least, most, xtol=SLOPE_ERROR))
 
 
 def _diffused(contact: RoughContact, law: PowerLaw, down_to: float) -> DiffusionResult:

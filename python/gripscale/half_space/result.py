@@ -26,10 +26,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
-from scipy import ndimage, sparse
-from scipy.sparse import csgraph
 
 import gripscale
 from gripscale.conditions.area_term import heat_left_out
@@ -63,7 +62,7 @@ def patch_points(active: Mask) -> NDArray[np.int64]:
 
     Points belong together if they are neighbours along x or y, across the period too.
     """
-    labels, count = ndimage.label(active)
+    labels, count = scipy.ndimage.label(active)
     first, second = [], []
     for axis in range(active.ndim):
         ends = np.take(labels, 0, axis=axis), np.take(labels, -1, axis=axis)
@@ -71,8 +70,8 @@ def patch_points(active: Mask) -> NDArray[np.int64]:
         first.append(ends[0][adjacent])
         second.append(ends[1][adjacent])
     rows, columns = np.concatenate(first) - 1, np.concatenate(second) - 1
-    joined = sparse.coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
-    number, patch = csgraph.connected_components(joined, directed=False)
+    joined = scipy.sparse.coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
+    number, patch = scipy.sparse.csgraph.connected_components(joined, directed=False)
     sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
     return np.sort(np.bincount(patch, weights=sizes, minlength=number).astype(np.int64))[::-1]
 

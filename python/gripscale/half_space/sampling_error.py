@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array

@@ -47,7 +47,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-import scipy.fft
+import scipy
 import xarray as xr
 
 from gripscale.conditions.conditions import state_by_scale

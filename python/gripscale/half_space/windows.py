@@ -12,7 +12,7 @@ from itertools import product
 from typing import Any, TypeVar
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array

@@ -6,6 +6,9 @@ images, so it opens without a network, and its content security policy forbids i
 
 from __future__ import annotations
 
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from gripscale.core.errors import InputError
@@ -33,13 +36,26 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     InputError
         If the libraries of `gripscale[report]` are not installed.
     """
+    with _uncollected():
+        try:
+            from gripscale.report.build import build
+        except ModuleNotFoundError as error:
+            if (error.name or "").partition(".")[0] not in EXTRA:
+                raise
+            raise InputError(
+                f"a report needs {error.name}, which is not installed; "
+                "install it with: pip install 'gripscale[report]'"
+            ) from error
+        return build(Path(result), None if output is None else Path(output))
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Look for no garbage meanwhile: imports and a page leave little, and to look takes a tenth."""
+    collecting = gc.isenabled()
+    gc.disable()
     try:
-        from gripscale.report.build import build
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in EXTRA:
-            raise
-        raise InputError(
-            f"a report needs {error.name}, which is not installed; "
-            "install it with: pip install 'gripscale[report]'"
-        ) from error
-    return build(Path(result), None if output is None else Path(output))
+        yield
+    finally:
+        if collecting:
+            gc.enable()

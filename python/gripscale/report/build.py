@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import json
 from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
 
-from bokeh.core.types import ID
-from bokeh.embed import json_item
 from bokeh.resources import Resources
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
+from gripscale.charts.bokeh_parts import document
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
 from gripscale.report.elements import Page
@@ -42,13 +40,15 @@ def build(result: Path, output: Path | None) -> Path:
 
 def render(page: Page) -> str:
     """Return `page` as HTML; all texts in it are escaped by the template."""
-    items = [json_item(chart.model, ID(f"plot-{chart.name}")) for chart in page.charts]
     library, script = _bokeh(), "\n".join(map(_template_file, ("outlines.js", "page.js")))
     style = "\n".join(map(_template_file, ("page.css", "elements.css", "media.css")))
     return _template().render(
         page=page,
         # the template turns plain data into JSON without any markup
-        figures=[json.loads(json.dumps(item, allow_nan=False)) for item in items],
+        figures={
+            "places": {chart.figure.id: f"plot-{chart.name}" for chart in page.charts},
+            "document": document([chart.figure for chart in page.charts]),
+        },
         library=Markup(library),
         style=Markup(style),
         script=Markup(script),
@@ -66,7 +66,11 @@ def _template() -> Template:
         lstrip_blocks=True,
     )
     # Bokeh's figures name an object where it first occurs: the order of keys matters.
-    environment.policies["json.dumps_kwargs"] = {"sort_keys": False, "separators": (",", ":")}
+    environment.policies["json.dumps_kwargs"] = {
+        "sort_keys": False,
+        "separators": (",", ":"),
+        "allow_nan": False,
+    }
     return environment.get_template("page.html")
 
 

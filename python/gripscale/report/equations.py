@@ -1,6 +1,7 @@
-"""The equations of the method, set by matplotlib as SVG.
+"""The equations of the method, with pictures that matplotlib has set as SVG.
 
 MathML would need no pictures, but browsers set it badly where no mathematical font is installed.
+`python -m gripscale.report.equations` draws the pictures anew, for equations that have changed.
 """
 
 from __future__ import annotations
@@ -9,10 +10,9 @@ import base64
 import io
 import re
 from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
 from typing import Any
-
-import matplotlib as mpl
-from matplotlib.figure import Figure
 
 from gripscale.report.elements import Equation
 
@@ -109,13 +109,29 @@ _EQUATIONS = [
 def equations() -> tuple[Equation, ...]:
     """Return the equations of the method, in the order of the chain."""
     return tuple(
-        Equation(name, latex, *_svg(latex), words, source)
+        Equation(name, latex, *_embedded(picture(name)), words, source)
         for name, latex, words, source in _EQUATIONS
     )
 
 
-def _svg(latex: str) -> tuple[str, int, int]:
-    """Return `latex` as an SVG picture, base64, with width and height [px]."""
+def picture(name: str) -> str:
+    """Return the picture of an equation, SVG."""
+    stored = files("gripscale.report").joinpath("templates", "equations", f"{name}.svg")
+    return stored.read_text(encoding="utf-8")
+
+
+def _embedded(svg: str) -> tuple[str, int, int]:
+    """Return a picture in base64, with width and height [px]."""
+    sizes = [re.search(rf'<svg[^>]* {side}="([\d.]+)pt"', svg) for side in ("width", "height")]
+    width, height = (round(float(size[1]) * 4.0 / 3.0) for size in sizes if size is not None)
+    return base64.b64encode(svg.encode("utf-8")).decode("ascii"), width, height
+
+
+def draw(latex: str) -> str:
+    """Return an equation as SVG; its LaTeX stands in it as a comment."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
     rules: Any = {"mathtext.fontset": "stix", "svg.hashsalt": "gripscale", "svg.fonttype": "path"}
     drawn = io.StringIO()
     with mpl.rc_context(rules):
@@ -128,7 +144,11 @@ def _svg(latex: str) -> tuple[str, int, int]:
             "transparent": True,
         }
         figure.savefig(drawn, metadata={"Date": None, "Creator": None}, **look)
-    text = drawn.getvalue()
-    sizes = [re.search(rf'<svg[^>]* {side}="([\d.]+)pt"', text) for side in ("width", "height")]
-    width, height = (round(float(size[1]) * 4.0 / 3.0) for size in sizes if size is not None)
-    return base64.b64encode(text.encode("utf-8")).decode("ascii"), width, height
+    return drawn.getvalue()
+
+
+if __name__ == "__main__":
+    folder = Path(__file__).parent / "templates" / "equations"
+    folder.mkdir(exist_ok=True)
+    for name, latex, *_ in _EQUATIONS:
+        (folder / f"{name}.svg").write_text(draw(latex), encoding="utf-8")

@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case.run import KEY
-from gripscale.charts.blocks import blocks_image, image
 from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.cut_off import cut_off_charts
 from gripscale.charts.design import design_pictures
 from gripscale.charts.direct_contact import contact_pictures
+from gripscale.charts.draw import blocks_image, image
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
 from gripscale.charts.rubber import rubber_charts

@@ -14,10 +14,8 @@ from gripscale.analysis.cut_off_curve import FILE as CUT_OFF
 from gripscale.analysis.cut_off_curve import FRICTION as CURVE
 from gripscale.analysis.effects import stored_effects
 from gripscale.analysis.friction_sensitivity import LOSS as SENSITIVITY
-from gripscale.analysis.measured_comparison import friction_of_case
 from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
 from gripscale.case.folder import CASE
-from gripscale.case.read import read_case
 from gripscale.charts.ladder import varied
 from gripscale.charts.view import PredictionView
 from gripscale.core.errors import FileError
@@ -217,7 +215,13 @@ def _read_folder(folder: Path) -> Source:
 
 def _measured(case: Path) -> MeasuredFriction | None:
     """Read the measured friction that a saved case names; none without one."""
-    return friction_of_case(read_case(case)) if case.is_file() else None
+    if not case.is_file() or b"measured" not in case.read_bytes():
+        return None
+    # to import what reads a case takes longer than to read all results
+    from gripscale.analysis.measured_comparison import friction_of_case
+    from gripscale.case.read import read_case
+
+    return friction_of_case(read_case(case))
 
 
 def _comparisons(folder: Path) -> Compared:

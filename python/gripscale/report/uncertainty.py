@@ -23,7 +23,7 @@ from gripscale.analysis.propagation import (
 from gripscale.analysis.sampled_answer import NOT_ALONE, ROAD, RUN
 from gripscale.analysis.sources import LABELS, STATED
 from gripscale.analysis.variance_shares import SIGNIFICANCE
-from gripscale.charts.blocks import image
+from gripscale.charts.draw import image
 from gripscale.charts.uncertainty import axis_of, uncertainty_pictures
 from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.experiment.axis import name_of

@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.surface.profile import Profile

@@ -1,14 +1,13 @@
 "use strict";
 
-// Draws the figures from the data blocks of the page, then says so on <html data-drawn>.
+// Draws the figures from the data block of the page, then says so on <html data-drawn>.
 async function drawAll() {
-  const figures = JSON.parse(document.getElementById("figures").textContent);
-  for (const figure of figures) {
-    await Bokeh.embed.embed_item(figure);
-  }
+  const {places, document: figures} = JSON.parse(document.getElementById("figures").textContent);
+  const item = {docid: "figures", roots: places, root_ids: Object.keys(places)};
+  await Bokeh.embed.embed_items({figures}, [item]);
   const roots = Bokeh.documents.flatMap(each => each.roots());
   watchOutlines(new Set(roots.flatMap(root => [...root.references()])));
-  document.documentElement.dataset.drawn = String(figures.length);
+  document.documentElement.dataset.drawn = String(roots.length);
 }
 
 // Remembers the width of each figure for the print stylesheet.

@@ -1,0 +1,66 @@
+"""Figures as BokehJS reads them: parts with a type and attributes, without Bokeh's Python classes.
+
+Bokeh's own serializer writes a part as it writes its models. Its classes would be imported, filled
+and checked for every page, which takes longer than all else on it. `model` has Bokeh read a part,
+which checks it. Types and attributes:
+https://docs.bokeh.org/en/latest/docs/reference/models.html.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import count
+from typing import Any
+
+from bokeh import __version__
+from bokeh.core.serialization import Deserializer, Serializable, Serializer
+from numpy.typing import ArrayLike, NDArray
+
+_NUMBERS = count(1)
+
+
+class Part(Serializable):
+    """A part of a figure: the type that BokehJS has for it, and attributes other than default."""
+
+    def __init__(self, kind: str, /, **attributes: Any) -> None:
+        self.kind = kind
+        self.id = f"g{next(_NUMBERS)}"
+        self.attributes = attributes
+
+    def __getitem__(self, name: str) -> Any:
+        return self.attributes[name]
+
+    def update(self, **attributes: Any) -> None:
+        """Set attributes."""
+        self.attributes |= attributes
+
+    def to_serializable(self, serializer: Any) -> Any:
+        """Return the part as data; where it occurs again, Bokeh's serializer refers to it."""
+        serializer.add_ref(self, {"id": self.id})
+        attributes = {name: serializer.encode(value) for name, value in self.attributes.items()}
+        return {"type": "object", "name": self.kind, "id": self.id, "attributes": attributes}
+
+
+def columns(values: Mapping[str, ArrayLike | list[NDArray[Any]]], **attributes: Any) -> Part:
+    """Return the source of columns of equal length."""
+    return Part("ColumnDataSource", data=dict(values), **attributes)
+
+
+def document(roots: Sequence[Part]) -> dict[str, Any]:
+    """Return figures as a document of Bokeh, plain data for JSON."""
+    return {"version": __version__, "title": "", "config": None, "roots": _encoded(list(roots))}
+
+
+def model(root: Part) -> Any:
+    """Return a figure as Bokeh's model, for a server.
+
+    Raises Bokeh's `DeserializationError` for a type that it does not have and `ValueError` for a
+    value; of an attribute that it does not have it logs a warning.
+    """
+    import bokeh.plotting  # noqa: F401 - has the type Figure
+
+    return Deserializer().deserialize(_encoded(root))
+
+
+def _encoded(parts: Part | list[Part]) -> Any:
+    return Serializer(deferred=False).encode(parts)

@@ -1,0 +1,100 @@
+"""Figures as data for BokehJS: Bokeh knows every type and attribute, and reads the same numbers."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bokeh.core.serialization import DeserializationError
+
+from gripscale.charts import draw
+from gripscale.charts.bokeh_parts import Part, document, model
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    Bars,
+    CrossLine,
+    Outline,
+    Panel,
+    Series,
+    ValueMap,
+)
+from gripscale.report.pages import page_of
+from gripscale.report.source import read_result
+
+X = np.array([1.0, 2.0, 4.0])
+MARKS = [
+    Series(X, 2.0 * X, label="$\\mu$", marker="o", low=X, high=3.0 * X, beyond=[0, 0, 1]),
+    Outline(np.linspace(1.0, 4.0, 5000), np.full(5000, 1.0), np.full(5000, 2.0)),
+    Band(X, X, 3.0 * X, label="range"),
+    Bars(X, X + 1, 1, 2, label="bars"),
+    CrossLine(2.0, label="limit"),
+    CrossLine(2.0, upright=True, dash="dotted"),
+    CrossLine(2.0, upright=True, to=3.0),
+    ValueMap(X, X, np.eye(3), "p"),
+]
+
+
+@pytest.fixture(autouse=True)
+def silence(caplog: pytest.LogCaptureFixture) -> Iterator[None]:
+    """Bokeh logs an attribute that it has not."""
+    logger = logging.getLogger("bokeh.core.has_props")
+    logger.addHandler(caplog.handler)
+    with caplog.at_level(logging.WARNING, logger.name):
+        yield
+    logger.removeHandler(caplog.handler)
+    assert caplog.get_records("call") == []
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
+    axis = Axis("$x$ [mm]", log=log, ticks={1.0: "first"})
+    panels = [Panel(axis, Axis("y", log=log), MARKS), Panel(Axis("x", low=1.0, high=4.0), axis)]
+    figure, empty = (model(chart.figure) for chart in draw.on_page(panels))
+    drawn = {each.glyph.__class__.__name__ for each in figure.renderers}
+    assert drawn == {"Image", "Line", "Quad", "Scatter", "Segment", "VArea"}
+    named = [item.label.value for item in figure.legend[0].items]
+    assert named == ["μ", "range", "bars", "limit", "beyond the measured band"]
+    (points,) = (each for each in figure.renderers if each.glyph.__class__.__name__ == "Scatter")
+    assert points.data_source.data["y"].tolist() == [2.0, 4.0, 8.0]
+    assert empty.legend == []
+    assert (empty.x_range.start, empty.x_range.end) == pytest.approx((0.94, 4.06))
+
+
+def test_bokeh_has_every_attribute_of_linked_panels() -> None:
+    panels = [Panel(Axis("x"), Axis("y"), MARKS[:2])] * 2
+    column = model(draw.linked_on_page(panels, "linked", "", "").figure)
+    first, second = (figure for figure, *_ in column.children)
+    assert first.x_range is second.x_range
+    assert [len(each.tools) for each in column.toolbar.tools[:4]] == [2] * 4
+
+
+def test_bokeh_has_every_attribute_of_the_pages(
+    run_folder: Path, compared_folder: Path, study_file: Path
+) -> None:
+    for path in (run_folder, compared_folder, study_file):
+        charts = page_of(read_result(path)).charts
+        assert charts
+        for chart in charts:
+            assert model(chart.figure).id == chart.figure.id
+
+
+def test_bokeh_refuses_what_it_has_not(caplog: pytest.LogCaptureFixture) -> None:
+    model(Part("Span", colour="red"))
+    assert "colour" in caplog.text
+    caplog.clear()
+    with pytest.raises(DeserializationError, match="Spam"):
+        model(Part("Spam"))
+    with pytest.raises(ValueError, match="line_width"):
+        model(Part("Span", line_width="red"))
+
+
+def test_a_part_stands_once_in_a_document() -> None:
+    shared = Part("Range1d", start=0.0, end=1.0)
+    plots = [Part("Plot", x_range=shared), Part("Plot", x_range=shared)]
+    first, second = document(plots)["roots"]
+    assert first["attributes"]["x_range"]["attributes"] == {"start": 0.0, "end": 1.0}
+    assert second["attributes"]["x_range"] == {"id": shared.id}
