@@ -291,7 +291,8 @@ def _superposed(
     if reference is None and not single:
         raise InputError(
             f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
-            f"{len(sweeps)} temperatures to be shifted to"
+            f"{len(sweeps)} temperatures to be shifted to",
+            missing="reference_temperature",
         )
     master, report = superpose_report(
         sweeps,
@@ -310,7 +311,8 @@ def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> Non
             f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
             f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
             f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
-            "frequencies do"
+            "frequencies do",
+            missing="shift",
         )
 
 
@@ -323,7 +325,8 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
         where = source.name or source.measured_files[0]
         raise InputError(
             f"{where}: reference_temperature must be given with shift, such as "
-            '"20 C": the master curve does not state what it holds for'
+            '"20 C": the master curve does not state what it holds for',
+            missing="reference_temperature",
         )
     return replace(rubber, shift=shift)
 

@@ -7,7 +7,6 @@ proposal is a doubt with a weight: how far the answer may be off if it is wrong.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
@@ -26,7 +25,8 @@ from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.surface import HeightMap, Profile, profile_warnings, read_map, read_profile
+from gripscale.surface import HeightMap, Profile, read_map, read_profile
+from gripscale.surface.plausibility import has_likely_units
 from gripscale.surface.read import TEXT_SUFFIXES
 from gripscale.surface.supports import road_between, support_plates
 
@@ -103,17 +103,9 @@ def _read_with(
         try:
             return read(path, **options, **asked), asked
         except GripscaleError as error:
-            key = next(
-                (
-                    name
-                    for name in defaults.keys() - asked
-                    if re.search(rf"\bgive {name}\b|\b{name} must be given", str(error))
-                ),
-                None,
-            )
-            if key is None:
+            if error.missing not in defaults.keys() - asked:
                 raise
-            asked[key] = defaults[key]
+            asked[error.missing] = defaults[error.missing]
 
 
 def surface_proposal(
@@ -178,7 +170,7 @@ def open_surface(
         except GripscaleError as error:
             refusals.append(error)
     # a file of many columns was meant as a map
-    raise next((e for e in refusals if "table of heights has no steps" in str(e)), refusals[0])
+    raise next((e for e in refusals if e.missing == "step"), refusals[0])
 
 
 def _likely_units(
@@ -193,8 +185,7 @@ def _likely_units(
         surface = read(path, **options, **units)
         middle = surface.z.shape[-1] // 2
         line = surface.line(middle) if isinstance(surface, HeightMap) else surface
-        usual = SHORTEST <= line.length <= LONGEST
-        return usual and not any("unit of" in text for text in profile_warnings(line))
+        return SHORTEST <= line.length <= LONGEST and has_likely_units(line)
 
     choices = [
         dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import shlex
 from collections.abc import Iterator
 from enum import StrEnum
@@ -250,11 +249,11 @@ def fit_rubber(
     try:
         prepared = prepare_rubber(source)
     except InputError as error:
-        # a key of a case it names is an option here
-        key = r"\b([a-z_]+)(?= must (be given|name|give|say)\b)"
-        raise InputError(
-            re.sub(key, lambda match: f"--{match[1].replace('_', '-')}", str(error))
-        ) from error
+        words = str(error)
+        if error.missing:  # a key of a case, which is an option here
+            key = f"{error.missing} must"
+            words = words.replace(key, f"--{key.replace('_', '-')}")
+        raise InputError(words) from error
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     findings = () if prepared.fit is None else prepared.fit.findings

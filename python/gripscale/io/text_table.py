@@ -157,7 +157,8 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
         if len(full) > 1:
             raise InputError(
                 f"{path}: sheet must be given, because {len(full)} sheets hold rows of numbers "
-                f"({', '.join(full)})"
+                f"({', '.join(full)})",
+                missing="sheet",
             )
         return sheets[full[0]] if full else next(iter(sheets.values()))
     if isinstance(sheet, str):
