@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from itertools import product
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -118,7 +119,7 @@ def surface_proposal(
     """
     proposal = Proposal()
     options: dict[str, Any] = _step_option(step)
-    surface, missing = open_surface(paths[0], step)
+    surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE)
     if isinstance(surface, HeightMap):
         if len(paths) > 1:
             raise InputError(f"expected one map, or profiles; got {paths[0]} and {paths[1]}")
@@ -153,24 +154,27 @@ def _step_option(step: str | list[str] | None) -> dict[str, Any]:
 
 
 def open_surface(
-    path: Path, step: str | list[str] | None = None
+    path: Path,
+    step: str | list[str] | None = None,
+    defaults: Mapping[str, str] = MappingProxyType({}),
+    **units: str,
 ) -> tuple[Profile | HeightMap, dict[str, str]]:
-    """Return the profile or the map of a file, and the units it does not state, by default mm.
+    """Return the profile or the map of a file, and those of the `defaults` that it needs.
 
-    Raises `FileError` and `InputError` as reading does.
+    Further `units` are those of reading. Raises `FileError` and `InputError` as reading does.
     """
-    options = _step_option(step)
+    options = _step_option(step) | units
     # an instrument's map has profiles, too; a text with a distance and a height is no map
     is_text = path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL)
     readers = (read_profile, read_map) if is_text else (read_map, read_profile)
     refusals = []
     for read in readers:
         try:
-            return _read_with(read, path, UNITS_OF_SURFACE, **options)
+            return _read_with(read, path, defaults, **options)
         except GripscaleError as error:
             refusals.append(error)
-    # a file of many columns was meant as a map
-    raise next((e for e in refusals if e.missing == "step"), refusals[0])
+    # a reader that only misses a key is the right one
+    raise next((error for error in refusals if error.missing), refusals[0])
 
 
 def _likely_units(

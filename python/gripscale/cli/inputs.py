@@ -21,7 +21,7 @@ from gripscale.cli.terminal import (
     print_wrapped,
     screen,
 )
-from gripscale.core.errors import InputError
+from gripscale.core.errors import InputError, about_keys
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -146,16 +146,20 @@ def fit_surface(
         values["crop"] = list(crop)
     if step is not None:
         values["step"] = lengths_of(step)
-    if len(files) == 1 and isinstance(
-        open_surface(Path(files[0]), values.get("step"))[0], HeightMap
-    ):
+    raw = None
+    if len(files) == 1:
+        units = {key: values[key] for key in ("x_unit", "z_unit") if key in values}
+        with about_keys("surface"):
+            measured, _ = open_surface(Path(files[0]), values.get("step"), **units)
+        raw = measured if isinstance(measured, HeightMap) else [measured]
+    if isinstance(raw, HeightMap):
         values["map"] = values.pop("files")[0]
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
         folder.require_writable(output)
-    prepared = prepare_surface(surface)
+    prepared = prepare_surface(surface, raw=raw)
     console = screen()
     sines = prepared.sines
     parts: list[str | Table] = [
