@@ -102,6 +102,23 @@ def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
     assert [(row["point"], row["gain [-]"]) for row in rows(design)] == [(0, 0.1), (1, 0.2)]
 
 
+def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
+    words = np.array(["converged", "converged"], dtype=object)
+    comparison = xr.Dataset(
+        {
+            "status": ("rung", words),
+            "best_friction": ((), 0.2, UNIT),
+            "best_friction_half_width": ((), 0.1, UNIT),
+            "cutoff_wavelength": ((), 1e-4, {"units": "m"}),
+        },
+        {"rung": ["chain", "direct"]},
+    )
+    chain, direct = rows(comparison)
+    assert (chain["best_friction [-]"], direct["best_friction [-]"]) == (None, 0.2)
+    assert chain["best_friction_low [-]"] is None
+    assert chain["cutoff_wavelength [m]"] == direct["cutoff_wavelength [m]"] == 1e-4
+
+
 def test_excel_reads_it(tmp_path: Path) -> None:
     assert write_summary([], tmp_path) is None
     path = write_summary([study()], tmp_path)

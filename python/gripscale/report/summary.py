@@ -1,7 +1,8 @@
 """The answers of a command as one flat table for Excel: a row for each, all its numbers in it.
 
 A row is a place on the dimensions of the status of a result: a prediction, a model of a comparison,
-a point of a study. What holds for several rows stands in each of them.
+a point of a study. What holds for several rows stands in each of them; of models side by side, the
+best estimate in that of the direct contact.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.intervals import interval_ends
+from gripscale.analysis.ladder import DIRECT
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import INPUT_DOUBTS, STATUS
@@ -22,6 +24,8 @@ from gripscale.report.answer import has_answer, no_answer
 FILE = "summary.xlsx"
 ROWS = (STATUS, "status", "gain")
 """Numbers of which a result has a row for each value: the first that is in it counts."""
+OF_MODELS = ("rung", "model")
+"""Dimensions of models side by side."""
 DOUBTS = "not_to_rely_on"
 FIRST = (
     *("model", "best_friction", "best_friction_low", "best_friction_high"),
@@ -84,13 +88,11 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
     rows = _rows(data)
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
     full = _with_intervals(data).assign_coords(numbered)
-    columns = {}
-    for name, variable in full.variables.items():
-        if str(name).endswith(LEFT_OUT) or not set(variable.dims) <= set(rows.dims):
-            continue
-        values = full[name].broadcast_like(rows).transpose(*rows.dims).values
-        unit = str(variable.attrs.get("units", "")) if variable.dtype.kind in "fiu" else ""
-        columns[str(name)] = Column(str(name), values.astype(object).ravel(), unit=unit)
+    columns = {
+        str(name): _in_rows(full[name], rows, full)
+        for name, variable in full.variables.items()
+        if not str(name).endswith(LEFT_OUT) and set(variable.dims) <= set(rows.dims)
+    }
     texts = {name: data.attrs.get(name, about.get(name)) for name in ABOUT}
     texts[DOUBTS] = no_answer(data) if has_answer(data) else data.attrs.get(INPUT_DOUBTS)
     for name, value in texts.items():
@@ -99,6 +101,19 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
             values = np.full(rows.size, value, object)
             columns[name] = Column(name, values, unit=UNITS.get(name, ""))
     return columns
+
+
+def _in_rows(number: xr.DataArray, rows: xr.DataArray, data: xr.Dataset) -> Column:
+    """Return a number of a result in each of its rows.
+
+    A best estimate is made of the direct contact: it stands in its row, not in that of each model.
+    """
+    name, full = str(number.name), number.broadcast_like(rows)
+    if name.startswith("best_"):
+        for dim in {*OF_MODELS} & {*rows.dims} - {*number.dims}:
+            full = full.where(data[dim] == DIRECT)
+    unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""
+    return Column(name, full.transpose(*rows.dims).values.astype(object).ravel(), unit=unit)
 
 
 def _with_intervals(data: xr.Dataset) -> xr.Dataset:
