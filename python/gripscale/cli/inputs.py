@@ -146,16 +146,18 @@ def fit_surface(
         values["crop"] = list(crop)
     if step is not None:
         values["step"] = lengths_of(step)
+    if scales is None and smallest_wavelength is None and cut_off is None:
+        values["scales"] = 8
     raw = None
     if len(files) == 1:
+        # whether two steps are right depends on what the file holds
+        validate(SurfaceTable, values | {"step": None}, "options")
         units = {key: values[key] for key in ("x_unit", "z_unit") if key in values}
         with about_keys("surface"):
             measured, _ = open_surface(Path(files[0]), values.get("step"), **units)
         raw = measured if isinstance(measured, HeightMap) else [measured]
     if isinstance(raw, HeightMap):
         values["map"] = values.pop("files")[0]
-    if scales is None and smallest_wavelength is None and cut_off is None:
-        values["scales"] = 8
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
         folder.require_writable(output)
