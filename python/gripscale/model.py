@@ -8,7 +8,7 @@ takes any of them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.units import display_unit
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
 from gripscale.wave.problem import Status
 
@@ -33,15 +34,44 @@ INPUT_DOUBTS = "input_doubts"
 """Attribute of an answer: why it is none of the road to be predicted, in sentences."""
 
 
-def input_doubts(*surfaces: Surface) -> dict[str, str]:
-    """Return the attribute `INPUT_DOUBTS` of an answer on surfaces; nothing without a doubt."""
-    texts = dict.fromkeys(text for surface in surfaces for text in doubt_sentences(surface))
+PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
+"""Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit."""
+
+
+def input_doubts(
+    surfaces: Iterable[Surface], loads: Iterable[Load], units: Mapping[str, str]
+) -> dict[str, str]:
+    """Return the attribute `INPUT_DOUBTS` of an answer; nothing without a doubt.
+
+    It is on surfaces and under loads, which are shown in the stated `units` of their quantities.
+    """
+    of_surfaces = [text for surface in surfaces for text in doubt_sentences(surface)]
+    texts = dict.fromkeys([*of_surfaces, *load_doubts(loads, units)])
     return {INPUT_DOUBTS: " ".join(texts)} if texts else {}
 
 
 def doubt_sentences(surface: Surface) -> list[str]:
     """Return the doubts of a surface as sentences."""
     return [text if text.endswith("?") else f"{text}." for text in surface.doubts]
+
+
+def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[str]:
+    """Return which quantities of loads suggest a wrong unit, by the farthest of each, as sentences.
+
+    They are shown in the stated `units` of the quantities.
+    """
+    texts, every = [], list(loads)
+    for name, (least, most) in PLAUSIBLE.items():
+        values = {float(getattr(load, name)) for load in every}
+        far = [value for value in values if value != 0.0 and not least <= value <= most]
+        if far:
+            value = max(far, key=lambda value: max(least / value, value / most))
+            value_text, *ends = (display_unit(name, units).text(v, 3) for v in (value, least, most))
+            texts.append(
+                f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}: is its "
+                "unit right?"
+            )
+    return texts
 
 
 OCTAVE = 2.0

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gripscale import surface as surfaces
 from gripscale.analysis import case_cut_off
 from gripscale.analysis.cut_off_curve import AREA, FILE, FRICTION, at_cut_off
 from gripscale.case import read_case
@@ -87,6 +88,7 @@ def test_command_and_page_lead_with_the_answer(folder, shell: Shell):
     assert "roughness down to 0.2" in " ".join(lines[answer : answer + 2])
     assert (out / "figures" / "cut_off.png").is_file()
     assert (out / "cut_off.txt").read_text(encoding="utf-8").startswith("Answer: ")
+    assert (out / "summary.xlsx").is_file()
     page = write_report(out).read_text(encoding="utf-8")
     assert "Contact and friction of case.toml against the cut-off" in page
     refused = shell("cut-off", folder / "case.toml", "--down-to", "soon")
@@ -115,13 +117,19 @@ def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data)
     assert not (folder / "case" / FILE).exists()
 
 
-def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data):
+def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, monkeypatch):
     """The slope is interpolated between octaves; the contact there has it within a few per cent."""
+    cleaned = []
+    clean = surfaces.clean
+    monkeypatch.setattr(
+        surfaces, "clean", lambda line, **given: cleaned.append(line.name) or clean(line, **given)
+    )
     text = (folder / "case.toml").read_text()
     wanted = float(np.sqrt(data.curve_slope_in_contact[3] * data.curve_slope_in_contact[4]))
     path = folder / "slope.toml"
     path.write_text(text.replace('"0.5 mm"', f"{{ contact_slope = {wanted:.4f} }}"))
     surface = case_surface(read_case(path))
+    assert cleaned == ["road"]
     assert str(surface.rule) == f"rms slope {wanted:.4g} in the contact"
     assert data.cut_off[4] < surface.cutoff_wavelength < data.cut_off[3]
     assert surface.cut_off.rule == str(surface.rule)

@@ -171,6 +171,7 @@ def test_command_leads_with_the_answer(folder, shell: Shell):
     assert answer <= 4
     assert (folder / "command" / "figures" / "sensitivity.png").is_file()
     text = (folder / "command" / "sensitivity.txt").read_text(encoding="utf-8")
+    assert (folder / "command" / "summary.xlsx").is_file()
     assert text.startswith("Answer: ")
     page = write_report(folder / "command").read_text(encoding="utf-8")
     assert "What decides the friction of case.toml" in page

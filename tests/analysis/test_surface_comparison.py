@@ -228,6 +228,7 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
     outcome = CliRunner().invoke(app, ["compare-surfaces", *given, *options])
     assert outcome.exit_code == 0, outcome.output
     text = (target / "surfaces.txt").read_text()
+    assert (target / "summary.xlsx").is_file()
     assert text.startswith(f"Answer: rough grips more than {folder.name}: friction × ")
     assert "direct: rough has" in text
     figures = {path.stem for path in target.glob("*.p*")}

@@ -138,7 +138,7 @@ def test_a_run_reports_each_step_as_an_event(case: Path, tmp_path: Path) -> None
     ]
     assert all(event.status == "converged" and not event.stored for event in solved)
     files = {Path(event.path) for event in events if isinstance(event, FileWritten)}
-    names = ("dynamic.nc", "static.nc", "direct.nc", "report.txt")
+    names = ("dynamic.nc", "static.nc", "direct.nc", "report.txt", "summary.xlsx")
     assert files == {tmp_path / "out" / name for name in names}
     assert all(path.is_file() for path in files)
     assert any(isinstance(event, DirectContactSolved) for event in events)

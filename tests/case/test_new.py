@@ -249,3 +249,14 @@ def test_a_refusal_names_the_option_that_cures_it(
     options = ["--step", "0.1 mm"] if name == "line.txt" else ["--wlf", "8.86", "101.6 K"]
     outcome = shell("new", *files[name], "-o", tmp_path / "case.toml", *options)
     assert outcome.exit_code == 0, outcome.output
+
+
+def test_the_name_of_a_file_is_no_refusal(tmp_path: Path, shell: Shell) -> None:
+    folder = tmp_path / "shift must be given, give step"
+    folder.mkdir()
+    empty = folder / "give x_unit.csv"
+    empty.write_text("")
+    outcome = shell("new", empty, sweeps(tmp_path / "dma.csv"), "-o", tmp_path / "case.toml")
+    assert outcome.exit_code == 2
+    assert "give x_unit.csv" in outcome.output
+    assert "here with" not in outcome.output

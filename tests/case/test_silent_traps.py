@@ -13,11 +13,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gripscale.analysis import compare_over
+from gripscale.analysis.comparison import reference
 from gripscale.case import CaseFile, read_case
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import FileError, InputError
+from gripscale.experiment import Study
 from gripscale.experiment.inputs import rubber_note, surface_note, surface_of
-from gripscale.model import INPUT_DOUBTS
+from gripscale.model import INPUT_DOUBTS, Load, load_doubts
 from gripscale.report.answer import no_answer
 from gripscale.report.record import InputRecord
 from gripscale.surface import self_affine_profile
@@ -180,6 +183,41 @@ def test_an_answer_on_plates_is_none_to_rely_on() -> None:
     assert no_answer(data) == ""
     doubted = data.assign_attrs({INPUT_DOUBTS: "Plates lie in the profile."})
     assert no_answer(doubted) == "none to rely on. Plates lie in the profile."
+
+
+@pytest.mark.parametrize(
+    ("stated", "wrong", "words"),
+    [
+        ('"0.3 m/s"', '"1e6 m/s"', "Speed = 1e+06 m/s is not between 1e-09 m/s and 100 m/s"),
+        ('"3 bar"', "3", "Pressure = 3e-06 MPa is not between 0.0001 MPa and 100 MPa"),
+    ],
+)
+def test_an_answer_under_an_impossible_load_is_none_to_rely_on(
+    tmp_path: Path, stated: str, wrong: str, words: str
+) -> None:
+    direct = reference(prepare_case(write(tmp_path, case=CASE.replace(stated, wrong))))
+    assert no_answer(direct).startswith(f"none to rely on. {words}: is its unit right?")
+
+
+def test_the_answer_of_the_case_without_a_trap_stands(tmp_path: Path) -> None:
+    direct = reference(prepare_case(write(tmp_path)))
+    assert direct is not None
+    assert INPUT_DOUBTS not in direct.attrs
+
+
+def test_the_farthest_load_of_a_study_is_named() -> None:
+    loads = [Load(3e5, speed, 0.1) for speed in (0.0, 1.0, 200.0, 1e7)]
+    (text,) = load_doubts(loads, {"speed": "km/h"})
+    assert text.startswith("Speed = 3.6e+07 km/h is not between 3.6e-09 km/h and 360 km/h")
+    assert load_doubts(loads[:2], {}) == []
+
+
+def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) -> None:
+    file = write(tmp_path, case=f'{CASE}[solver]\nmodel = "half_plane"\npoints = 64\n')
+    study = Study(file, vary={"speed": "1,1e6"}, model="chain").run(tmp_path / "study", workers=1)
+    assert study.attrs[INPUT_DOUBTS].startswith("Speed = 1e+06 m/s is not between")
+    over = compare_over(file, {"speed": "1,1e6"}, rungs=["persson"]).data
+    assert over.attrs[INPUT_DOUBTS] == study.attrs[INPUT_DOUBTS]
 
 
 def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:

@@ -48,7 +48,8 @@ def calibrated(case: Path) -> tuple[str, Path]:
 def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
     said, target = calibrated
     figures = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "pdf")}
-    files = {"calibration.nc", "calibration.txt", "shear_stress.toml", "predictions"}
+    texts = {"calibration.txt", "shear_stress.toml", "summary.xlsx"}
+    files = texts | {"calibration.nc", "predictions"}
     assert {path.name for path in target.iterdir()} == figures | files
     assert len(list((target / "predictions").iterdir())) == 24
     for word in ("stress_0", "left out", "90 % by profile likelihood", "Correlations"):

@@ -126,7 +126,9 @@ MISTAKES: list[tuple[Callable[[Place], list[str]], str]] = [
     (lambda at: ["compare-rubbers", "a.txt", "b.txt"], "--case must be given: the road and"),
     (lambda at: ["compare-rubbers", str(at.case)], "rubbers must be 2 to 6 compounds to"),
     (lambda at: ["compare-rubbers", str(at.case), "styrene_butadiene", "--temperature", "20"],
-     "--temperature = '20': the unit is missing; expected one of K, C, F"),
+     "temperature = '20': the unit is missing; expected one of K, C, F"),
+    (lambda at: ["new", str(at.folder), "--temperature", "20"],
+     "temperature = '20': the unit is missing; expected one of K, C, F"),
     (lambda at: ["study", str(at.case), "--vary", "temperature=0,20"], "must have a unit, such as"),
     (lambda at: ["study", str(at.case), "--vary", "rubber=case,dmo.txt"], "rubber dmo.txt is neit"),
 ]  # fmt: skip

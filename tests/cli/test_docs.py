@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from gripscale.cli.docs import anchor_of, pages
+from gripscale.cli.docs import anchors, pages
 from gripscale.report.notices import chapter_words
 from gripscale.wave import Status
 from tests.samples import DOCS, ROOT, Shell
@@ -45,8 +45,29 @@ def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter() -> None:
     assert len(found) >= 8
     for page, heading in found:
         text = pages()[page].read_text(encoding="utf-8")
-        headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
-        assert not heading or heading in map(anchor_of, headings), f"{page}#{heading}"
+        assert not heading or heading in anchors(text), f"{page}#{heading}"
+
+
+@pytest.mark.parametrize("page", pages())
+def test_anchors_are_those_of_the_site(page: str) -> None:
+    markdown = pytest.importorskip("markdown", reason="needs gripscale[docs]")
+    text = pages()[page].read_text(encoding="utf-8")
+    reader = markdown.Markdown(extensions=["tables", "toc", "pymdownx.superfences"])
+    site = re.findall(r'<h\d id="([^"]*)"', reader.convert(text))
+    assert list(anchors(text)) == site
+    assert len(site) > 1
+
+
+def test_headings_with_umlauts_twice_and_in_code() -> None:
+    text = "# Größe\n\n```toml\n# finer = 1\n```\n\n## Klüppel, Heinrich - `a_b`\n\n# Größe\n"
+    starts = anchors(text)
+    assert list(starts) == ["groe", "kluppel-heinrich-a_b", "groe_1"]
+    assert text[starts["groe_1"] :] == "# Größe\n"
+
+
+@pytest.mark.parametrize("anchor", ["kluppel-and-heinrich", "klüppel-and-heinrich"])
+def test_a_chapter_with_an_umlaut_is_shown(shell: Shell, anchor: str) -> None:
+    assert shell("docs", f"theories#{anchor}").stdout.strip().startswith("Klüppel and Heinrich")
 
 
 @pytest.mark.parametrize("status", list(Status))

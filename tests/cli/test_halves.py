@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from gripscale.core.provenance import versions
+from gripscale.surface import text_files
 from tests.samples import Shell
 
 
@@ -25,6 +28,36 @@ def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Pat
     assert {p.name for p in target.iterdir()} == {
         f"{name}.{kind}" for name in ("profile", "correlation") for kind in ("png", "pdf")
     }
+
+
+def test_surface_half_reads_a_lone_file_once(
+    shell: Shell, inputs: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reads = []
+    read_lines = text_files.read_lines
+
+    def counted(path: Path, **options: Any) -> Any:
+        reads.append(path)
+        return read_lines(path, **options)
+
+    monkeypatch.setattr(text_files, "read_lines", counted)
+    result = shell("fit-surface", inputs / "road.txt", "--scales", 2, "--crop", "10 mm", "390 mm")
+    assert result.exit_code == 0, result.output
+    assert reads == [inputs / "road.txt"]
+
+
+def test_surface_half_takes_units_that_no_file_states(shell: Shell, tmp_path: Path) -> None:
+    heights = np.random.default_rng(1).normal(size=(20, 20))
+    line, table = tmp_path / "line.txt", tmp_path / "table.txt"
+    line.write_text("\n".join(f"{n} {z:.4f}" for n, z in enumerate(heights.flat)))
+    np.savetxt(table, heights, "%.4f")
+    unit = ["--z-unit", "um"]
+    for file, options in ((line, ["--x-unit", "um"]), (table, ["--step", "1 um, 2 um"])):
+        refused = shell("fit-surface", file, *options)
+        assert refused.exit_code == 2
+        assert "give z_unit; see `gripscale keys surface`" in refused.output
+        result = shell("fit-surface", file, *options, *unit, "--scales", 2)
+        assert result.exit_code == 0, result.output
 
 
 def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path) -> None:

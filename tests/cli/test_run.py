@@ -17,6 +17,8 @@ from gripscale.charts import write
 from gripscale.cli import app
 from gripscale.cli.terminal import time_left
 from gripscale.io import netcdf
+from gripscale.io.text_table import read_sheets
+from gripscale.report.answer import no_answer
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
 from tests.samples import Shell
@@ -81,6 +83,22 @@ def test_results_file_holds_the_chain_and_its_inputs(
     rest = netcdf.load(done[1] / "static.nc")
     assert np.isinf(rest.load_time).all()
     assert rest.total_contact_fraction > data.total_contact_fraction
+
+
+def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) -> None:
+    titles, *rows = read_sheets(done[1] / "summary.xlsx")["summary"]
+    assert titles[:4] == ("model", *(f"best_friction{end} [-]" for end in ("", "_low", "_high")))
+    assert [row[0] for row in rows] == ["direct", "chain", "chain"]
+    by_name = [dict(zip(titles, row, strict=True)) for row in rows]
+    for name, row in zip(("direct", "dynamic", "static"), by_name, strict=True):
+        data = netcdf.load(done[1] / f"{name}.nc")
+        assert row["total_contact_fraction [-]"] == float(data.total_contact_fraction)
+        assert row["nominal_speed [m/s]"] == float(data.nominal_speed)
+        assert row["prediction_status"] == "converged"
+        assert row["surface_source"].endswith("road.txt")
+    direct = netcdf.load(done[1] / "direct.nc")
+    assert by_name[0]["best_friction [-]"] == float(direct.best_friction)
+    assert by_name[0]["not_to_rely_on"] == no_answer(direct) or None
 
 
 def test_case_is_copied_but_for_the_names_of_its_files(
@@ -175,8 +193,8 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
-    written = {"case.toml", "dynamic.nc", "direct.nc", "report.txt", "road.txt", "dma.txt", NOTE}
-    assert left == written | {"notes.txt", "mine.png"}
+    texts = {"case.toml", "report.txt", "summary.xlsx", "road.txt", "dma.txt", NOTE}
+    assert left == texts | {"dynamic.nc", "direct.nc", "notes.txt", "mine.png"}
 
 
 def test_a_finished_run_is_shown_again_and_not_made_again(

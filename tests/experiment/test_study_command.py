@@ -20,7 +20,7 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
         str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
     }
     files = {f"figures/totals.{kind}" for kind in ("png", "pdf")}
-    assert written == files | {"case.toml", "study.nc", "study.txt"}
+    assert written == files | {"case.toml", "study.nc", "study.txt", "summary.xlsx"}
     for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
         assert words in result.stdout
     data = netcdf.load(target / "study.nc")

@@ -15,7 +15,7 @@ import gripscale as gs
 from gripscale.core.errors import FileError, InputError
 from gripscale.export import tables_of, write_tables
 from gripscale.half_space import RoughContact
-from gripscale.io import netcdf, table
+from gripscale.io import netcdf, workbook
 from gripscale.surface import SineStack, self_affine_profile
 from gripscale.wave.result import waves_to_dataset
 
@@ -186,7 +186,7 @@ def test_what_a_workbook_cannot_hold(tmp_path, monkeypatch):
     write_tables(data, tmp_path)
     cells = [row[1] for row in read_csv(tmp_path / "place.csv")[1:]]
     assert cells == ["inf", "-inf", ""]
-    monkeypatch.setattr(table, "MOST_ROWS", 3)
+    monkeypatch.setattr(workbook, "MOST_ROWS", 3)
     with pytest.raises(InputError, match="at most 2 rows for xlsx; got 3 in place"):
         write_tables(data, tmp_path / "other", format="xlsx")
 

@@ -10,7 +10,8 @@ import numpy as np
 import openpyxl
 from rich.console import Console
 
-from gripscale.io.table import Column, Table, as_text, percent, write_csv, write_workbook
+from gripscale.io.table import Column, Table, as_text, percent, write_csv
+from gripscale.io.workbook import write_workbook
 
 PRESSURE = Column("pressure", np.array([3e5, math.nan]), "p", "bar", 1e5, group="load")
 RANGE = Column("range", np.array([[-0.1, 0.2], [0.3, math.nan]]), group="result", bad=[True, False])

@@ -511,7 +511,10 @@ def reference_totals(
         extrapolation_of(beyond),
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
-    ).assign_attrs(results.file.attributes | input_doubts(results.surface), tolerance=JUDGED_TO)
+    ).assign_attrs(
+        results.file.attributes | input_doubts([results.surface], [load], results.file.units),
+        tolerance=JUDGED_TO,
+    )
     traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
     if traces:
         totals = totals.assign(samples[traces].variables)

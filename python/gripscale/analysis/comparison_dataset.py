@@ -183,7 +183,9 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         {
             "title": "Contact and friction by model",
             **comparison.file.attributes,
-            **input_doubts(setups[0].surface),
+            **input_doubts(
+                [setups[0].surface], [setup.load for setup in setups], comparison.file.units
+            ),
             "case_file": str(comparison.file.path),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,

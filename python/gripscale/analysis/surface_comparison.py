@@ -337,7 +337,7 @@ def compare_surfaces(
         surfaces=shlex.join(words),
         case_file=str(file.path),
         **file.attributes,
-        **input_doubts(*roads.values()),
+        **input_doubts(roads.values(), [load], file.units),
         **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))

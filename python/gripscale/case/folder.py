@@ -127,6 +127,7 @@ RESULTS = (
     "cut_off.nc",
     "effects_chain.nc",
     "report.txt",
+    "summary.xlsx",
     CASE,
     *(f"figures/{name}.{kind}" for name in (*FIGURES, *AT_TIMES) for kind in ("png", "pdf")),
 )

@@ -16,6 +16,7 @@ from typing import Any
 from gripscale.case import folder
 from gripscale.case.keys import sections
 from gripscale.case.proposals import (
+    UNITS_OF_SURFACE,
     Doubt,
     Proposal,
     Weight,
@@ -152,7 +153,7 @@ def _sorted(
                 rubbers.append(path)
                 continue
             try:
-                open_surface(path, step)
+                open_surface(path, step, UNITS_OF_SURFACE)
             except GripscaleError:
                 if not file.is_dir():
                     raise

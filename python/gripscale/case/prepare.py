@@ -51,6 +51,8 @@ from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
 
 Resolve = Callable[[str], Path]
+RawHeights = surfaces.HeightMap | list[surfaces.Profile]
+"""What the files of a surface hold, before any cleaning."""
 
 
 def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
@@ -61,18 +63,29 @@ def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
 
 
 @about_keys("surface")
-def prepare_surface(surface: SurfaceTable, resolve: Resolve = Path) -> surfaces.Surface:
+def prepare_surface(
+    surface: SurfaceTable, resolve: Resolve = Path, raw: RawHeights | None = None
+) -> surfaces.Surface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
-    `resolve` turns the name of a file into its path.
+    `resolve` turns the name of a file into its path. `raw` is what `raw_surface` returns, where the
+    files are read already.
 
     Raises `FileError` and `InputError` as reading, cleaning and fitting do.
     """
     if surface.sines is not None:
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
+    raw = raw_surface(surface, resolve) if raw is None else raw
+    return _described(surface, _cleaned(surface, raw, resolve), resolve)
+
+
+@about_keys("surface")
+def _described(
+    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
+) -> surfaces.Surface:
+    """Return a cleaned surface with its correlation and sine waves; errors of `prepare_surface`."""
     paths = [resolve(name) for name in surface.measured_files]
-    measured = _map(surface, paths[0]) if surface.map else _profiles(surface, paths)
     counted = _options(surface, surfaces.height_difference)
     try:
         correlation = surfaces.height_difference(measured.cleaned, **counted)
@@ -108,10 +121,10 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     rule = table.cut_off
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve)
-    measured = _profiles(table, [file.resolve(name) for name in table.files or ()])
-    lines = measured.cleaned
-    if not lines:
+    if table.map is not None:
         raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
+    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
+    lines = measured.cleaned
     load = file.case.load.nominal
     curve = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
@@ -132,13 +145,11 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
             "continues the roughness below it)"
         )
     solved = replace(rule, wavelength=wavelength)
-    return prepare_surface(table.model_copy(update={"cut_off": solved}), file.resolve)
+    return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
 
 
 @about_keys("surface")
-def raw_surface(
-    surface: SurfaceTable, resolve: Resolve = Path
-) -> surfaces.HeightMap | list[surfaces.Profile]:
+def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     """Return what the files of `surface` hold before any cleaning; no profile without files.
 
     Along x of a map is the way of sliding. Raises `FileError` and `InputError` as reading does.
@@ -151,14 +162,15 @@ def raw_surface(
     return raw if surface.direction == "x" else raw.turned()
 
 
-def _profiles(surface: SurfaceTable, paths: list[Path]) -> surfaces.Measured:
-    """Read and clean profiles."""
+def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfaces.Measured:
+    """Clean profiles or a map, which `raw_surface` has read."""
+    if isinstance(raw, surfaces.HeightMap):
+        return _cleaned_map(surface, raw, resolve(surface.measured_files[0]))
     profiles, reports = [], []
-    for path in paths:
-        raw = surfaces.read_profile(path, **_options(surface, surfaces.read_profile))
-        with about_file(path, InputError):
-            cleaned, report = surfaces.clean(raw, **cleaning_options(surface))
-        profiles.append((raw, cleaned))
+    for line, name in zip(raw, surface.measured_files, strict=True):
+        with about_file(resolve(name), InputError):
+            cleaned, report = surfaces.clean(line, **cleaning_options(surface))
+        profiles.append((line, cleaned))
         reports.append(report)
     return surfaces.Measured(profiles, reports, None, "")
 
@@ -168,10 +180,8 @@ def cleaning_options(surface: SurfaceTable) -> dict[str, Any]:
     return _options(surface, surfaces.clean)
 
 
-def _map(surface: SurfaceTable, path: Path) -> surfaces.Measured:
-    """Read and clean a map, turned so that its x is the way of sliding."""
-    raw = surfaces.read_map(path, **_options(surface, surfaces.read_map))
-    raw = raw if surface.direction == "x" else raw.turned()
+def _cleaned_map(surface: SurfaceTable, raw: surfaces.HeightMap, path: Path) -> surfaces.Measured:
+    """Clean a map whose x is the way of sliding."""
     options = _options(surface, surfaces.clean_map)
     with about_file(path, InputError):
         cleaned, report = surfaces.clean_map(
@@ -291,7 +301,8 @@ def _superposed(
     if reference is None and not single:
         raise InputError(
             f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
-            f"{len(sweeps)} temperatures to be shifted to"
+            f"{len(sweeps)} temperatures to be shifted to",
+            missing="reference_temperature",
         )
     master, report = superpose_report(
         sweeps,
@@ -310,7 +321,8 @@ def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> Non
             f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
             f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
             f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
-            "frequencies do"
+            "frequencies do",
+            missing="shift",
         )
 
 
@@ -323,7 +335,8 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
         where = source.name or source.measured_files[0]
         raise InputError(
             f"{where}: reference_temperature must be given with shift, such as "
-            '"20 C": the master curve does not state what it holds for'
+            '"20 C": the master curve does not state what it holds for',
+            missing="reference_temperature",
         )
     return replace(rubber, shift=shift)
 

@@ -7,12 +7,12 @@ proposal is a doubt with a weight: how far the answer may be off if it is wrong.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from itertools import product
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -26,7 +26,8 @@ from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.surface import HeightMap, Profile, profile_warnings, read_map, read_profile
+from gripscale.surface import HeightMap, Profile, read_map, read_profile
+from gripscale.surface.plausibility import has_likely_units
 from gripscale.surface.read import TEXT_SUFFIXES
 from gripscale.surface.supports import road_between, support_plates
 
@@ -103,17 +104,9 @@ def _read_with(
         try:
             return read(path, **options, **asked), asked
         except GripscaleError as error:
-            key = next(
-                (
-                    name
-                    for name in defaults.keys() - asked
-                    if re.search(rf"\bgive {name}\b|\b{name} must be given", str(error))
-                ),
-                None,
-            )
-            if key is None:
+            if error.missing not in defaults.keys() - asked:
                 raise
-            asked[key] = defaults[key]
+            asked[error.missing] = defaults[error.missing]
 
 
 def surface_proposal(
@@ -126,7 +119,7 @@ def surface_proposal(
     """
     proposal = Proposal()
     options: dict[str, Any] = _step_option(step)
-    surface, missing = open_surface(paths[0], step)
+    surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE)
     if isinstance(surface, HeightMap):
         if len(paths) > 1:
             raise InputError(f"expected one map, or profiles; got {paths[0]} and {paths[1]}")
@@ -161,24 +154,27 @@ def _step_option(step: str | list[str] | None) -> dict[str, Any]:
 
 
 def open_surface(
-    path: Path, step: str | list[str] | None = None
+    path: Path,
+    step: str | list[str] | None = None,
+    defaults: Mapping[str, str] = MappingProxyType({}),
+    **units: str,
 ) -> tuple[Profile | HeightMap, dict[str, str]]:
-    """Return the profile or the map of a file, and the units it does not state, by default mm.
+    """Return the profile or the map of a file, and those of the `defaults` that it needs.
 
-    Raises `FileError` and `InputError` as reading does.
+    Further `units` are those of reading. Raises `FileError` and `InputError` as reading does.
     """
-    options = _step_option(step)
+    options = _step_option(step) | units
     # an instrument's map has profiles, too; a text with a distance and a height is no map
     is_text = path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL)
     readers = (read_profile, read_map) if is_text else (read_map, read_profile)
     refusals = []
     for read in readers:
         try:
-            return _read_with(read, path, UNITS_OF_SURFACE, **options)
+            return _read_with(read, path, defaults, **options)
         except GripscaleError as error:
             refusals.append(error)
-    # a file of many columns was meant as a map
-    raise next((e for e in refusals if "table of heights has no steps" in str(e)), refusals[0])
+    # a reader that only misses a key is the right one
+    raise next((error for error in refusals if error.missing), refusals[0])
 
 
 def _likely_units(
@@ -193,8 +189,7 @@ def _likely_units(
         surface = read(path, **options, **units)
         middle = surface.z.shape[-1] // 2
         line = surface.line(middle) if isinstance(surface, HeightMap) else surface
-        usual = SHORTEST <= line.length <= LONGEST
-        return usual and not any("unit of" in text for text in profile_warnings(line))
+        return SHORTEST <= line.length <= LONGEST and has_likely_units(line)
 
     choices = [
         dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))

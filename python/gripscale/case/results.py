@@ -13,7 +13,7 @@ from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.units import DisplayUnit, display_unit
-from gripscale.model import Load, doubt_sentences
+from gripscale.model import Load, doubt_sentences, load_doubts
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import Surface
 
@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 
 
 DYNAMIC, STATIC = "dynamic", "static"
-
-
-PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
-"""Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit."""
 
 
 @dataclass
@@ -108,15 +104,7 @@ class CaseResults:
 
     def doubts(self) -> list[str]:
         """Return why the answer may be that of another road, rubber or load, a sentence each."""
-        texts = doubt_sentences(self.surface)
-        for name, (least, most) in PLAUSIBLE.items():
-            value = float(getattr(self.load, name))
-            if value != 0.0 and not least <= value <= most:
-                unit = self.display_unit(name)
-                texts.append(
-                    f"{name.capitalize()} = {unit.text(value, 3)} is not between "
-                    f"{unit.text(least, 3)} and {unit.text(most, 3)}: is its unit right?"
-                )
+        texts = [*doubt_sentences(self.surface), *load_doubts([self.load], self.file.units)]
         if self.rubber.rubber.reference_temperature is None:
             texts.append(
                 "Neither the file of the rubber nor the case states the temperature of its moduli: "

@@ -164,6 +164,7 @@ def compare(
         console,
         target,
         parts,
+        results=[data],
         opening=above,
         text=f"{name}.txt",
         closing=f"Tables, figures and result ({name}.nc) are in",
@@ -248,6 +249,7 @@ def compare_surfaces(
         console,
         target,
         [*roads_tables(data), *roads_sentences(data), *(f"note: {note}" for note in roads.notes)],
+        results=[data],
         lead=list(ratio_lines(data, "surface")),
         text="surfaces.txt",
         closing="Result (surfaces.nc), tables and figures are in",
@@ -288,7 +290,7 @@ def compare_rubbers(
     from gripscale.case import read_case
     from gripscale.charts.side_by_side import compound_pictures
     from gripscale.charts.write import draw
-    from gripscale.core.units import parse_quantity
+    from gripscale.core.units import temperature_in_kelvin
     from gripscale.report.side_by_side import (
         believed_table,
         compounds_sentences,
@@ -298,10 +300,7 @@ def compare_rubbers(
     )
 
     chosen = case_of(rubbers, case, "the road and the load")
-    try:
-        kelvin = None if temperature is None else parse_quantity(temperature, "temperature")
-    except ValueError as error:
-        raise InputError(f"--temperature = {temperature!r}: {error}") from error
+    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     file = read_case(chosen)
     opening = "The compounds; then, for what their measurements leave open, half-planes."
     console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
@@ -324,6 +323,7 @@ def compare_rubbers(
             *compounds_sentences(data),
             *(f"note: {note}" for note in compounds.notes),
         ],
+        results=[data],
         lead=list(ratio_lines(data, "rubber")),
         text="compounds.txt",
         closing="Result (compounds.nc), table and figures are in",

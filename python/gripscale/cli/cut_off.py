@@ -64,6 +64,7 @@ def cut_off(
         console,
         target,
         list(cut_off_parts(data)),
+        results=[data],
         text="cut_off.txt",
         closing=f"Result ({FILE}), tables and figure are in",
         draw=draw,

@@ -104,6 +104,7 @@ def design(
         console,
         target,
         [*design_lines(data), design_table(data), *([] if compounds is None else [compounds])],
+        results=[data],
         text="design.txt",
         closing=f"Result ({RESULT}), figure, and master curve, Prony series and rubber of each "
         "point (target_*) are in",

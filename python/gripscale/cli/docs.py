@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+import unicodedata
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Annotated
@@ -12,6 +13,7 @@ from gripscale.cli.terminal import argument, command, print_wrapped, screen
 from gripscale.core import checks
 
 COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
+CODE = re.compile(r"^(`{3,}|~{3,}).*?^\1", flags=re.MULTILINE | re.DOTALL)
 PICTURE = re.compile(r"^!\[([^\]]*)\]\([^)]*\)\s*$", flags=re.MULTILINE)
 
 
@@ -56,12 +58,24 @@ def docs(
 
 def _from_heading(text: str, anchor: str) -> str:
     """Return a page from the heading on that a link names; all if there is none."""
+    return text[anchors(text).get(anchor_of(anchor), 0) :]
+
+
+def anchors(text: str) -> dict[str, int]:
+    """Return where each heading of a page begins, by its anchor on the site of the pages."""
+    starts: dict[str, int] = {}
+    code = [match.span() for match in CODE.finditer(text)]
     for match in re.finditer(r"^#+ (.*)$", text, flags=re.MULTILINE):
-        if anchor_of(match[1]) == anchor:
-            return text[match.start() :]
-    return text
+        if any(first <= match.start() < last for first, last in code):
+            continue
+        name, number = anchor_of(match[1]), 0
+        while (anchor := f"{name}_{number}" if number else name) in starts:
+            number += 1
+        starts[anchor] = match.start()
+    return starts
 
 
 def anchor_of(heading: str) -> str:
-    """Return how a link names a heading."""
-    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower())
+    """Return how a link names a heading, without accents, as Python-Markdown does."""
+    plain = unicodedata.normalize("NFKD", heading).encode("ascii", "ignore").decode("ascii")
+    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", plain).strip().lower())

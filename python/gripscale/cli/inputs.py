@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import shlex
 from collections.abc import Iterator
 from enum import StrEnum
@@ -22,7 +21,7 @@ from gripscale.cli.terminal import (
     print_wrapped,
     screen,
 )
-from gripscale.core.errors import InputError
+from gripscale.core.errors import InputError, about_keys
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -147,16 +146,22 @@ def fit_surface(
         values["crop"] = list(crop)
     if step is not None:
         values["step"] = lengths_of(step)
-    if len(files) == 1 and isinstance(
-        open_surface(Path(files[0]), values.get("step"))[0], HeightMap
-    ):
-        values["map"] = values.pop("files")[0]
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
+    raw = None
+    if len(files) == 1:
+        # whether two steps are right depends on what the file holds
+        validate(SurfaceTable, values | {"step": None}, "options")
+        units = {key: values[key] for key in ("x_unit", "z_unit") if key in values}
+        with about_keys("surface"):
+            measured, _ = open_surface(Path(files[0]), values.get("step"), **units)
+        raw = measured if isinstance(measured, HeightMap) else [measured]
+    if isinstance(raw, HeightMap):
+        values["map"] = values.pop("files")[0]
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
         folder.require_writable(output)
-    prepared = prepare_surface(surface)
+    prepared = prepare_surface(surface, raw=raw)
     console = screen()
     sines = prepared.sines
     parts: list[str | Table] = [
@@ -250,11 +255,11 @@ def fit_rubber(
     try:
         prepared = prepare_rubber(source)
     except InputError as error:
-        # a key of a case it names is an option here
-        key = r"\b([a-z_]+)(?= must (be given|name|give|say)\b)"
-        raise InputError(
-            re.sub(key, lambda match: f"--{match[1].replace('_', '-')}", str(error))
-        ) from error
+        words = str(error)
+        if error.missing:  # a key of a case, which is an option here
+            key = f"{error.missing} must"
+            words = words.replace(key, f"--{key.replace('_', '-')}")
+        raise InputError(words) from error
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     findings = () if prepared.fit is None else prepared.fit.findings

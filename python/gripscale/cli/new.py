@@ -10,10 +10,10 @@ from gripscale.cli.terminal import argument, command, lengths_of, option, print_
 from gripscale.core.errors import GripscaleError, InputError
 
 CURES = {
-    "shift must be given": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
-    "give step": '--step LENGTH, such as --step "0.1 mm"',
+    "shift": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
+    "step": '--step LENGTH, such as --step "0.1 mm"',
 }
-"""Options that cure a refusal, by what it says."""
+"""Options that state what is missing, by its key in a case."""
 
 
 @command
@@ -59,10 +59,9 @@ def new(
     try:
         case = new_case(files, output, load=values, temperature=temperature, **options)
     except GripscaleError as error:
-        option_name = next((name for key, name in CURES.items() if key in str(error)), None)
-        if option_name is None:
+        if error.missing not in CURES:
             raise
-        raise InputError(f"{error}: here with {option_name}") from error
+        raise InputError(f"{error}: here with {CURES[error.missing]}") from error
     console = screen()
     print_wrapped(console, f"Case: {case.path}")
     if case.skipped:

@@ -128,6 +128,7 @@ def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: b
     from gripscale.report.measured import measured_lines
     from gripscale.report.notices import case_notices, explained, warning_lines
     from gripscale.report.record import InputRecord
+    from gripscale.report.summary import FILE as SUMMARY
     from gripscale.report.uncertainty import uncertainty_lines
 
     folder.require_writable(target)
@@ -171,6 +172,9 @@ def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: b
         for curve in results.continued.values():
             parts += ["", *answer_of_curve(curve), rules_table(curve)]
 
+        solved = [] if direct is None else [direct]
+        solved += [results.dataset(name) for name in results.predictions]
+
         def draw_conditions() -> None:
             if heat is not None:
                 draw_heat(heat, target / "figures")
@@ -181,6 +185,7 @@ def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: b
             console,
             target,
             parts,
+            results=solved,
             text=REPORT,
             closing=CLOSING,
             opening=opening,
@@ -188,6 +193,8 @@ def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: b
             draw=draw_conditions,
         )
         emit(FileWritten(str(target / REPORT)))
+        if solved:
+            emit(FileWritten(str(target / SUMMARY)))
     # a page of an earlier result stays beside this one
     page, first = target / "report.html", next(iter(results.predictions), None)
     written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None

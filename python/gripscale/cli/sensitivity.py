@@ -90,6 +90,7 @@ def sensitivity(
         console,
         target,
         list(sensitivity_parts(data)),
+        results=[data],
         text="sensitivity.txt",
         closing=f"Result ({FILE}), tables and figure are in",
         draw=draw,

@@ -16,6 +16,7 @@ import typer
 from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
 
 if TYPE_CHECKING:
+    import xarray as xr
     from pydantic import BaseModel
     from rich.console import Console
 
@@ -97,6 +98,7 @@ def conclude(
     target: Path,
     parts: Sequence[str | Table],
     *,
+    results: Sequence[xr.Dataset],
     text: str,
     closing: str,
     opening: Sequence[str | Table] = (),
@@ -109,6 +111,7 @@ def conclude(
 ) -> None:
     """End a command: print and write what it found, draw its figures, set the exit code.
 
+    The numbers of `results` are written as a flat table for Excel.
     `lead`, the answer, and `parts` are printed. The file `text`, with lines of `width`, has `lead`,
     then `opening`, which the screen shows already, then `parts`; `files` are further texts by name.
     `closing` says what is in the folder. `page` is the result whose page is written, where the
@@ -116,6 +119,7 @@ def conclude(
     """
     from gripscale.case import folder
     from gripscale.io.table import as_text
+    from gripscale.report.summary import write_summary
 
     console.print()
     print_parts(console, [*lead, *parts])
@@ -123,6 +127,7 @@ def conclude(
     texts = {text: as_text(*above, *parts, width=width), **(files or {})}
     for name, content in texts.items():
         folder.write_text(target / name, content)
+    write_summary(results, target)
     if draw is not None:
         draw()
     console.print()

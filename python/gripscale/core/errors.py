@@ -13,6 +13,11 @@ class GripscaleError(Exception):
     see = ""
     """A chapter of the documentation or a command that explains it, or empty."""
 
+    def __init__(self, *args: object, missing: str = "") -> None:
+        super().__init__(*args)
+        self.missing = missing
+        """The key of a case, or argument of a reader, that was not stated and is needed."""
+
 
 class InputError(GripscaleError, ValueError):
     """A value that cannot be used; the message names it, its place and what was expected."""
@@ -58,6 +63,6 @@ def about_file(
     try:
         yield
     except InputError as error:
-        located = kind(f"{path}: {error}")
+        located = kind(f"{path}: {error}", missing=error.missing)
         located.see = error.see
         raise located from error

@@ -171,7 +171,7 @@ def temperature_in_kelvin(text: str) -> float:
     try:
         return parse_quantity(text, "temperature")
     except ValueError as error:
-        raise InputError(f"temperature: {error}") from error
+        raise InputError(f"temperature = {text!r}: {error}") from error
 
 
 def number_and_unit(value: object, kind: str) -> tuple[str, str] | None:

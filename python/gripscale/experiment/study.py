@@ -398,7 +398,9 @@ class Study:
         return {
             "title": "Study of real contact area and friction of rubber on a rough surface",
             **self.file.attributes,
-            **input_doubts(*self.surfaces),
+            **input_doubts(
+                self.surfaces, [point.task.load for point in self.points], self.file.units
+            ),
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,
             "footprint": load.footprint,

@@ -21,7 +21,8 @@ from gripscale.core import checks
 from gripscale.io import netcdf
 from gripscale.io.table import Column as Column
 from gripscale.io.table import Table as Table
-from gripscale.io.table import write_csv, write_workbook
+from gripscale.io.table import write_csv
+from gripscale.io.workbook import write_workbook
 
 WORKBOOK = "tables.xlsx"
 SINGLE, ATTRIBUTES = "single_values", "attributes"
@@ -80,7 +81,7 @@ def write_tables(
     InputError
         If the result or the format cannot be used, or a table has more rows than a sheet.
     FileError
-        If a file cannot be read or written, or openpyxl is missing for xlsx.
+        If a file cannot be read or written.
     """
     checks.one_of("format", format, ["csv", "xlsx"])
     read = netcdf.load_tree(result) if isinstance(result, str | Path) else result

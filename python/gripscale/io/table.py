@@ -12,11 +12,9 @@ import html
 import io
 import itertools
 import math
-import re
 import textwrap
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -25,7 +23,6 @@ from numpy.typing import NDArray
 
 from gripscale.core.errors import InputError
 from gripscale.io.netcdf import write_whole
-from gripscale.io.text_table import import_openpyxl
 
 if TYPE_CHECKING:
     from rich.console import Console, ConsoleOptions
@@ -41,14 +38,6 @@ WIDEST_HEAD, WIDEST_WORDS = 14, 30
 """Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
 NARROW = 4
 """Columns of a table that fits beside a figure."""
-
-MOST_ROWS = 1_048_576
-"""Rows of an Excel sheet, its heading included."""
-MOST_LETTERS = 32_767
-"""Letters of an Excel cell."""
-MOST_TITLE = 31
-"""Letters of the title of an Excel sheet."""
-CUT = " ... [cut: longer than a cell of a workbook; csv has all of it]"
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -426,63 +415,3 @@ def write_csv(table: Table, path: Path) -> Path:
             writer.writerows(table.rows())
 
     return write_whole(path, write)
-
-
-def write_workbook(tables: Sequence[Table], path: Path) -> Path:
-    """Write tables as the sheets of an xlsx file; return its path.
-
-    Missing values are empty cells, infinite ones texts; texts longer than a cell are cut and say
-    so. Raises `InputError` if a table has more rows than a sheet, `FileError` if openpyxl is
-    missing (`pip install 'gripscale[export]'`) or the file cannot be written.
-    """
-    openpyxl = import_openpyxl(path)
-    cell_of = import_module("openpyxl.cell").WriteOnlyCell
-    titles = _sheet_titles([table.name for table in tables])
-    sheets = {
-        title: [table.titles, *table.rows()] for title, table in zip(titles, tables, strict=True)
-    }
-    for title, rows in sheets.items():
-        if len(rows) > MOST_ROWS:
-            raise InputError(
-                f"tables must have at most {MOST_ROWS - 1} rows for xlsx; got {len(rows) - 1} in "
-                f"{title}: csv has no limit"
-            )
-    book = openpyxl.Workbook(write_only=True)
-    for title, rows in sheets.items():
-        sheet = book.create_sheet(title)
-        sheet.freeze_panes = "A2"
-        for row in rows:
-            sheet.append([_excel_cell(cell_of, sheet, value) for value in row])
-    content = io.BytesIO()
-    book.save(content)
-
-    def write(part: Path) -> None:
-        part.write_bytes(content.getvalue())
-
-    return write_whole(path, write)
-
-
-def _excel_cell(cell_of: Any, sheet: Any, value: Any) -> Any:
-    """Return the content of a cell; texts as texts, whatever they begin with."""
-    if isinstance(value, float) and math.isinf(value):
-        value = "inf" if value > 0.0 else "-inf"
-    if not isinstance(value, str):
-        return value
-    plain = re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f]", "?", value)
-    if len(plain) > MOST_LETTERS:
-        plain = plain[: MOST_LETTERS - len(CUT)] + CUT
-    cell = cell_of(sheet, plain)
-    cell.data_type = "s"
-    return cell
-
-
-def _sheet_titles(names: Sequence[str]) -> list[str]:
-    """Return titles of sheets, no two alike, also where large and small letters are."""
-    titles: list[str] = []
-    for name in names:
-        title, number = name[:MOST_TITLE], 2
-        while title.lower() in map(str.lower, titles):
-            end = f"_{number}"
-            title, number = name[: MOST_TITLE - len(end)] + end, number + 1
-        titles.append(title)
-    return titles

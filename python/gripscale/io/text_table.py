@@ -24,7 +24,6 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -96,20 +95,6 @@ def is_excel(path: Path) -> bool:
     return path.suffix.lower() in EXCEL
 
 
-def import_openpyxl(path: Path) -> Any:
-    """Return openpyxl, which reads and writes the xlsx file at `path`.
-
-    Raises `FileError`, with the command that installs it, if it is missing.
-    """
-    try:
-        return import_module("openpyxl")
-    except ImportError as error:
-        raise FileError(
-            f"{path}: xlsx needs openpyxl, which is not installed; "
-            "install it with: pip install 'gripscale[export]'"
-        ) from error
-
-
 def read_sheets(path: Path) -> dict[str, Rows]:
     """Return the rows of each sheet by its name, in the order of the file.
 
@@ -122,7 +107,13 @@ def read_sheets(path: Path) -> dict[str, Rows]:
         raise FileError(f"{path}: cannot be read (no such file)")
     if not path.stat().st_size:
         raise FileError(f"{path}: expected an xlsx file; got an empty file")
-    openpyxl = import_openpyxl(path)
+    try:
+        openpyxl = import_module("openpyxl")
+    except ImportError as error:
+        raise FileError(
+            f"{path}: xlsx needs openpyxl, which is not installed; "
+            "install it with: pip install 'gripscale[export]'"
+        ) from error
     try:
         with path.open("rb") as file:  # openpyxl leaves files open that it cannot read
             book = openpyxl.load_workbook(file, read_only=True, data_only=True)
@@ -158,7 +149,8 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
         if len(full) > 1:
             raise InputError(
                 f"{path}: sheet must be given, because {len(full)} sheets hold rows of numbers "
-                f"({', '.join(full)})"
+                f"({', '.join(full)})",
+                missing="sheet",
             )
         return sheets[full[0]] if full else next(iter(sheets.values()))
     if isinstance(sheet, str):

@@ -149,7 +149,8 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
         if chosen is None:
             raise InputError(
                 f"{path}, line {number}: temperature_unit must be given ({listed('temperature')}), "
-                f"because the line states none with {value}"
+                f"because the line states none with {value}",
+                missing="temperature_unit",
             )
         degrees = float(value.replace(",", "."))
         return float(in_si(degrees, chosen, "temperature", "temperature_unit"))

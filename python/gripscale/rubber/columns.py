@@ -259,7 +259,8 @@ class FileLayout(Checked):
         if any([row[at] for row in table.rows] != first for at in hits[1:]):
             raise InputError(
                 f"{table.path}: columns must say which is the {wanted}, because {len(hits)} titles "
-                f"mean it ({', '.join(table.columns[at].name for at in hits)})"
+                f"mean it ({', '.join(table.columns[at].name for at in hits)})",
+                missing="columns",
             )
         return hits[0] if hits else None
 
@@ -290,7 +291,8 @@ class FileLayout(Checked):
             what = "no unit" if header is None else checks.short_repr(header)
             raise InputError(
                 f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header "
-                f"states {what if len(written) == 1 else 'different units'}"
+                f"states {what if len(written) == 1 else 'different units'}",
+                missing=f"{kind}_unit",
             )
         return unit
 
@@ -303,7 +305,8 @@ class FileLayout(Checked):
         if title is None:
             raise InputError(
                 f"{table.path}: modulus must be given (E for Young's or G for shear), because the "
-                "header does not tell"
+                "header does not tell",
+                missing="modulus",
             )
         return title
 
@@ -324,7 +327,7 @@ def missing(table: TextTable, what: str, argument: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
-    return InputError(f"{table.path}: {argument} must give the {what}; {header}")
+    return InputError(f"{table.path}: {argument} must give the {what}; {header}", missing="columns")
 
 
 _ROUNDING = 0.05
@@ -376,7 +379,8 @@ def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
     if swapped < _ROUNDING < as_named:
         raise InputError(
             f"{table.path}: storage and loss modulus look exchanged, because the loss factor of "
-            "the file is their quotient the other way round; columns must name them as they are"
+            "the file is their quotient the other way round; columns must name them as they are",
+            missing="columns",
         )
 
 

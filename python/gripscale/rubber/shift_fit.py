@@ -189,7 +189,10 @@ def _rows(
     checks.instance("table", table, ShiftTable)
     reference = table.reference_temperature if temperature is None else temperature
     if reference is None:
-        raise InputError("reference_temperature [K] must be given, because the table states none")
+        raise InputError(
+            "reference_temperature [K] must be given, because the table states none",
+            missing="reference_temperature",
+        )
     reference = checks.positive("reference_temperature", reference, unit="K")
     kelvin = table.temperature
     log_a = table.log_a(kelvin, reference)
@@ -289,7 +292,8 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
     if unit is None or spelled(unit, "temperature") is None:
         raise InputError(
             f"{file}: temperature_unit must be given ({listed('temperature')}), because the "
-            f"header states {'none' if unit is None else repr(unit)}"
+            f"header states {'none' if unit is None else repr(unit)}",
+            missing="temperature_unit",
         )
     kelvin = in_si(columns["temperature"], unit, "temperature")
     vertical = columns.get("log_b")

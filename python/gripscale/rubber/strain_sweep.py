@@ -171,7 +171,8 @@ def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | Non
         if len(meanings) != 1:
             raise InputError(
                 f"{table.path}: amplitude must be given (single or peak-to-peak), because the "
-                f"title {title or 'of the strain'} does not tell"
+                f"title {title or 'of the strain'} does not tell",
+                missing="amplitude",
             )
         amplitude = meanings[0]
     size = AMPLITUDES[checks.one_of("amplitude", amplitude, AMPLITUDES)]

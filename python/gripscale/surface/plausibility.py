@@ -104,6 +104,11 @@ def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[st
     return _doubts(profile, cleaned).texts
 
 
+def has_likely_units(profile: Profile) -> bool:
+    """Return whether heights and distances of a profile are those of a texture."""
+    return not _doubts(profile, None).units
+
+
 class _Doubts(NamedTuple):
     """Why a profile may be no road."""
 
@@ -111,6 +116,8 @@ class _Doubts(NamedTuple):
     heights: Array | None = None
     """Heights that count [m]; None where they mean nothing."""
     plates: bool = False
+    units: bool = False
+    """Whether a length suggests another unit."""
 
 
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
@@ -126,14 +133,14 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
             f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {STEEPEST:g}: "
             "is the unit of heights or of distances right?"
         )
-        return _Doubts((text, *_unit_warnings(_levelled(measured), profile)))
+        return _Doubts((text, *_unit_warnings(_levelled(measured), profile)), units=True)
     part = replace(part, z=np.where(kept, measured, np.nan))
     sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
     if sentinels:  # a sentinel is far off, steep, flat and high, too
         return _Doubts(sentinels)
     plates = tuple(_plate_warnings(part))
-    units = _unit_warnings(_levelled(part.z), profile)
-    return _Doubts((*plates, *units), part.z, bool(plates))
+    units = tuple(_unit_warnings(_levelled(part.z), profile))
+    return _Doubts((*plates, *units), part.z, bool(plates), bool(units))
 
 
 def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:

@@ -144,7 +144,10 @@ def _topography(
                 f"{checks.short_repr(wanted)}"
             )
     if len(of_heights) > 1:
-        raise FileError(f"{path}: expected one channel of heights; got {names}; give channel")
+        raise FileError(
+            f"{path}: expected one channel of heights; got {names}; give channel",
+            missing="channel",
+        )
     channel = of_heights[0]
     if channel.physical_sizes is not None:
         if step is not None:
@@ -154,7 +157,8 @@ def _topography(
         size = " x ".join(map(str, channel.nb_grid_pts))
         raise FileError(
             f"{path}: expected a lateral size; the file gives none: give step, for an array of "
-            f"{size} heights whose first index runs along x, the way of sliding"
+            f"{size} heights whose first index runs along x, the way of sliding",
+            missing="step",
         )
     sizes = tuple(n * d for n, d in zip(channel.nb_grid_pts, step, strict=False))
     return channel.topography(physical_sizes=sizes)

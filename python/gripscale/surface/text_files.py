@@ -76,9 +76,10 @@ def length_unit(
     if named:
         raise FileError(
             f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of "
-            f"length; give {name}"
+            f"length; give {name}",
+            missing=name,
         )
-    raise FileError(f"{path}: {part} names no unit of length; {remedy} {name}")
+    raise FileError(f"{path}: {part} names no unit of length; {remedy} {name}", missing=name)
 
 
 def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> str:
@@ -136,7 +137,8 @@ def read_text_profile(
     if column is not None:
         raise FileError(
             f"{path}: expected two columns, distance and height; got one column of numbers: give "
-            'step, the distance between its points, such as "0.1 mm"'
+            'step, the distance between its points, such as "0.1 mm"',
+            missing="step",
         )
     table, columns = _read_table(
         path, lines, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE)
@@ -222,7 +224,8 @@ def read_text_map(
     elif step is None:
         raise FileError(
             f"{table.path}: a table of heights has no steps; give step, that along x and that "
-            "along y [m], or reader 'instrument' for a header that states them"
+            "along y [m], or reader 'instrument' for a header that states them",
+            missing="step",
         )
     else:
         z_unit = length_unit(table.path, "the table", None, "z_unit", z_unit)

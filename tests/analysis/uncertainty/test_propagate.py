@@ -224,6 +224,7 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     }
     assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
     text = (tmp_path / "uncertainty.txt").read_text()
+    assert (tmp_path / "summary.xlsx").is_file()
     assert f"in 90 % of {ENOUGH} samples" in text
     page = write_report(tmp_path).read_text()
     assert f"in 90 % of {ENOUGH} samples" in page

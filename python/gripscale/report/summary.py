@@ -1,0 +1,126 @@
+"""The answers of a command as one flat table for Excel: a row for each, all its numbers in it.
+
+A row is a place on the dimensions of the status of a result: a prediction, a model of a comparison,
+a point of a study. What holds for several rows stands in each of them; of models side by side, the
+best estimate in that of the direct contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.analysis.intervals import interval_ends
+from gripscale.analysis.ladder import DIRECT
+from gripscale.io.table import Column, Table
+from gripscale.io.workbook import write_workbook
+from gripscale.model import INPUT_DOUBTS, STATUS
+from gripscale.report.answer import has_answer, no_answer
+
+FILE = "summary.xlsx"
+ROWS = (STATUS, "status", "gain")
+"""Numbers of which a result has a row for each value: the first that is in it counts."""
+OF_MODELS = ("rung", "model")
+"""Dimensions of models side by side."""
+DOUBTS = "not_to_rely_on"
+FIRST = (
+    *("model", "best_friction", "best_friction_low", "best_friction_high"),
+    *("best_contact_fraction", "best_contact_fraction_low", "best_contact_fraction_high"),
+    *("total_friction", "total_contact_fraction", STATUS, DOUBTS, "nominal_pressure"),
+    *("nominal_speed", "footprint"),
+)
+"""Columns behind those that name the row."""
+ABOUT = (
+    *("model", "nominal_pressure", "nominal_speed", "footprint", "conditions", "rubber"),
+    *("rubber_source", "surface_source", "rubbers", "surfaces", "case_file", "command"),
+)
+"""Attributes of results that are columns, of a result without them those of the others."""
+UNITS = {"nominal_pressure": "Pa", "nominal_speed": "m/s", "footprint": "m"}
+LEFT_OUT = ("prediction_key", "seconds")
+
+
+def write_summary(results: Sequence[xr.Dataset], folder: Path) -> Path | None:
+    """Write the summary of results of a command into their folder; return the file.
+
+    None without any result. Raises `FileError` if it cannot be written.
+    """
+    if not results:
+        return None
+    return write_workbook([summary_table(results)], folder / FILE)
+
+
+def summary_table(results: Sequence[xr.Dataset]) -> Table:
+    """Return the answers of results as one table, with units in its headings."""
+    about = {name: value for data in reversed(results) for name, value in data.attrs.items()}
+    about.pop("model", None)
+    parts = [_columns(data, about) for data in results]
+    columns = {name: column for part in parts for name, column in part.items()}
+    places = [str(dim) for data in results for dim in _rows(data).dims]
+    order = {name: at for at, name in reversed([*enumerate([*places, *FIRST])])}
+    empty = [np.full(_rows(data).size, None) for data in results]
+    return Table(
+        "summary",
+        [
+            columns[name].of(
+                np.concatenate(
+                    [
+                        part[name].values if name in part else nothing
+                        for part, nothing in zip(parts, empty, strict=True)
+                    ]
+                )
+            )
+            for name in sorted(columns, key=lambda name: order.get(name, len(order)))
+        ],
+    )
+
+
+def _rows(data: xr.Dataset) -> xr.DataArray:
+    """Return the number of a result of which each value is a row."""
+    return data[next(name for name in ROWS if name in data)]
+
+
+def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
+    """Return the columns of a result by name; `about` holds attributes that it may lack."""
+    rows = _rows(data)
+    numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
+    full = _with_intervals(data).assign_coords(numbered)
+    columns = {
+        str(name): _in_rows(full[name], rows, full)
+        for name, variable in full.variables.items()
+        if not str(name).endswith(LEFT_OUT) and set(variable.dims) <= set(rows.dims)
+    }
+    texts = {name: data.attrs.get(name, about.get(name)) for name in ABOUT}
+    texts[DOUBTS] = no_answer(data) if has_answer(data) else data.attrs.get(INPUT_DOUBTS)
+    for name, value in texts.items():
+        varied = {name, name.removeprefix("nominal_")} & columns.keys()
+        if not varied and value not in (None, "", "null"):
+            values = np.full(rows.size, value, object)
+            columns[name] = Column(name, values, unit=UNITS.get(name, ""))
+    return columns
+
+
+def _in_rows(number: xr.DataArray, rows: xr.DataArray, data: xr.Dataset) -> Column:
+    """Return a number of a result in each of its rows.
+
+    A best estimate is made of the direct contact: it stands in its row, not in that of each model.
+    """
+    name, full = str(number.name), number.broadcast_like(rows)
+    if name.startswith("best_"):
+        for dim in {*OF_MODELS} & {*rows.dims} - {*number.dims}:
+            full = full.where(data[dim] == DIRECT)
+    unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""
+    return Column(name, full.transpose(*rows.dims).values.astype(object).ravel(), unit=unit)
+
+
+def _with_intervals(data: xr.Dataset) -> xr.Dataset:
+    """Return a result with both ends of the interval of each best estimate."""
+    for name in ("best_friction", "best_contact_fraction"):
+        if f"{name}_half_width" in data and f"{name}_low" not in data:
+            ends = interval_ends(data[name], data[f"{name}_half_width"])
+            for end, values in zip(("low", "high"), ends, strict=True):
+                data = data.assign({f"{name}_{end}": values.assign_attrs(units="1")})
+    return data

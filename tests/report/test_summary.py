@@ -1,0 +1,128 @@
+"""The flat table of a command: a row for each answer, with interval, units, doubts and files."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale.analysis.intervals import interval_ends
+from gripscale.io.text_table import read_sheets
+from gripscale.report.summary import FILE, summary_table, write_summary
+
+UNIT = {"units": "1"}
+
+
+def study(**attributes: object) -> xr.Dataset:
+    """A study over two speeds and two rubbers, of which one prediction failed."""
+    place = ("speed", "rubber")
+    status = np.array([["converged", "wave 2 failed"], ["converged", "converged"]], dtype=object)
+    return xr.Dataset(
+        {
+            "prediction_status": (place, status),
+            "prediction_key": (place, np.array([["a", "b"], ["c", "d"]], dtype=object)),
+            "best_friction": (place, [[0.2, math.nan], [0.4, 0.8]], UNIT),
+            "best_friction_half_width": (place, [[0.1, math.nan], [0.2, 0.3]], UNIT),
+            "upper_height": ((), 1.7, UNIT),
+            "hardness": ("rubber", [60.0, 70.0], {"units": "Pa"}),
+            "friction": ((*place, "scale"), np.zeros((2, 2, 3)), UNIT),
+        },
+        {"speed": ("speed", [0.1, 1.0], {"units": "m/s"}), "rubber": ["soft", "hard"]},
+        {
+            "model": "direct",
+            "nominal_speed": 0.3,
+            "nominal_pressure": np.float64(3e5),
+            "case_file": "case.toml",
+            **attributes,
+        },
+    )
+
+
+def rows(*results: xr.Dataset) -> list[dict[str, object]]:
+    table = summary_table(results)
+    return [dict(zip(table.titles, row, strict=True)) for row in table.rows()]
+
+
+def test_a_row_for_each_point_of_a_study() -> None:
+    first, failed, _, last = rows(study())
+    assert (first["speed [m/s]"], first["rubber"]) == (0.1, "soft")
+    assert (failed["speed [m/s]"], failed["rubber"]) == (0.1, "hard")
+    assert failed["best_friction [-]"] is None
+    assert failed["prediction_status"] == "wave 2 failed"
+    assert last["best_friction [-]"] == 0.8
+    low, high = interval_ends(xr.DataArray(0.8), xr.DataArray(0.3))
+    assert last["best_friction_low [-]"] == pytest.approx(float(low), rel=1e-15)
+    assert last["best_friction_high [-]"] == pytest.approx(float(high), rel=1e-15)
+    assert [row["hardness [Pa]"] for row in (first, failed)] == [60.0, 70.0]
+    assert first["upper_height [-]"] == last["upper_height [-]"] == 1.7
+    assert first["nominal_pressure [Pa]"] == 3e5
+    assert first["case_file"] == "case.toml"
+    assert list(first)[:4] == ["speed [m/s]", "rubber", "model", "best_friction [-]"]
+
+
+def test_what_is_varied_or_of_no_answer_is_no_column() -> None:
+    titles = list(rows(study())[0])
+    assert not [title for title in titles if title.startswith("nominal_speed")]
+    assert "prediction_key" not in titles
+    assert "friction [-]" not in titles
+
+
+def test_doubts_stand_in_each_row() -> None:
+    doubted = rows(study(input_doubts="The unit of heights looks wrong."))
+    assert {row["not_to_rely_on"] for row in doubted} == {"The unit of heights looks wrong."}
+    assert "not_to_rely_on" not in rows(study())[0]
+
+
+def test_several_results_share_their_columns_and_files() -> None:
+    direct, chain = (
+        xr.Dataset(
+            {"prediction_status": ((), "converged"), name: ((), 0.5, UNIT)},
+            attrs={"model": model, **files},
+        )
+        for name, model, files in (
+            ("best_friction", "direct", {}),
+            ("total_friction", "chain", {"case_file": "case.toml"}),
+        )
+    )
+    first, second = rows(direct, chain)
+    assert (first["model"], second["model"]) == ("direct", "chain")
+    assert (first["best_friction [-]"], second["best_friction [-]"]) == (0.5, None)
+    assert (first["total_friction [-]"], second["total_friction [-]"]) == (None, 0.5)
+    assert first["case_file"] == second["case_file"] == "case.toml"
+
+
+def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
+    words = np.array(["converged", "none"], dtype=object)
+    comparison = xr.Dataset({"status": ("rung", words)}, {"rung": ["chain", "direct"]})
+    assert [row["rung"] for row in rows(comparison)] == ["chain", "direct"]
+    design = xr.Dataset({"gain": ("point", [0.1, 0.2], UNIT), "rolling": ("point", [1.0, 1.1])})
+    assert [(row["point"], row["gain [-]"]) for row in rows(design)] == [(0, 0.1), (1, 0.2)]
+
+
+def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
+    words = np.array(["converged", "converged"], dtype=object)
+    comparison = xr.Dataset(
+        {
+            "status": ("rung", words),
+            "best_friction": ((), 0.2, UNIT),
+            "best_friction_half_width": ((), 0.1, UNIT),
+            "cutoff_wavelength": ((), 1e-4, {"units": "m"}),
+        },
+        {"rung": ["chain", "direct"]},
+    )
+    chain, direct = rows(comparison)
+    assert (chain["best_friction [-]"], direct["best_friction [-]"]) == (None, 0.2)
+    assert chain["best_friction_low [-]"] is None
+    assert chain["cutoff_wavelength [m]"] == direct["cutoff_wavelength [m]"] == 1e-4
+
+
+def test_excel_reads_it(tmp_path: Path) -> None:
+    assert write_summary([], tmp_path) is None
+    path = write_summary([study()], tmp_path)
+    assert path == tmp_path / FILE
+    titles, *cells = read_sheets(path)["summary"]
+    assert list(titles) == summary_table([study()]).titles
+    assert cells == list(summary_table([study()]).rows())
