@@ -243,7 +243,8 @@ class Table:
             yield from [self.columns] if self.columns else []
             return
         keys, part = list(self.columns[: self.keys]), list[Column]()
-        for _, group in itertools.groupby(self.columns[self.keys :], key=lambda c: c.group or id(c)):
+        rest = self.columns[self.keys :]
+        for _, group in itertools.groupby(rest, key=lambda column: column.group or id(column)):
             columns = list(group)
             if part and _width([*keys, *part, *columns], 1) > width:
                 yield [*keys, *part]
