@@ -171,13 +171,18 @@ def test_ramps_at_several_frequencies_get_nominal_temperatures(tmp_path: Path) -
         (["road"], "expected a file with moduli"),
         (["dma"], "expected a file with a surface"),
         (["road", "picture"], "picture.png"),
+        (["road", "ansys"], "expected rows of frequency, storage and loss"),
+        (["dma", "ansys"], "ansys.MPL: expected a surface"),
         (["road", "dma", "gone"], "gone.dat"),
     ],
 )
 def test_files_without_use_are_refused(tmp_path: Path, files: list[str], words: str) -> None:
     picture = tmp_path / "picture.png"
     picture.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(range(256)))
+    ansys = tmp_path / "ansys.MPL"
+    ansys.write_text("/COM,ANSYS RELEASE 2020 R1\nTB,PRON,_MATL,1,27,SHEA\n")
     paths = {
+        "ansys": ansys,
         "road": road(tmp_path / "road.csv"),
         "dma": sweeps(tmp_path / "dma.csv"),
         "picture": picture,
@@ -186,6 +191,17 @@ def test_files_without_use_are_refused(tmp_path: Path, files: list[str], words: 
     with pytest.raises((InputError, FileError), match=words):
         new_case([paths[name] for name in files], tmp_path / "case.toml")
     assert not (tmp_path / "case.toml").exists()
+
+
+def test_moduli_of_no_rubber_get_a_bulk_modulus_and_a_doubt(tmp_path: Path) -> None:
+    """E' of a hundred times the rubber's: with 2 GPa Poisson's ratio would be negative."""
+    stiff = sweeps(tmp_path / "dma.csv", size=100e-6)
+    case = new_case([road(tmp_path / "road.csv"), stiff], tmp_path / "case.toml")
+    largest = max(100.0 * modulus(t, 100.0).real for t in (0, 40))
+    bulk = float(keys(case)["rubber"]["bulk_modulus"].removesuffix(" GPa")) * 1e9
+    shear, ratio = largest / 3.0, 0.3
+    assert bulk == pytest.approx(2.0 * shear * (1.0 + ratio) / (3.0 - 6.0 * ratio), rel=0.02)
+    assert "is the unit of the moduli right" in doubted(case, Weight.ANOTHER)
 
 
 def test_a_case_is_not_overwritten(tmp_path: Path) -> None:

@@ -31,6 +31,7 @@ from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.units import temperature_in_kelvin
+from gripscale.rubber import read_master_curve
 from gripscale.rubber.extrapolation import require_measured
 
 LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
@@ -147,6 +148,7 @@ def _sorted(
     surfaces: list[Path] = []
     rubbers: list[Path] = []
     skipped: list[Path] = []
+    refused: dict[Path, GripscaleError] = {}
     for file in map(Path, files):
         for path in sorted(file.iterdir()) if file.is_dir() else [file]:
             if holds_moduli(path):
@@ -154,12 +156,17 @@ def _sorted(
                 continue
             try:
                 open_surface(path, step, UNITS_OF_SURFACE)
-            except GripscaleError:
-                if not file.is_dir():
-                    raise
-                skipped.append(path)
+            except GripscaleError as error:
+                if file.is_dir():
+                    skipped.append(path)
+                else:
+                    refused[path] = error
             else:
                 surfaces.append(path)
+    for path, refusal in refused.items():
+        if surfaces and not rubbers:
+            read_master_curve(path)  # raises why there are no moduli in it
+        raise refusal
     if not surfaces or not rubbers:
         what = "moduli (frequency, storage and loss)" if surfaces else "a surface"
         got = ", ".join(path.name for path in (*surfaces, *rubbers, *skipped)) or "no file"

@@ -7,6 +7,7 @@ proposal is a doubt with a weight: how far the answer may be off if it is wrong.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
@@ -25,6 +26,8 @@ from gripscale.io.text_table import EXCEL, read_lines
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.material import least_bulk_modulus
+from gripscale.rubber.prony import largest_modulus
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
 from gripscale.surface.plausibility import has_likely_units
@@ -39,6 +42,8 @@ CUT_OFF = "instrument"
 """Where its roughness ends: where the measurement does."""
 ROOM = 293.15
 """Temperature taken where neither a file nor the caller states one [K]."""
+BULK_MODULUS = 2e9
+"""That of rubber [Pa]."""
 
 
 class Weight(IntEnum):
@@ -239,8 +244,24 @@ def rubber_proposal(
         proposal.add("temperature_step", NOMINAL_STEP, words, Weight.SCATTER)
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
-    proposal.add("bulk_modulus", "2 GPa", "assumed: a DMA measurement does not give it")
+    _add_bulk_modulus(proposal, float(measured.storage.max()))
     return proposal
+
+
+def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
+    """Propose the bulk modulus of rubber, or what the largest measured modulus [Pa] needs."""
+    try:
+        largest_modulus(stiffest, BULK_MODULUS)
+    except InputError:
+        giga = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
+        words = (
+            f"for Poisson's ratio of 0.3 at the largest E', {stiffest / 1e9:.3g} GPa, which no "
+            "rubber has: is the unit of the moduli right?"
+        )
+        proposal.add("bulk_modulus", f"{giga:g} GPa", words, Weight.ANOTHER)
+    else:
+        words = "assumed: a DMA measurement does not give it"
+        proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
 
 
 def _open_rubber(

@@ -180,6 +180,12 @@ def plane_strain_modulus(modulus: ComplexArray, bulk: float) -> ComplexArray:
     return np.asarray(4.0 * shear * (bulk + shear) / (bulk + 4.0 * shear))
 
 
+def least_bulk_modulus(modulus: float) -> float:
+    """Return K [Pa] with which Poisson's ratio at |E*| [Pa] is 0.3, for a shear modulus of E/3."""
+    shear = modulus / 3.0
+    return 2.0 * shear * (1.0 + LEAST_POISSON_RATIO) / (3.0 - 6.0 * LEAST_POISSON_RATIO)
+
+
 def too_compressible(bulk: float, modulus: float, where: str) -> str:
     """Return a sentence if Poisson's ratio at K and |E*| [Pa] is below 0.3, else nothing.
 
@@ -188,8 +194,7 @@ def too_compressible(bulk: float, modulus: float, where: str) -> str:
     ratio = float(poisson_ratio(bulk, modulus))
     if ratio >= LEAST_POISSON_RATIO:
         return ""
-    shear = modulus / 3.0
-    least = 2.0 * shear * (1.0 + LEAST_POISSON_RATIO) / (3.0 - 6.0 * LEAST_POISSON_RATIO)
+    least = least_bulk_modulus(modulus)
     return (
         f"the bulk modulus, {bulk / 1e6:.4g} MPa, gives Poisson's ratio {ratio:.2f} {where}; "
         f"{least / 1e6:.4g} MPa would give {LEAST_POISSON_RATIO:g}"
