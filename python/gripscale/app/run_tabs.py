@@ -63,7 +63,9 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         width=300,
     )
     form = column()
-    others = pn.widgets.TextInput(label="others, by name", margin=(4, 8), width=420)
+    others = pn.widgets.TextInput(
+        label="others, by name", margin=(4, 8), sizing_mode="stretch_width", max_width=420
+    )
     fields: dict[str, pn.widgets.TextInput | pn.widgets.Select] = {}
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
     status, answer, output = column(), column(), code("")
@@ -244,6 +246,10 @@ def downloads(run: Run) -> pn.FlexBox:
     return pn.FlexBox(*files, folder)
 
 
+NONE_TO_COMPARE = (
+    "Runs of the question Contact and friction stand here side by side, and none has finished; "
+    "every other answer has its page in the tab before."
+)
 COMPARED_CHARTS = ("contact-area", "friction")
 """Figures with one curve a run; the others show one run alone."""
 
@@ -284,7 +290,7 @@ def compared_elements(runs: Runs) -> PageElements:
                     direct = None
                 compared.append(ComparedRun(run, replace(view, name=name), direct))
     if not compared:
-        return [Text("No run of this visit has results.")]
+        return [Text(NONE_TO_COMPARE)]
     charts = contact_charts([view for _, view, _ in compared])
     return [runs_table(compared), *(chart for chart in charts if chart.name in COMPARED_CHARTS)]
 

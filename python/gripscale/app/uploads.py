@@ -31,7 +31,7 @@ READING = """\
 """
 """What is read is named; a file that arrived is not green: it may be refused yet."""
 AT_ONCE = """\
-FilePond.setOptions({allowMinimumUploadDuration: false, maxParallelUploads: 100})
+FilePond.setOptions({maxParallelUploads: 100})
 const holds = part => part.shadowRoot?.querySelector('.filepond--root')
 const area_of = event => event.composedPath().find(holds)
 const name = (event, files) => {
@@ -47,7 +47,7 @@ document.addEventListener('FilePond:addfile', event => {
 """
 """Names files at the drop, in the browser itself, and lets the widget send all of them together.
 
-By itself the widget sends two at a time and shows each as being sent for 1 s after it was.
+By itself the widget sends two at a time, some 2 s apart.
 """
 
 

@@ -49,6 +49,8 @@ LABELS = 70
 """Room for the numbers of the ordinates of linked figures [px], whose frames are aligned."""
 COLUMNS = 1000
 """Pieces of an outline as the page is opened, a pixel each."""
+LEAST_EXPONENT = -5
+"""Powers of ten below it are written as such; 0.0004 is shorter than what Bokeh makes of it."""
 LEAST_DECADES = 1000.0
 """From this ratio of largest to least on a log axis, Bokeh labels the decades."""
 LEGEND_ROW = 28
@@ -188,6 +190,7 @@ def _style(figure: Any) -> None:
         if isinstance(axis.formatter, LogTickFormatter):
             axis.formatter.min_exponent = 4
         else:
+            axis.formatter.power_limit_low = LEAST_EXPONENT
             axis.minor_tick_line_color = None
 
 
@@ -237,11 +240,12 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
     if which == "y" and (axis.low is None or axis.high is None):
         room = max(LEAST_RANGE * values.min() / values.max(), 1.2) ** 0.5
         limits.update(start=values.min() / room, end=values.max() * room)
-    if values.max() < LEAST_DECADES * values.min() and axis.ticks is None:
+    span = values.max() / values.min()
+    longest = LEAST_DECADES if values.min() > 10.0**LEAST_EXPONENT else 60.0
+    if span < longest and axis.ticks is None:
         # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1;
         # of one of two decades they crowd at its upper end.
         first = int(np.floor(np.log10(values.min()))) - 1
-        span = values.max() / values.min()
         steps: tuple[float, ...] = (1, 3)
         if span < 4.0:
             steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)
@@ -249,7 +253,7 @@ def _set_axis(figure: Any, which: str, axis: Axis, values: Array) -> None:
             steps = (1, 2, 5)
         ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
         drawn.ticker = grid.ticker = FixedTicker(ticks=ticks)
-        drawn.formatter = BasicTickFormatter()
+        drawn.formatter = BasicTickFormatter(power_limit_low=LEAST_EXPONENT)
 
 
 def _draw_series(figure: Any, series: Series, *, positive: bool) -> list[Any]:
