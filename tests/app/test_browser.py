@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 
+from gripscale.app.commands import COMMANDS
 from gripscale.app.run_tabs import POLL
 from gripscale.case import EXAMPLES
 from gripscale.surface import read_profile
@@ -238,6 +239,11 @@ def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
         assert whole_way.width() <= width, name
         assert len(ends) == len(TABS), name
         assert all(0 <= left < right <= width for left, right in ends), (name, ends)
+    whole_way.tab("4 Run")
+    for question in ("Roads under this rubber", "Area term", "Contact and friction"):
+        whole_way.page.get_by_label("Question").select_option(label=question)
+        whole_way.says(next(each.about for each in COMMANDS if each.title == question))
+        assert whole_way.width() <= width, question
     whole_way.page.set_viewport_size({"width": 1400, "height": 900})
 
 
