@@ -22,8 +22,11 @@ NewText = Callable[[Mapping[str, bytes]], str]
 """From uploads by name to the text of the case with them; may read them, in the worker thread."""
 SETTLING = 0.5
 """Seconds in which the widget marks a file as done in the browser; before, it must not go away."""
-PAUSE = 1.0
-"""Seconds without a further file after which those dropped together are complete."""
+PAUSE = 3.0
+"""Seconds without a further file after which those dropped together are complete.
+
+The widget shows a file as being sent for 1.5 s after it was, and must not go away before.
+"""
 READING = """\
 :host([data-reading])::before { content: attr(data-reading); display: block; font-weight: 600;
     overflow-wrap: anywhere; padding: 0.2rem 0; }
