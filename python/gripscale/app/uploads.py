@@ -25,7 +25,7 @@ SETTLING = 0.5
 PAUSE = 3.0
 """Seconds without a further file after which those dropped together are complete.
 
-The widget shows a file as being sent for 1.5 s after it was, and must not go away before.
+The browser sends two at a time, with some 2 s between.
 """
 READING = """\
 :host([data-reading])::before { content: attr(data-reading); display: block; font-weight: 600;
@@ -34,7 +34,6 @@ READING = """\
 """
 """What is read is named; a file that arrived is not green: it may be refused yet."""
 AT_ONCE = """\
-FilePond.setOptions({maxParallelUploads: 100})
 const holds = part => part.shadowRoot?.querySelector('.filepond--root')
 const area_of = event => event.composedPath().find(holds)
 const name = (event, files) => {
@@ -48,14 +47,11 @@ document.addEventListener('FilePond:addfile', event => {
     if (event.detail.error) area_of(event)?.removeAttribute('data-reading')
 })
 """
-"""Names files at the drop, in the browser itself, and lets the widget send all of them together.
-
-By itself the widget sends two at a time, some 2 s apart.
-"""
+"""Names files at the drop, in the browser itself: the widget plays 1 s before it sends them."""
 
 
-def send_at_once(page: Document) -> None:
-    """Let the areas of a page name and send files as soon as they are dropped."""
+def name_at_once(page: Document) -> None:
+    """Let the areas of a page name files as soon as they are dropped."""
     page.js_on_event("document_ready", CustomJS(code=AT_ONCE))
 
 
