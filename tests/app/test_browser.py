@@ -15,6 +15,8 @@ from typing import Any
 
 import pytest
 
+from gripscale.app.commands import COMMANDS
+from gripscale.app.run_tabs import POLL
 from gripscale.case import EXAMPLES
 from gripscale.surface import read_profile
 from tests.browsing import BETWEEN, CURVES, PATIENCE, Visit
@@ -176,7 +178,7 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
     whole_way.tab("5 Results")
     frame = whole_way.page.frame_locator("iframe")
     frame.locator("html[data-drawn]").wait_for(timeout=PATIENCE, state="attached")
-    assert frame.locator("h1").inner_text() == "Contact and friction: run-2.toml"
+    assert frame.locator("h1").inner_text() == "Contact and friction: case-2.toml"
     box = whole_way.page.locator("iframe").bounding_box()
     assert box["width"] >= 0.95 * 1400
     assert box["height"] >= 600
@@ -184,10 +186,10 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
     top = "e => Math.abs(e.getBoundingClientRect().top) < 60"
     place = frame.locator("#rubber")
     whole_way.look(lambda: place.evaluate(top), "the chapter on the rubber")
-    assert frame.locator("h1").inner_text() == "Contact and friction: run-2.toml"
+    assert frame.locator("h1").inner_text() == "Contact and friction: case-2.toml"
     with whole_way.page.context.expect_page() as opened:
         whole_way.page.get_by_text("Open this page alone").click()
-    assert opened.value.locator("h1").inner_text() == "Contact and friction: run-2.toml"
+    assert opened.value.locator("h1").inner_text() == "Contact and friction: case-2.toml"
     opened.value.close()
 
 
@@ -212,6 +214,22 @@ def test_the_saved_case_is_the_text_shown(whole_way: AppVisit, tmp_path: Path) -
     assert 'speed = "0.03 m/s"' in text
 
 
+def test_the_answer_stands_above_the_output(whole_way: AppVisit) -> None:
+    whole_way.tab("4 Run")
+    answer = whole_way.page.locator("dl.cards").first
+    answer.wait_for(timeout=PATIENCE)
+    output = whole_way.says("Command and output")
+    assert answer.bounding_box()["y"] < output.bounding_box()["y"]
+
+
+def test_the_page_is_dark_on_white_in_a_dark_browser(whole_way: AppVisit) -> None:
+    whole_way.page.emulate_media(color_scheme="dark")
+    look = "() => (({colorScheme, backgroundColor}) => [colorScheme, backgroundColor])"
+    style = whole_way.page.evaluate(f"{look}(getComputedStyle(document.documentElement))")
+    assert style == ["light", "rgb(255, 255, 255)"]
+    whole_way.page.emulate_media(color_scheme="light")
+
+
 @pytest.mark.parametrize("width", [1400, 390])
 def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
     whole_way.page.set_viewport_size({"width": width, "height": 900})
@@ -221,6 +239,11 @@ def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
         assert whole_way.width() <= width, name
         assert len(ends) == len(TABS), name
         assert all(0 <= left < right <= width for left, right in ends), (name, ends)
+    whole_way.tab("4 Run")
+    for question in ("Roads under this rubber", "Area term", "Contact and friction"):
+        whole_way.page.get_by_label("Question").select_option(label=question)
+        whole_way.says(next(each.about for each in COMMANDS if each.title == question))
+        assert whole_way.width() <= width, question
     whole_way.page.set_viewport_size({"width": 1400, "height": 900})
 
 
@@ -229,17 +252,27 @@ def test_silence_and_no_network_but_the_page(whole_way: AppVisit) -> None:
     assert whole_way.asked == []
 
 
+NAMED = """() => document.addEventListener('input', event => {
+    const area = event.composedPath().find(part => part.dataset?.reading)
+    window.named = area?.dataset.reading
+})"""
+"""Keeps what an area says of files in the very event of their choice, before any other."""
+
+
 def test_what_is_refused_is_one_sentence_and_the_page_lives_on(
     browser: Any, server: str, tmp_path: Path, small: Path
 ) -> None:
     picture = tmp_path / "picture.png"
     picture.write_bytes(b"\x89PNG\r\n\x1a\n\x00\x00 no profile")
     with visit(browser, server) as seen:
+        seen.page.evaluate(NAMED)
         seen.drop(0, picture)
+        assert seen.page.evaluate("named") == "Reading picture.png ..."
         complaint = seen.says("picture.png: expected a file with measured values; got a picture")
         assert complaint.inner_text().count("\n") == 0
         seen.complaints(2)  # at the text, and where the road is
         assert seen.page.locator(".notice.good:visible").count() == 0, "never green beside red"
+        seen.page.locator("[data-reading]").wait_for(timeout=PATIENCE, state="detached")
         open_small(seen, small)
         seen.complaints(0)
         seen.press("Read, clean and fit")
@@ -363,6 +396,11 @@ def test_stop_ends_the_process(slow: AppVisit, root: Path) -> None:
     slow.says("run-1, contact and friction, is running")
     mine = [one for one in psutil.Process(server_pid).children() if "run" in one.cmdline()]
     assert len(mine) == 1
+    slow.page.get_by_text("Command and output").click()
+    output = slow.page.locator("pre:visible")
+    output.wait_for(timeout=PATIENCE)
+    slow.page.wait_for_timeout(3 * POLL)  # what follows the run does not fold it
+    assert output.count() == 1
     slow.press("Stop")
     slow.says("run-1, contact and friction, was stopped")
     assert not there(mine[0].pid)

@@ -16,6 +16,7 @@ from gripscale.app.run_tabs import answer_elements, run_status
 from gripscale.app.runs import Run, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
+from tests.samples import ROOT
 
 SLOW = """\
 [[surface.sines]]
@@ -107,6 +108,46 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     again = runs.start(by_name("sensitivity"))
     assert again is run
     assert len(runs.all) == 1, "what is finished is not repeated"
+
+
+def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
+    """The road of the case is named by its case, the other by its file."""
+    state = CaseState(VisitFolder.new(tmp_path))
+    text = (small / "case.toml").read_text().replace("../elsewhere/", "")
+    (small / "roads.toml").write_text(text)
+    state.copy_case(small / "roads.toml")
+    other = state.visit.store("other.txt", (small / "road.txt").read_bytes())
+    run = ended(Runs(state).start(by_name("compare-surfaces"), {"samples": "0"}, [other]))
+    assert run.state == "finished", run.log()
+    numbers, _, answer, *_ = answer_elements(run)
+    assert isinstance(numbers, Cards)
+    assert numbers.cards[0].label == "μ of other"
+    assert "that of case-1" in numbers.cards[0].detail
+    assert answer.text.startswith("Answer: other over case-1: friction × 1.00")
+    assert "table-texture" in run.write_page().read_text(encoding="utf-8")
+
+
+def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> None:
+    """Waves have no profile for a direct contact: the chain predicts, without being asked for."""
+    state = CaseState(VisitFolder.new(tmp_path))
+    state.copy_case(ROOT / "examples/measured_friction/case.toml")
+    command = by_name("calibrate")
+    run = ended(Runs(state).start(command))
+    assert run.state == "finished", run.log()
+    numbers, _, answer, *_ = answer_elements(run)
+    assert isinstance(numbers, Cards)
+    assert [card.label for card in numbers.cards][:2] == ["stress 0", "width"]
+    assert answer.text.startswith("Answer: area term with stress_0 = 0.346 MPa")
+    assert all(
+        option.value in dict(option.choices).values()
+        for option in command.options
+        if option.choices
+    )
+
+
+def test_a_command_that_printed_nothing_is_starting(tmp_path: Path) -> None:
+    run = Run("run-1", tmp_path / "case-1.toml", tmp_path / "run-1", "", by_name("study"))
+    assert run.how_far() == "starting"
 
 
 def by_name(name: str) -> Command:

@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.analysis import calibrate_case
+from gripscale.analysis.calibration import default_model
 from gripscale.analysis.calibration_text import parse_fixed
 from gripscale.case import prepare_conditions, read_case
 from gripscale.charts.uncertainty import fitted_figure, profiles_figure, residual_figure
@@ -101,6 +102,16 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     # with its own area term in the case, the fit is the same
     again = calibrate_case(written, model="chain", folder=target)
     assert again.law == fitted
+
+
+def test_the_surface_decides_what_predicts(case: Path, inputs: Path) -> None:
+    assert default_model(read_case(case)) == "chain"
+    measured = inputs / "of_a_profile.toml"
+    measured.write_text('[surface]\nfiles = ["road.txt"]\nscales = 3\n', encoding="utf-8")
+    text = case.read_text(encoding="utf-8")
+    rest = text[text.index("[rubber]") :]
+    measured.write_text(measured.read_text(encoding="utf-8") + rest, encoding="utf-8")
+    assert default_model(read_case(measured)) == "direct"
 
 
 def test_the_page_names_the_command_that_makes_it_again(

@@ -280,7 +280,7 @@ MODELS = ("direct", "chain")
 def calibrate_case(
     case: CaseResults | CaseFile | str | Path,
     *,
-    model: str = "direct",
+    model: str | None = None,
     law: str = "gaussian",
     fixed: Mapping[str, float] | None = None,
     hold_out: str | None = None,
@@ -297,8 +297,9 @@ def calibrate_case(
     case : path, CaseFile or CaseResults
         The case; `prepare_case` gives one with its inputs prepared. An area term of its own has no
         part in it.
-    model : str
-        "direct" or "chain": what predicts the hysteresis and the real contact area.
+    model : str, optional
+        "direct" or "chain": what predicts the hysteresis and the real contact area; by default
+        `default_model` of the case.
     law, fixed, hold_out
         As for `calibrate`.
     measured : MeasuredFriction, optional
@@ -314,9 +315,11 @@ def calibrate_case(
         As `calibrate` and the models do; if the case names no measured friction; if it refuses
         extrapolation and a point excites the rubber beyond its measured frequencies.
     """
-    checks.one_of("model", model, MODELS)
+    if model is not None:
+        checks.one_of("model", model, MODELS)
     fit.check_names(law, fixed or ())
     results = case if isinstance(case, CaseResults) else prepare_case(case)
+    model = model or default_model(results.file)
     friction = measured or measured_of(results.file)
     fit.refuse_unfit(friction, law, fixed or {})
     if hold_out is not None:
@@ -331,6 +334,11 @@ def calibrate_case(
         design = points_of(friction, predicting, rubber, surface, results.load)
         predicted = predicted_of(solve_design(design, bench))
     return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+
+
+def default_model(file: CaseFile) -> str:
+    """Return what predicts by default: the direct contact of a measured surface, else the chain."""
+    return "direct" if file.case.surface.measured_files else "chain"
 
 
 def measured_of(file: CaseFile) -> MeasuredFriction:

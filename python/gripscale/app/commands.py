@@ -17,6 +17,8 @@ class Option:
     value: str
     prefix: str = ""
     """Before the value on the command line, as in `--vary speed=...`."""
+    choices: Sequence[tuple[str, str]] = ()
+    """What the page calls the values it may have, and these; any text where there are none."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,13 @@ class Command:
         return words
 
 
+MODELS = (("best for the surface", ""), ("direct contact", "direct"), ("chain", "chain"))
+SHEAR_STRESSES = (
+    ("gaussian in log speed", "gaussian"),
+    ("constant", "constant"),
+    ("Le Gal and Klüppel", "le_gal_klueppel"),
+)
+HELD_OUT = (("none", ""), ("each temperature", "temperature"), ("each decade of speed", "speed"))
 SPEEDS = Option("--vary", "speeds", "0.003:30:log9", "speed=")
 COMMANDS = (
     Command(RUN, "Contact and friction", "The case as it is stated."),
@@ -85,6 +94,10 @@ COMMANDS = (
     Command("cut-off", "Cut-off", "Friction by the shortest wavelength that counts.",
             (Option("--down-to", "down to", "20 um"),)),
     Command("design", "Design of a compound", "Most friction for each rolling resistance."),
-    Command("calibrate", "Area term", "Fitted to the measured friction that the case names."),
+    Command("calibrate", "Area term",
+            "Fitted to the measured friction of the case; drop it in the tab of the load.",
+            (Option("--model", "model", "", choices=MODELS),
+             Option("--law", "shear stress", "gaussian", choices=SHEAR_STRESSES),
+             Option("--hold-out", "held out in turn", "", choices=HELD_OUT))),
 )  # fmt: skip
 """In the order of the page."""

@@ -94,9 +94,9 @@ def chart_pane(chart: Chart, figure: Any = None) -> pn.Column:
     return column(pane, html(Text(chart.caption)), css_classes=["chart"])
 
 
-def code(caption: str, text: str) -> pn.pane.HTML:
-    """Return the pane of a long text that opens at a click."""
-    return html(Code("text", caption, text))
+def code(text: str) -> pn.pane.HTML:
+    """Return the pane of a long text of a terminal, with lines as they are."""
+    return html(Code("text", "", text))
 
 
 _WORKER = ThreadPoolExecutor(1, thread_name_prefix="gripscale app")

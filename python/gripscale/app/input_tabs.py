@@ -15,11 +15,12 @@ from typing import Any
 import panel as pn
 
 from gripscale.app.case import CaseState, with_value
-from gripscale.app.case_panel import NewText, file_upload, problem_pane, with_upload
+from gripscale.app.case_panel import problem_pane
 from gripscale.app.crop import RawSurface
 from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.app.superposition import Redraw, superposition_elements
+from gripscale.app.uploads import NewText, file_upload, with_upload
 from gripscale.case import (
     CaseFile,
     CaseResults,

@@ -21,8 +21,8 @@ import xarray as xr
 
 from gripscale.analysis.intervals import interval_ends
 from gripscale.app.case import CaseState, field_text, tables_of
-from gripscale.app.case_panel import file_upload, problem_pane
-from gripscale.app.commands import COMMANDS, Command
+from gripscale.app.case_panel import problem_pane
+from gripscale.app.commands import COMMANDS, Command, Option
 from gripscale.app.elements import (
     Cards,
     PageElements,
@@ -35,6 +35,7 @@ from gripscale.app.elements import (
     work_button,
 )
 from gripscale.app.runs import Run, Runs
+from gripscale.app.uploads import file_upload
 from gripscale.charts.view import SYMBOLS, PredictionView
 from gripscale.charts.wave_and_chain import contact_charts
 from gripscale.core.errors import FileError, GripscaleError, InputError
@@ -62,10 +63,20 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         width=300,
     )
     form = column()
-    others = pn.widgets.TextInput(label="others, by name", margin=(4, 8), width=420)
-    fields: dict[str, pn.widgets.TextInput] = {}
+    others = pn.widgets.TextInput(
+        label="others, by name", margin=(4, 8), sizing_mode="stretch_width", max_width=420
+    )
+    fields: dict[str, pn.widgets.TextInput | pn.widgets.Select] = {}
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
-    status, answer = column(), column()
+    status, answer, output = column(), column(), code("")
+    folded_output = pn.Card(
+        output,
+        title="Command and output",
+        collapsed=True,
+        visible=False,
+        sizing_mode="stretch_width",
+        margin=(6, 8),
+    )
 
     def with_others(uploads: Mapping[str, bytes]) -> str:
         names = [state.visit.store(name, content) for name, content in uploads.items()]
@@ -75,14 +86,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     def show_options(*_: Any) -> None:
         command: Command = choice.value
         fields.clear()
-        fields.update(
-            {
-                option.label: pn.widgets.TextInput(
-                    label=option.label, value=option.value, margin=(4, 8), width=220
-                )
-                for option in command.options
-            }
-        )
+        fields.update({option.label: option_field(option) for option in command.options})
         drop = []
         if command.others:
             others.value = ""
@@ -106,11 +110,15 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     def show_progress(run: Run) -> None:
         share = run.progress().share
         bar.param.update(visible=True, value=-1 if share is None else round(100 * share))
-        status.objects = [html(run_status(run)), *output_elements(run, state)]
+        show_output(run)
+
+    def show_output(run: Run) -> None:
+        status.objects = [html(run_status(run))]
+        output.object, folded_output.visible = code(output_text(run, state)).object, True
 
     async def conclude(run: Run) -> None:
         bar.visible = stop.visible = False
-        status.objects = [html(run_status(run)), *output_elements(run, state)]
+        show_output(run)
         if run.state == "finished":
             answer.objects = panes(await in_worker(lambda: answer_elements(run)))
         runs.changes += 1
@@ -132,7 +140,16 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         bar,
         status,
         answer,
+        folded_output,
     )
+
+
+def option_field(option: Option) -> pn.widgets.TextInput | pn.widgets.Select:
+    """Return the field of an option: a choice where only some values are possible."""
+    look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
+    if not option.choices:
+        return pn.widgets.TextInput(**look)
+    return pn.widgets.Select(options=dict(option.choices), **look)
 
 
 def run_status(run: Run) -> Element:
@@ -146,10 +163,10 @@ def run_status(run: Run) -> Element:
     return Text(f"{run.name}, {run.command.title.lower()}, {words[run.state]}")
 
 
-def output_elements(run: Run, state: CaseState) -> list[pn.pane.HTML]:
+def output_text(run: Run, state: CaseState) -> str:
     """Return the command of a run, and what it printed, if anything."""
     command = f"$ {shlex.join(['gripscale', *run.words])}"
-    return [code("Command and output", f"{command}\n{state.visit.short(run.log())}")]
+    return f"{command}\n{state.visit.short(run.log())}"
 
 
 def answer_elements(run: Run) -> PageElements:
@@ -229,6 +246,10 @@ def downloads(run: Run) -> pn.FlexBox:
     return pn.FlexBox(*files, folder)
 
 
+NONE_TO_COMPARE = (
+    "Runs of the question Contact and friction stand here side by side, and none has finished; "
+    "every other answer has its page in the tab before."
+)
 COMPARED_CHARTS = ("contact-area", "friction")
 """Figures with one curve a run; the others show one run alone."""
 
@@ -269,7 +290,7 @@ def compared_elements(runs: Runs) -> PageElements:
                     direct = None
                 compared.append(ComparedRun(run, replace(view, name=name), direct))
     if not compared:
-        return [Text("No run of this visit has results.")]
+        return [Text(NONE_TO_COMPARE)]
     charts = contact_charts([view for _, view, _ in compared])
     return [runs_table(compared), *(chart for chart in charts if chart.name in COMPARED_CHARTS)]
 

@@ -255,7 +255,9 @@ class Run:
 
     def how_far(self) -> str:
         """Return how far it is, in words."""
-        return self.progress().sentence if self.command.name == RUN else self.last_line()
+        if self.command.name == RUN:
+            return self.progress().sentence
+        return self.last_line() or "starting"
 
 
 class Runs(param.Parameterized):
@@ -313,5 +315,6 @@ class Runs(param.Parameterized):
 
     def _new(self, file: CaseFile, command: Command, arguments: tuple[str, ...]) -> Run:
         """Return a further run of a case, to be saved beside the files it names."""
-        name, path = f"run-{len(self.all) + 1}", self._state.visit.path
-        return Run(name, path / f"{name}.toml", path / "runs" / name, file.text, command, arguments)
+        number, path = len(self.all) + 1, self._state.visit.path
+        name, case = f"run-{number}", path / f"case-{number}.toml"
+        return Run(name, case, path / "runs" / name, file.text, command, arguments)

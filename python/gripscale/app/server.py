@@ -19,6 +19,7 @@ from gripscale.app.elements import column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
+from gripscale.app.uploads import name_at_once
 from gripscale.case import folder, read_case
 from gripscale.case.examples import EXAMPLES
 from gripscale.core.errors import InputError
@@ -30,6 +31,8 @@ INTRO = (
     "same results from it.</p>"
 )
 TABS_STYLE = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
+LIGHT = ":root { color-scheme: light; background: #fff; }"
+"""The page is dark on white whatever the browser prefers: its figures are."""
 HOST = "127.0.0.1"
 GONE_AFTER = 15_000
 """Milliseconds after which a page that was closed counts as left."""
@@ -50,6 +53,8 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
         visit.remove_if_unused()
 
     pn.state.on_session_destroyed(leave)
+    if pn.state.curdoc is not None:
+        name_at_once(pn.state.curdoc)
     of_case = (
         ("1 Road", road_tab(state)),
         ("2 Rubber", rubber_tab(state)),
@@ -84,7 +89,7 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     folder.require_writable(root)
     folder.make(root)
     port = _free_port(port)
-    pn.extension("filedropper")
+    pn.extension("filedropper", raw_css=[LIGHT])
 
     def page() -> pn.Column:
         return visit_page(root.resolve(), case)

@@ -35,6 +35,10 @@ LABELS = 70
 """Room for the numbers of the ordinates of linked figures [px], whose frames are aligned."""
 COLUMNS = 1000
 """Pieces of an outline as the page is opened, a pixel each."""
+LEAST_EXPONENT = -5
+"""Powers of ten below it are written as such; 0.0004 is shorter than what Bokeh makes of it."""
+LEAST_DECADES = 1000.0
+"""From this ratio of largest to least on a log axis, Bokeh labels the decades."""
 LEGEND_ROW = 28
 """Height of a row of the legend [px]; of more than two rows the figure grows."""
 LEGEND_WIDTH = 300
@@ -193,7 +197,8 @@ def _set_axis(figure: Part, which: str, axis: Axis, values: Array) -> None:
             formatter=Part("LogTickFormatter", min_exponent=4),
         )
     else:
-        drawn.update(minor_tick_line_color=None)
+        formatter = Part("BasicTickFormatter", power_limit_low=LEAST_EXPONENT)
+        drawn.update(minor_tick_line_color=None, formatter=formatter)
     grid = Part("Grid", axis=drawn, dimension="xy".index(which), grid_line_color=FAINT)
     figure["center"].append(grid)
     side = "below" if which == "x" else "left"
@@ -230,13 +235,20 @@ def _set_ticks(drawn: Part, axis: Axis, values: Array) -> None:
         whole = list(range(int(np.ceil(values.min())), int(values.max()) + 1))
         drawn.update(ticker=Part("FixedTicker", ticks=whole))
     values = values[values > 0.0]
-    if axis.log and values.size and values.max() < 60.0 * values.min():
-        # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1.
+    if not axis.log or not values.size:
+        return
+    span = values.max() / values.min()
+    if span < (LEAST_DECADES if values.min() > 10.0**LEAST_EXPONENT else 60.0):
+        # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1;
+        # of one of two decades they crowd at its upper end.
         first = int(np.floor(np.log10(values.min()))) - 1
-        short = values.max() < 4.0 * values.min()
-        steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9) if short else (1, 2, 5)
+        steps: tuple[float, ...] = (1, 3)
+        if span < 4.0:
+            steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)
+        elif span < 60.0:
+            steps = (1, 2, 5)
         ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
-        formatter = Part("BasicTickFormatter")
+        formatter = Part("BasicTickFormatter", power_limit_low=LEAST_EXPONENT)
         drawn.update(ticker=Part("FixedTicker", ticks=ticks), formatter=formatter)
 
 

@@ -224,8 +224,13 @@ def uncertainty(
 def calibrate(
     case: CasePath,
     model: Annotated[
-        str, typer.Option(help="What predicts hysteresis and contact area: direct or chain.")
-    ] = "direct",
+        str | None,
+        option(
+            "What predicts hysteresis and contact area: direct, the default where the surface was "
+            "measured, or chain, the default elsewhere.",
+            metavar="direct|chain",
+        ),
+    ] = None,
     law: Annotated[
         str, typer.Option(help="Shear stress: constant, gaussian or le_gal_klueppel.")
     ] = "gaussian",
@@ -250,7 +255,7 @@ def calibrate(
     cluster: Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.analysis.calibration import calibrate_case, measured_of
+    from gripscale.analysis.calibration import calibrate_case, default_model, measured_of
     from gripscale.analysis.calibration_text import notes, parse_fixed, shear_stress_table
     from gripscale.case import read_case
     from gripscale.charts.write import draw_calibration
@@ -260,6 +265,7 @@ def calibrate(
 
     values = parse_fixed(fixed or [])
     file = read_case(case)
+    model = model or default_model(file)
     friction = measured_of(file) if measured is None else read_measured_friction(measured)
     opening = f"Area term of {file.path} from {friction.source}"
     console, target = terminal.open_folder(file, output, "calibration", opening)

@@ -36,6 +36,8 @@ LEAST_WORDS = 22
 """Characters a column of words is wrapped to before a table is divided."""
 WIDEST_HEAD, WIDEST_WORDS = 14, 30
 """Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
+LONGEST_HEAD = 40
+"""Characters up to which a narrow page may break a heading between any two words."""
 NARROW = 4
 """Columns of a table that fits beside a figure."""
 
@@ -305,7 +307,7 @@ class Table:
         )
         words = ["words" if column.as_words else "" for column in self.columns]
         heads = "".join(
-            f'<th scope="col" class="{kind}">{html.escape(column.head)}'
+            f'<th scope="col" class="{kind}">{html.escape(_bound(column.head))}'
             + (f'<span class="unit">{html.escape(column.unit)}</span>' if column.unit else "")
             + "</th>"
             for column, kind in zip(self.columns, words, strict=True)
@@ -334,6 +336,14 @@ class Table:
             + "\n".join(body)
             + f"\n</tbody>\n</table>\n{notes}</div>\n"
         )
+
+
+def _bound(head: str) -> str:
+    """Return a heading, the words of a long one bound to some four lines, broken between them."""
+    if len(head) <= LONGEST_HEAD:
+        return head
+    lines = textwrap.wrap(head, max(len(head) // 4, 1), break_long_words=False)
+    return " ".join(line.replace(" ", "\N{NO-BREAK SPACE}") for line in lines)
 
 
 def _heading(column: Column) -> list[str]:
