@@ -188,6 +188,6 @@ _CHAPTERS = {
     Status.FRICTIONS_DISAGREE: _WAVES,
     Status.CONTACT_TOO_NARROW: _WAVES,
     Status.PROFILE_TOO_ROUGH: _MESHES,
-    Status.CONDITIONS_NOT_SETTLED: "conditions.md#how-they-settle",
+    Status.CONDITIONS_NOT_SETTLED: "conditions.md#the-fixed-point",
 }
 """Chapters of statuses that have one of their own."""
