@@ -2,8 +2,9 @@
 
     python -m studies.book_figures [FOLDER]
 
-writes docs/figures/book_*.png; half a minute of one core. Each picture comes from results of the
-shipped case: waves and chain at finite strain, the direct contact, and its derivatives.
+writes docs/figures/book_*.png; about a minute of one core. Each picture comes from results of the
+shipped case: waves and chain at finite strain, the direct contact, and its derivatives. That of the
+conditions comes from examples/conditions/case.toml.
 """
 
 from __future__ import annotations
@@ -21,10 +22,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.analysis import case_sensitivity
+from gripscale.analysis import case_sensitivity, effects
 from gripscale.analysis.comparison import reference
 from gripscale.case import prepare_case
-from gripscale.charts import blocks_figure, draw
+from gripscale.charts import blocks_figure, draw, effects_figure
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.direct_contact import named_traces
 from gripscale.charts.paper import write_png
@@ -52,6 +53,9 @@ PIECES = ((120.0, 1780.0), (640.0, 760.0), (668.0, 676.0))
 """Of the road [mm], each a close-up of the one before."""
 STRETCH = 60.0
 """Length of the road under the draped rubber [mm]."""
+SENSITIVITY_SPEEDS = [0.003, 0.3, 30.0]
+"""Of the derivatives over the speed [m/s]."""
+CONDITIONS = ROOT / "examples" / "conditions" / "case.toml"
 
 
 class Shipped:
@@ -236,6 +240,19 @@ def sensitivity(shipped: Shipped) -> Figure:
     return sensitivity_figure(shipped.sensitivity)
 
 
+def speeds(_: Shipped) -> Figure:
+    """Draw the same at three speeds."""
+    with tempfile.TemporaryDirectory() as folder:
+        vary = {"speed": SENSITIVITY_SPEEDS}
+        return sensitivity_figure(case_sensitivity(CASE, folder=folder, vary=vary).load())
+
+
+def conditions(_: Shipped) -> Figure:
+    """Draw what each effect of the conditions is worth in the chain."""
+    case = prepare_case(CONDITIONS)
+    return effects_figure(effects(case.chain, case.rubber.rubber, case.surface, case.load))
+
+
 def answers(shipped: Shipped) -> dict[str, xr.Dataset]:
     """Return what the models answer for the shipped road."""
     case, rubber = shipped.case, shipped.rubber
@@ -298,7 +315,7 @@ def errors(shipped: Shipped) -> Figure:
     return draw.on_paper(Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys))
 
 
-PICTURES = (block, wave, stack, road, draped, sensitivity, models, errors)
+PICTURES = (block, wave, stack, road, draped, sensitivity, speeds, conditions, models, errors)
 
 
 def pictures() -> Iterator[tuple[str, Figure]]:

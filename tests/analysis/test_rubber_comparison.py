@@ -61,7 +61,7 @@ def test_temperatures_that_cannot_be_one_are_refused_or_said() -> None:
     unknown = {"room": fixed["room"], "other": solid(None, shift=False)}
     together, notes = at_one_temperature(unknown)
     assert together == unknown
-    assert notes == ("the temperature of other is not known beside that of room",)
+    assert notes == ("the temperature of other is not known, that of room is",)
 
 
 @pytest.fixture(scope="module")

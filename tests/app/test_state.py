@@ -224,7 +224,7 @@ def test_a_surface_and_a_rubber_dropped_together_make_a_case(
     assert state.get(("surface", "files")) == ["inputs/road.txt"]
     assert state.get(("surface", "cut_off")) == "instrument"
     assert state.get(("rubber", "file")) == "inputs/dma.txt"
-    assert "# Doubts, the weightiest first:" in state.text
+    assert "# Doubts, the most important first:" in state.text
     with pytest.raises(InputError, match="expected a file with a surface, too"):
         opened(state, {"dma.txt": dropped["dma.txt"]})
 

@@ -131,7 +131,7 @@ def test_kelvin_and_a_map_are_seen_by_their_numbers(tmp_path: Path) -> None:
     assert found["rubber"]["temperature_unit"] == "K"
     assert found["surface"]["map"] == "map.npy"
     assert found["surface"]["step"] == step
-    assert "x and y of the map are 12.6 mm and 14.1 mm long" in doubted(case, Weight.SCATTER)
+    assert "the map is 12.6 mm and 14.1 mm long in x and y" in doubted(case, Weight.SCATTER)
 
 
 def test_a_temperature_that_cannot_be_reached_is_a_doubt(tmp_path: Path) -> None:
@@ -143,7 +143,7 @@ def test_a_temperature_that_cannot_be_reached_is_a_doubt(tmp_path: Path) -> None
     files = [road(tmp_path / "road.csv"), curve]
     case = new_case(files, tmp_path / "case.toml", temperature="60 C")
     assert "conditions" not in keys(case)
-    assert "one temperature and no shift, and is not brought to 60 C" in doubted(
+    assert "one temperature and no shift, and cannot be brought to 60 C" in doubted(
         case, Weight.FACTOR
     )
     shift = {"kind": "wlf", "c1": 8.86, "c2": "101.6 K"}
@@ -225,7 +225,7 @@ def test_the_command_says_what_is_doubtful_and_what_comes_next(
     target = tmp_path / "case.toml"
     outcome = shell("new", folder, "-o", target, "--temperature", "20 C", *OPTIONS)
     assert outcome.exit_code == 0, outcome.output
-    assert "Doubts, the weightiest first:\n  1. crop = " in outcome.output
+    assert "Doubts, the most important first:\n  1. crop = " in outcome.output
     assert f"gripscale run {target}" in " ".join(outcome.output.split())
 
 

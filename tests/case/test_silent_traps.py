@@ -239,5 +239,5 @@ def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Pa
     file = write(tmp_path)
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
     (tmp_path / "warm.txt").write_text(f"T = 40 °C\n{DMA}", encoding="utf-8")
-    assert "its moduli are taken to be those at 20 °C" in rubber_note("other.txt", file)
+    assert "its moduli are assumed to be those at 20 °C" in rubber_note("other.txt", file)
     assert rubber_note("warm.txt", file) == ""

@@ -71,6 +71,6 @@ def make_prediction() -> Callable[..., xr.Dataset]:
 
 @pytest.fixture
 def without_waves() -> xr.Dataset:
-    """The answer of a model that does not go wave by wave."""
+    """The answer of a model without waves."""
     totals = dict(zip(TOTALS, (0.05, 0.6, 0.58), strict=True))
     return answer(xr.Dataset(), totals, "converged", "toy", Load(3e5, 0.3, 0.1))

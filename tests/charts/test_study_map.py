@@ -101,7 +101,7 @@ def test_both_are_among_the_figures_of_a_study(study: xr.Dataset, tmp_path: Path
 
 def test_page_shows_celsius_and_one_curve(study: xr.Dataset, tmp_path: Path) -> None:
     page = write_report(netcdf.save(study, tmp_path / "study.nc")).read_text(encoding="utf-8")
-    assert "40 °C lies beyond the temperatures that the shift" in page
+    assert "40 °C lies beyond the temperatures of the shift" in page
     assert "friction over a_T v" in page
     assert "one curve, temperatures up to" in page
     assert 'id="figure-total_friction-over-reduced_speed"' in page

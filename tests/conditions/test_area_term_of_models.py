@@ -76,8 +76,8 @@ def test_the_heat_that_the_area_term_lacks_is_stated():
         ratio = found.adhesive_friction / found.friction
         assert ratio > 0.01
         assert [text for text in sentences if "heat of the area term" in text] == [
-            "Temperatures are without the heat of the area term, which is "
-            f"{ratio:.0%} of the heat of the hysteresis they are due to."
+            "Temperatures contain the heat of the hysteresis only; the heat of the area term is "
+            f"{ratio:.0%} of it."
         ]
 
 

@@ -27,3 +27,11 @@ def test_files_named_in_the_text_exist(page):
     text = page.read_text(encoding="utf-8")
     for name in re.findall(r"`((?:rust|python|tests|benchmarks|examples|docs)/[\w./-]+)`", text):
         assert (ROOT / name).exists(), f"{page.name} names {name}"
+
+
+def test_tests_of_the_page_on_verification_exist():
+    """Names without a folder are in tests/verification."""
+    text = (ROOT / "docs" / "verification.md").read_text(encoding="utf-8")
+    names = re.findall(r"`(test_\w+\.py)`", text)
+    assert len(names) > 10
+    assert not [name for name in names if not (ROOT / "tests" / "verification" / name).exists()]

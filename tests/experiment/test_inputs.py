@@ -172,4 +172,4 @@ def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measure
         at = [other.complex_modulus(w) / own.complex_modulus(w) for w in (1.0, 1e4)]
         np.testing.assert_allclose(at, 1.0, rtol=1e-6)
     assert [one.reference_temperature for one in others] == [293.15, 313.15, 293.15]
-    assert "read like the rubber of the case where it does not say: freq" in others[0].source
+    assert "read with these settings of the rubber of the case: freq" in others[0].source

@@ -55,7 +55,7 @@ def test_steep_contact_is_noted():
     assert flat.slope_in_contact < 0.5
     assert flat.notes == []
     assert steep.slope_in_contact > 0.5
-    assert "small strain is no longer fair" in steep.notes[0]
+    assert "small strain is no longer a good approximation" in steep.notes[0]
 
 
 def test_the_dataset_holds_the_result(tmp_path):

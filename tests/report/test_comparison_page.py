@@ -63,7 +63,7 @@ def test_chapter_of_a_run_is_of_just_its_case(
     page = Page(write_report(tmp_path))
     chapter = {one for one in figures(page) if one in FIGURES}
     assert chapter == {one for one in FIGURES if "speed" not in one}
-    assert "is of another text of the case and is left out" in page.text
+    assert "belongs to another version of the case and is left out" in page.text
 
 
 def test_one_file_is_a_page_too(compared_folder: Path) -> None:

@@ -304,7 +304,7 @@ def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:
     load = Load(3e5, 0.3, 0.1)
     data = answer(xr.Dataset(), totals, "converged", "toy", load)
     page = Page(write_report(netcdf.save(data, tmp_path / "toy.nc")))
-    for text in ("0.0123", "0.456", "0.451 from energy lost", "The model does not go wave by wave"):
+    for text in ("0.0123", "0.456", "0.451 from energy lost", "The model has no waves"):
         assert text in page.text
     assert not [a for _, a in page.tags if a.get("role") == "alert"]
     nowhere = dict.fromkeys(TOTALS, np.nan)

@@ -53,7 +53,7 @@ def test_they_are_part_of_the_rubber_and_of_its_file():
     [{"moduli": [1e6, 3e6]}, {"relaxation_times": [1e-3, 2.0]}, {"equilibrium_modulus": 1.3e6}],
 )
 def test_they_belong_to_one_series(change):
-    with pytest.raises(InputError, match=r"admissible must be what fits beside this series; got"):
+    with pytest.raises(InputError, match=r"admissible must belong to this series; got"):
         replace(RUBBER, **change)
     assert replace(RUBBER, **change, admissible=None).admissible is None
     # what does not change the series keeps them, and series not yet given away fit any

@@ -51,7 +51,7 @@ def test_the_road_is_plausible_between_its_plates_and_not_with_them(path):
     assert "plates, supports or filled gaps lie in the profile" in warnings_after_cleaning(road)
     # Without spike removal the noise of the laser is left.
     says = warnings_after_cleaning(road, crop=ROAD_ONLY, remove_spikes=False)
-    assert "slopes left are 3 or steeper" in says or "the rms slope is" in says
+    assert "remaining slopes are 3 or steeper" in says or "the rms slope is" in says
 
 
 def test_grooves_are_no_jumps():
@@ -92,7 +92,7 @@ def test_filled_gaps_are_flat(filled):
 def test_slopes_that_are_left_are_counted():
     spiky = changed([500, 900], ROUGH.z[[500, 900]] + 1e-3)
     assert warnings_after_cleaning(spiky) == ""
-    assert "4 of 4000 slopes left are 3 or steeper" in warnings_after_cleaning(
+    assert "4 of 4000 remaining slopes are 3 or steeper" in warnings_after_cleaning(
         spiky, remove_spikes=False
     )
     assert profile_warnings(spiky, steep=False) == ()
@@ -103,7 +103,7 @@ def test_slopes_that_are_left_are_counted():
     [
         (1.0, 1e3, "too high for a texture; is the unit of heights right?"),
         (1e3, 1e3, "too high for a texture"),
-        (1.0, 1e-3, "hardly a slope; is the unit of heights right?"),
+        (1.0, 1e-3, "hardly any slope; is the unit of heights right?"),
         (1e3, 1.0, "too coarse for a texture; is the unit of distances right?"),
         (1e-3, 1.0, "too high for a texture"),
     ],
@@ -147,7 +147,7 @@ def test_it_is_said_where_the_waves_end():
     assert note({"scales": 2}).endswith("where the fit puts it")
     below = prepared({"scales": 5, "smallest_wavelength": 0.2e-3})
     assert below.notes == (
-        "the smallest wave, 0.2 mm, is shorter than the measurement carries, 0.4 mm: it "
+        "the smallest wave, 0.2 mm, is shorter than the measurement resolves, 0.4 mm: it "
         "extrapolates the waves above it",
     )
     assert prepared({"scales": 5, "smallest_wavelength": 0.4e-3}).notes == ()

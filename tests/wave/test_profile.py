@@ -246,7 +246,7 @@ def test_a_profile_too_rough_for_its_columns_says_what_it_carried():
     carried = one.details["smallest_wave_carried"]
     assert PERIOD / 20 < carried < PERIOD
     assert one.why == (
-        f"profile too rough for 128 columns: found with waves down to {carried:.2g} m alone; "
+        f"profile too rough for 128 columns: solved with waves down to {carried:.2g} m only; "
         "leave out shorter waves, or take more columns"
     )
     smooth = gs.solve_profile(tread(), self_affine(20, 2.0), smallest_wavelength=carried, **load)

@@ -79,7 +79,7 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
         raise InputError(
             f"the hysteresis alone exceeds the measured friction at {below.sum()} of "
             f"{difference.size} points, by up to {-difference.min():.3g}: the shear stress of an "
-            "area term would be negative; expected a hysteresis below what was measured"
+            "area term would be negative; expected a hysteresis below the measured friction"
         )
     return Points(
         measured.speed[answered],
@@ -121,7 +121,7 @@ def _all_or_none(name: str, values: Array) -> Array | None:
     missing = np.isnan(values)
     if missing.any() and not missing.all():
         raise InputError(
-            f"{name} must be known of all points or of none; got it of {(~missing).sum()} of "
+            f"{name} must be stated for all points or for none; got it for {(~missing).sum()} of "
             f"{missing.size}"
         )
     return None if missing.all() else values

@@ -58,7 +58,7 @@ def notes(calibration: Calibration) -> Iterator[str]:
     if not calibration.spread_known:
         yield (
             f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
-            "is taken for it, whatever makes it."
+            "takes its place, whatever its cause."
         )
     elif calibration.chance < UNLIKELY:
         yield (
@@ -72,9 +72,9 @@ def notes(calibration: Calibration) -> Iterator[str]:
     held = calibration.problem.family.held
     if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
         yield (
-            "No activation energy: temperatures in the contact "
-            f"{calibration.problem.points.temperature_range:.2g} K apart do not determine one, and "
-            "the law holds at the temperature measured."
+            "No activation energy: the temperatures in the contact are only "
+            f"{calibration.problem.points.temperature_range:.2g} K apart and do not determine it. "
+            "The law holds at the measured temperature."
         )
     for estimate in calibration.estimates:
         ends = {"lower": estimate.low, "upper": estimate.high}
@@ -120,7 +120,7 @@ def shear_stress_table(calibration: Calibration) -> str:
     ]
     if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
         del law["activation_energy"], law["reference_temperature"]
-        lines.insert(2, "# No activation energy: it holds at the temperature measured.")
+        lines.insert(2, "# No activation energy: the law holds at the measured temperature.")
     for name, value in law.items():
         estimate = estimates.get(name)
         unit = HELD_UNITS.get(name, "") if estimate is None else estimate.unit

@@ -223,7 +223,7 @@ def _left_out(file: CaseFile) -> list[str]:
     ]
     if not asked:
         return []
-    return [f"The design leaves out what the case says of {checks.enumerated(asked)}."]
+    return [f"The design leaves out {checks.enumerated(asked)} of the case."]
 
 
 def _compounds(

@@ -99,7 +99,9 @@ class Predicted(Checked, eq=False):
         sizes = {name: len(getattr(self, name)) for name in names}
         if len(set(sizes.values())) > 1:
             counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
-            raise InputError(f"a prediction needs as many values of each; got {counts}")
+            raise InputError(
+                f"a prediction needs equally many values of each quantity; got {counts}"
+            )
 
     def require_points_of(self, measured: MeasuredFriction, name: str = "predicted") -> None:
         """Raise `InputError` unless it has the number and the pressures of the points measured."""

@@ -64,9 +64,9 @@ class ProfileBlocks:
     def __post_init__(self) -> None:
         if len(self) < FEWEST_BLOCKS or self._wanted < self.largest_wave:
             raise InputError(
-                f"the profiles must hold {FEWEST_BLOCKS} blocks not shorter than the largest wave, "
-                f"{self.largest_wave:.3g} m, to tell how they scatter; got {self._length:.3g} m in "
-                "all (leave out the source profile, or state another block_length)"
+                f"the profiles must hold {FEWEST_BLOCKS} blocks as long as the largest wave, "
+                f"{self.largest_wave:.3g} m, to estimate their scatter; got {self._length:.3g} m "
+                "in all (leave out the source profile, or state another block_length)"
             )
 
     @cached_property

@@ -46,8 +46,8 @@ def case_panel(state: CaseState) -> pn.Column:
         margin=(4, 8),
     )
     prompt = (
-        "Drop a case together with the files it names to open it, or a surface and a measurement "
-        "of a rubber to make one."
+        "Drop a case together with its files to open it, or a surface and a measurement of a "
+        "rubber to make a case."
     )
     load = work_button("Load the example", load_example)
     return column(

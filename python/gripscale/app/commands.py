@@ -87,10 +87,10 @@ COMMANDS = (
     Command(
         "uncertainty",
         "Uncertainty",
-        "The answer with what is not known of the inputs, and what of it matters most.",
+        "The answer with the errors of its inputs, and the most important of them.",
         (Option("--samples", "samples", "200"),),
     ),
-    Command("sensitivity", "What decides the grip", "Which frequencies of the rubber, and how."),
+    Command("sensitivity", "What decides the grip", "Which inputs and frequencies, and how much."),
     Command("cut-off", "Cut-off", "Friction by the shortest wavelength that counts.",
             (Option("--down-to", "down to", "20 um"),)),
     Command("design", "Design of a compound", "Most friction for each rolling resistance."),

@@ -20,8 +20,6 @@ from gripscale.app.elements import column, in_worker
 
 NewText = Callable[[Mapping[str, bytes]], str]
 """From uploads by name to the text of the case with them; may read them, in the worker thread."""
-SETTLING = 0.5
-"""Seconds in which the widget marks a file as done in the browser; before, it must not go away."""
 PAUSE = 3.0
 """Seconds without a further file after which those dropped together are complete.
 
@@ -92,8 +90,9 @@ def file_upload(
                     state.set_text(await in_worker(partial(new_text, uploads)))
                     accepted = True
                 uploads = await further_uploads(event.obj, len(uploads)) if several else {}
-            await asyncio.sleep(SETTLING)
-            holder[1] = empty_area()
+            # the widget still marks its files as done: it stays, out of sight, until the next drop
+            event.obj.visible = False
+            holder[1:] = [empty_area(), event.obj]
             if accepted and then is not None:
                 await then()
         finally:

@@ -201,7 +201,7 @@ def case_text(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> 
     parts = [HEAD]
     doubts = ranked(tables, further)
     if doubts:
-        parts += ["# Doubts, the weightiest first:"]
+        parts += ["# Doubts, the most important first:"]
         for number, doubt in enumerate(doubts, start=1):
             parts += textwrap.wrap(f"{number}. {doubt.text}", WIDTH, **COMMENT)
         parts += [""]

@@ -277,8 +277,8 @@ def prepare_rubber(
 
 
 OF_A_RAMP = (
-    "a temperature ramp at one frequency becomes a master curve by the shift that is stated: "
-    "nothing in the file checks it"
+    "a temperature ramp at one frequency becomes a master curve by the stated shift: "
+    "nothing in the file checks this shift"
 )
 
 

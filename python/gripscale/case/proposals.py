@@ -130,7 +130,7 @@ def surface_proposal(
             raise InputError(f"expected one map, or profiles; got {paths[0]} and {paths[1]}")
         proposal.add("map", names[0])
         sizes = " and ".join(in_mm(length, 4) for length in surface.length)
-        words = f"the way of sliding; x and y of the map are {sizes} long"
+        words = f"the sliding direction; the map is {sizes} long in x and y"
         proposal.add("direction", "x", words, Weight.SCATTER)
     else:
         proposal.add("files", names)
@@ -139,7 +139,7 @@ def surface_proposal(
     read = read_map if isinstance(surface, HeightMap) else read_profile
     units = _likely_units(read, paths[0], missing, options)
     for key, unit in units.items():
-        words = f"{paths[0].name} names none; with it the heights are those of a texture"
+        words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, Weight.ANOTHER)
     if isinstance(surface, Profile):
         options |= units
@@ -240,7 +240,7 @@ def rubber_proposal(
         measured, _ = _open_rubber(paths, several, **layout)
     _add_reference(proposal, measured, temperature)
     if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
-        words = "temperatures run on without a gap: moduli are interpolated at multiples of it"
+        words = "the temperatures have no gaps: moduli are interpolated at multiples of this step"
         proposal.add("temperature_step", NOMINAL_STEP, words, Weight.SCATTER)
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
@@ -306,7 +306,9 @@ def _add_reference(
     target = ROOM if temperature is None else temperature
     if isinstance(measured, MasterCurve):
         if measured.reference_temperature is None:
-            words = "the file states no temperature; the moduli are taken to be measured at this"
+            words = (
+                "the file states no temperature; the moduli are assumed to be measured at this one"
+            )
             proposal.add("reference_temperature", celsius(target), words, Weight.ANOTHER)
         return
     kelvin = measured.temperature
@@ -389,7 +391,7 @@ def conditions_proposal(rubber: Proposal, paths: list[Path], temperature: float 
         proposal.add("temperature", celsius(temperature), "of the rubber before the contact")
     elif "reference_temperature" not in rubber.keys:
         text = (
-            f"the rubber has one temperature and no shift, and is not brought to "
+            f"the rubber has one temperature and no shift, and cannot be brought to "
             f"{celsius(temperature)}: state [rubber] shift and [conditions] temperature"
         )
         proposal.doubts.append(Doubt(Weight.FACTOR, text))

@@ -108,7 +108,7 @@ class CaseResults:
         if self.rubber.rubber.reference_temperature is None:
             texts.append(
                 "Neither the file of the rubber nor the case states the temperature of its moduli: "
-                "reference_temperature of [rubber] does."
+                "state reference_temperature in [rubber]."
             )
         return texts
 

@@ -114,7 +114,7 @@ def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
             [Series(x, 100.0 * values, GREEN, width=0.9), CrossLine(0.0)],
             name=f"height-{_word(name)}",
             caption=f"{name}: per cent of its friction for a micrometre of height on a millimetre "
-            "of the surface. Out of contact no height counts.",
+            "of the surface. Heights out of contact have no effect.",
             alt=f"Derivative of the friction by the height of {name}, over one stretch.",
             height=300,
         ),
@@ -250,7 +250,7 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
         ],
         title=f"To scale: {makes}",
         name=f"stretch-{_word(name)}",
-        caption=f"{name}, to scale: {makes}. Pressure stands upon the rubber.",
+        caption=f"{name}, to scale: {makes}. The pressure is drawn above the rubber.",
         alt=f"Rubber on the surface and contact pressure over one stretch of {name}.",
         height=int(min(max(PAGE * (top - lowest) / length, 200), 480)) + 150,
         to_scale=True,

@@ -99,7 +99,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
             Axis("Prony series / measured − 1 [%]"),
             marks,
             name="prony-residual",
-            caption="What the Prony series leaves over at the rows that were fitted.",
+            caption="Residual of the Prony series at the fitted rows.",
             alt="Relative error of the Prony series in both moduli against angular frequency.",
         ))  # fmt: skip
     if "term_modulus" in inputs:

@@ -37,8 +37,8 @@ def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterat
         yield Picture(
             "compound_friction",
             compound_friction_figure(data),
-            "Friction of all waves down to each; bars are the ranges of the totals. Beside it the "
-            "difference to the first compound by relaxation time.",
+            "Friction of all waves down to each wavelength; bars are the ranges of the totals. "
+            "Other panel: difference to the first compound by relaxation time.",
             "A curve for each compound, rising towards short waves, and bars of differences.",
         )
     if rubbers:

@@ -267,7 +267,7 @@ def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
         Axis("$\\log_{10}$ (fit / measured) [-]"),
         marks,
         name="correlation-residual",
-        caption="What the fits leave over, in decades of C_z: filled where the lag counted in the "
+        caption="Residual of the fits, in decades of C_z; filled marks are lags that count in the "
         "fit.",
         alt="Difference of fitted and measured height difference correlation against lag.",
         height=400,

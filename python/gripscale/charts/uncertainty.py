@@ -239,7 +239,7 @@ def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
     yield Picture(
         "profiles",
         profiles_figure(data),
-        "By how much the sum of squares rises where a parameter is held elsewhere.",
+        "Rise of the sum of squares if a parameter is held at another value.",
         "A panel for each parameter with a valley around its best value.",
     )
 

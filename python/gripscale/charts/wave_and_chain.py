@@ -68,8 +68,8 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
             lambda view, name: pressure_unit.of(view.column(name)),
         ),
         name="load",
-        caption="What each wave receives: mean pressure (filled) against the modulus of the rubber "
-        "there (open).",
+        caption="Mean pressure on each wave (filled), and modulus of the rubber at its frequency "
+        "(open).",
         alt="Mean pressure and modulus against wavelength.",
     ))  # fmt: skip
     if any(view.shows("max_stretch") for view in predictions):
@@ -79,8 +79,8 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
             Axis("principal stretch [-]"),
             _pairs(predictions, columns, PredictionView.usable),
             name="stretch",
-            caption="Largest and smallest principal stretch in the block: how far the strains are "
-            "from small.",
+            caption="Largest and smallest principal stretch in the block; where strains are small, "
+            "both are near one.",
             alt="Largest and smallest principal stretch against wavelength.",
         ))  # fmt: skip
     panels += [_pressure_panel(view) for view in predictions if view.has("surface_pressure")]
@@ -212,7 +212,7 @@ def verification_charts(predictions: Views) -> list[Chart]:
             Axis("residual force / applied force [-]", log=True),
             [*residuals, *_failed(predictions, "residual", by_number=True)],
             name="residual",
-            caption="What is left of the equations when Newton's iteration ends.",
+            caption="Residual of the equations at the end of Newton's iteration.",
             alt="Residual of each wave on a logarithmic axis.",
         ))  # fmt: skip
     return draw.on_page([*panels, _iterations_panel(predictions)])
@@ -414,7 +414,7 @@ PANELS = {
     "total_friction": "friction, hysteresis $\\mu$ [-]",
     WITH_AREA_TERM: "friction with area term [-]",
 }
-PER_CENT = "at a bar: what the effects left out change"
+PER_CENT = "at a bar: change by the effects that are left out"
 
 
 def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:

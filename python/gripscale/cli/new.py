@@ -69,7 +69,7 @@ def new(
         print_wrapped(console, f"Neither a surface nor moduli: {names}")
     if case.doubts:
         console.print()
-        print_wrapped(console, "Doubts, the weightiest first:")
+        print_wrapped(console, "Doubts, the most important first:")
         for number, doubt in enumerate(case.doubts, start=1):
             print_wrapped(console, f"  {number}. {doubt.text}")
     console.print()

@@ -98,7 +98,7 @@ def _print_finished(console: Console, target: Path) -> None:
     report = target / REPORT
     date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
     typer.echo(report.read_text(encoding="utf-8"))
-    words = f"Finished {date}; case, files and software are the same, so that nothing was solved "
+    words = f"Finished {date}. Case, files and software are the same; nothing was solved "
     terminal.print_wrapped(console, f"{words}again (--fresh does). {CLOSING} {target}")
 
 

@@ -56,8 +56,8 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     """Return the sentence and the exit code a command ends with after `error`."""
     if isinstance(error, KeyboardInterrupt):
         stopped = (
-            "stopped; what is finished is kept in the output folder, "
-            "and the same command goes on from it"
+            "stopped; finished results are kept in the output folder, "
+            "and the same command continues from them"
         )
         return stopped, STOPPED
     from gripscale.report.notices import explained

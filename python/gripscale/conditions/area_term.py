@@ -201,8 +201,8 @@ def heat_left_out(area_term: float, hysteresis: float) -> Iterator[str]:
     """
     if area_term > 0.0 and hysteresis > 0.0:
         yield (
-            "Temperatures are without the heat of the area term, which is "
-            f"{area_term / hysteresis:.0%} of the heat of the hysteresis they are due to."
+            "Temperatures contain the heat of the hysteresis only; the heat of the area term is "
+            f"{area_term / hysteresis:.0%} of it."
         )
 
 

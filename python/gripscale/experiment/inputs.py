@@ -106,7 +106,7 @@ def rubber_note(value: Any, file: CaseFile) -> str:
     if path.suffix == ".toml" or kelvin is None or states_temperature(path):
         return ""
     return (
-        f"{value}: the file states no temperature; its moduli are taken to be those at "
+        f"{value}: the file states no temperature; its moduli are assumed to be those at "
         f"{kelvin - ZERO_CELSIUS:.4g} °C, the reference temperature of the case"
     )
 
@@ -136,7 +136,7 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     taken = {name: getattr(case, name) for name in names if getattr(case, name) is not None}
     if "reference_temperature" in taken:
         taken["reference_temperature"] = f"{taken['reference_temperature']!r} K"
-    source = f"{path}, read like the rubber of the case where it does not say: {', '.join(taken)}"
+    source = f"{path}, read with these settings of the rubber of the case: {', '.join(taken)}"
     said = {"source": source} if taken else {}
     if case.outlier_threshold is not None:
         settings["outlier_threshold"] = case.outlier_threshold

@@ -287,7 +287,7 @@ class RoughContact:
         if self.slope_in_contact > STEEP:
             out.append(
                 f"The rms slope in the contact is {self.slope_in_contact:.2f}, above {STEEP:g}: "
-                "small strain is no longer fair."
+                "small strain is no longer a good approximation."
             )
         if self.missing_share > 0.05:
             out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")

@@ -63,8 +63,8 @@ def no_answer(data: xr.Dataset | None) -> str:
     """Return why a result has no answer, or none to rely on; empty if it has one."""
     if data is None or not (has_answer(data) or _status(data)):
         return (
-            "none with an interval. No direct contact of a measured surface was solved, by which "
-            "a chain of sine waves is judged."
+            "none with an interval. Only the direct contact of a measured surface has an interval, "
+            "and none was solved."
         )
     if not has_answer(data):
         return f"none. The direct contact of the measured surface has no result: {_status(data)}."
@@ -139,8 +139,8 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
     if apart > LARGE_MISMATCH:
         yield Notice(
             "warning",
-            f"The friction of the direct contact from its traction and from its losses differ by "
-            f"{percent(apart)}; the answer takes that from the losses.",
+            f"The two frictions of the direct contact, from traction and from losses, differ by "
+            f"{percent(apart)}; the answer takes the one from losses.",
             friction=apart,
             doubt=Doubt.SOLUTION,
         )
@@ -199,8 +199,8 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
         )
     elif any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width)):
         # the parts of an interval that is sampled say why
-        why = "" if "part_label" in data else ": the measured surface is too small for its road"
-        yield f"The interval is more than a factor of two either way{why}."
+        why = "" if "part_label" in data else ": the measured surface is too small"
+        yield f"The ends of the interval are more than a factor of two from the value{why}."
 
 
 def _moving(data: xr.Dataset) -> bool:
@@ -279,7 +279,7 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         )
     labels = data.factor_label.values
     if IsotropicSurface.label in labels:
-        yield "a road without direction is assumed: ridges 3:1 change the area by up to 1.7"
+        yield "a road without direction is assumed; ridges 3:1 change the area up to 1.7 times"
     missing = [
         str(n) for n, v in zip(labels, data[f"best_{name}_factor"], strict=True) if v.isnull()
     ]

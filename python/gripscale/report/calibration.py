@@ -129,7 +129,7 @@ def held_out_table(data: xr.Dataset) -> Table:
         )
     if any(data.why_not.values):
         columns.append(Column("why_not", data.why_not.values, "why not"))
-    return Table("held-out", columns, "The law at points it was not fitted to")
+    return Table("held-out", columns, "The law at points that were left out")
 
 
 def calibration_cards(data: xr.Dataset) -> list[Card]:

@@ -31,7 +31,7 @@ from gripscale.rubber.extrapolation import WORTH_SAYING
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
 NOTE = (
-    "×: factor from the model before, of the theories from the direct contact. Exponents: "
+    "×: factor on the model before; for theories, on the direct contact. Exponents: "
     "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band (*): "
     "share of the friction at frequencies beyond those of the master curve, and how far they go."
 )
@@ -151,9 +151,8 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
     effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
     if effects:
         yield (
-            f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts; the "
-            "theories, and the windows and maps whose ratios make the best estimate's factors, "
-            "know the temperature before the contact only."
+            f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts. "
+            "Theories, windows and maps have only the temperature before the contact."
         )
 
 
@@ -201,7 +200,7 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     against = f"{chain.total('contact_fraction') / area:.2g} times its contact area"
     if chain.moving:
         against += f" and {chain.total('friction') / friction:.2g} times its friction"
-    yield f"The chain has {against}; `gripscale compare` shows which assumption costs what."
+    yield f"The chain has {against}; `gripscale compare` shows the cost of each assumption."
 
 
 def slopes_table(direct: xr.Dataset) -> Iterator[Table]:

@@ -58,7 +58,7 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         f"of {data.attrs['factor_per_decade']:g} a decade)"
     )
     worths = [f"{name}, {_percent(worth)}" for name, worth in _worths(chosen).items()]
-    yield f"  a tenth more room gives friction, to first order: {'; '.join(worths)}"
+    yield f"  a limit relaxed by a tenth gives, to first order: {'; '.join(worths)}"
     yield f"  {_interval_sources(chosen)}"
     yield from (f"note: {note}" for note in data.attrs.get("notes", "").splitlines())
 

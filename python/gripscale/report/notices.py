@@ -42,9 +42,8 @@ LARGE_RESIDUAL = 0.1
 """Of the heights of the sine waves."""
 
 FLAGS = {
-    "strain_extrapolated": "the strain lies beyond what the softening was measured for; the last "
-    "moduli are held",
-    "temperature_extrapolated": "the temperature lies beyond what the shift rests on",
+    "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",
+    "temperature_extrapolated": "the temperature lies beyond those of the shift",
 }
 """What a wave may be flagged for, and in words."""
 
@@ -306,8 +305,8 @@ def _misfits(record: InputRecord) -> Iterator[Notice]:
         yield Notice(
             "warning",
             f"At the frequencies of the waves the loss factor of the Prony series is "
-            f"{percent(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured: the friction "
-            "errs by about as much.",
+            f"{percent(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
+            "error of the friction is about as large.",
             loss,
             doubt=Doubt.RUBBER,
         )
@@ -317,7 +316,7 @@ def _misfits(record: InputRecord) -> Iterator[Notice]:
         yield Notice(
             "warning",
             f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "
-            f"{percent(height)} of their height, by which the friction of the chain errs.",
+            f"{percent(height)} of their height. The friction of the chain has a similar error.",
             height,
             doubt=Doubt.SURFACE,
         )
@@ -407,8 +406,8 @@ def exponent_sentence(data: xr.Dataset) -> str:
         if math.isfinite(value)
     ]
     if not texts:
-        return f"How it depends on the cut-off is not known: {exponents.why_not}."
-    text = f"By the cut-off, over its last octave: {', '.join(texts)}"
+        return f"The change with the cut-off is not known: {exponents.why_not}."
+    text = f"Change with the cut-off, over its last octave: {', '.join(texts)}"
     if math.isfinite(exponents.friction):
         factor = model.OCTAVE**-exponents.friction
         text += f" (half the smallest wavelength: about {factor:.2g} times the friction)"

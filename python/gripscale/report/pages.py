@@ -60,41 +60,41 @@ from gripscale.report.waves import wave_tables
 
 METHOD = (
     "The measured surface is approximated by superposed sine waves. On each wave, largest first, "
-    "a rubber block at finite strain is pressed and slid; the pressure in its contact is what the "
-    "next wave receives."
+    "a rubber block at finite strain is pressed and slid. The next wave receives the pressure in "
+    "its contact."
 )
 PICTURE = (
-    "The direct contact of the measured surface: the friction is made where pressure stands on "
-    "flanks that rise in the way of sliding. Of the surface the page holds lowest and highest "
-    "values of pieces, and every point where most of the friction is made."
+    "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
+    "that rise in the sliding direction. The page holds the lowest and highest values of pieces of "
+    "the surface, and every point where most of the friction is made."
 )
 EVIDENCE = (
     "The two friction coefficients of a wave are found independently, from the traction in the "
     "contact and from the energy lost in the rubber; by the balance of energy they are equal. "
-    "What they differ by is the error of the discretisation."
+    "Their difference is the error of the discretisation."
 )
 LADDER = (
-    "Every model over the same measurements, one assumption given up from model to model. A factor "
-    "is from the model before; that of a theory is from the direct contact of the measured "
-    "profile, by which all are judged. Spread is the standard deviation over the samples, error "
-    "what the model itself estimates; both are relative."
+    "All models use the same measurements. From each model to the next one assumption is given up. "
+    "A factor relates a model to the one before, a theory to the direct contact of the measured "
+    "profile. Spread is the standard deviation over the samples, error the estimate of the model "
+    "itself; both are relative."
 )
 STALE = (
-    "The comparison in this folder is of another text of the case and is left out; run `gripscale "
-    "compare` again."
+    "The comparison in this folder belongs to another version of the case and is left out; run "
+    "`gripscale compare` again."
 )
 EFFECTS = (
-    "The same case with all effects of its conditions, without each in turn, and with none: "
-    "a change is what the effects left out do to the number beside it."
+    "The case with all effects of its conditions, without each effect in turn, and without any. "
+    "A change is the change by the effects that are left out."
 )
 ROADS = (
     "The same rubber under the same load on each road: in the chain of its sine waves, and in the "
-    "direct contact of its whole profile. A range is 90 % of what other stretches of the same road "
-    "might give; a difference lies beyond it where its own range does not hold zero."
+    "direct contact of its whole profile. A range holds 90 % of what other stretches of the same "
+    "road might give. A difference is significant if its range does not contain zero."
 )
 COMPOUNDS = (
     "Each compound on the same road under the same load. A range is what the measured moduli leave "
-    "open; a difference lies beyond it where its own range does not hold zero."
+    "open. A difference is significant if its range does not contain zero."
 )
 CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
@@ -104,7 +104,7 @@ OF_ANOTHER = Notice("warning", uncertainty.OF_ANOTHER, doubt=Doubt.SOURCE)
 SENSITIVITY = (
     "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
     "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
-    "friction, such as that from lines to a surface, drop out of them."
+    "friction, such as that from lines to a surface, do not change them."
 )
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
@@ -223,11 +223,11 @@ def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
     below += judgement_elements(run)
     if not run.by_wave:
-        return [Text("The model does not go wave by wave; its totals stand above."), *below]
+        return [Text("The model has no waves; its totals stand above."), *below]
     names = ("load", "contact", "conditions", "further")
     elements: list[Element] = [tables[name] for name in names if name in tables]
     if any(not view.moving for view in run.by_wave):
-        rest = "Nothing slides at rest: the columns of friction are left out there."
+        rest = "A prediction at rest has no friction; its columns are left out."
         elements.insert(0, Text(rest))
     return [*elements, *below, *contact_charts(run.by_wave, run.direct)]
 
@@ -294,8 +294,8 @@ def rerun_section(attrs: dict[object, object]) -> Section:
         name = case_name(attrs) or "case.toml"
         elements += [
             Text(
-                f"Save the text below as {name}; the files it names are sought from its own "
-                "folder, and their checksums are among the inputs."
+                f"Save the text below as {name}. Paths of files start at its folder. The inputs "
+                "list their checksums."
             ),
             *([Code("command", "Command", str(attrs["command"]))] if "command" in attrs else []),
             Code("case", f"Case file {name}", str(attrs["case"])),

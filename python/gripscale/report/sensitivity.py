@@ -167,16 +167,16 @@ def carried_table(data: xr.Dataset) -> Table:
         columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
     notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
     if missing := not_stated(data):
-        notes.append(f"Not in it, for want of a standard error in the case: {', '.join(missing)}.")
-    return Table("carried", columns, "What the errors of the inputs carry", notes, keys=1)
+        notes.append(f"Not included, as the case states no standard error: {', '.join(missing)}.")
+    return Table("carried", columns, "Effect of the errors of the inputs", notes, keys=1)
 
 
 def rule_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what the rules of thumb look at, and how much of the effect is there."""
     if "rule" not in data.dims:
         yield (
-            "The rubber has no temperature shift: where tan δ at 0 °C and 60 °C lies on this axis "
-            "is not known."
+            "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place on "
+            "this axis."
         )
         return
     for i, name in enumerate(data.rule.values):
@@ -184,8 +184,8 @@ def rule_lines(data: xr.Dataset) -> Iterator[str]:
         low, high = (percent(float(end)) for end in (share.min(), share.max()))
         shares = low if low == high else f"{low} to {high}"
         yield (
-            f"The rule of thumb for {name} looks at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
-            f"shifted); within half a decade of it is {shares} of the effect of E''."
+            f"The rule of thumb for {name} takes tan δ at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
+            f"shifted); {shares} of the effect of E'' lies within half a decade of it."
         )
 
 

@@ -27,7 +27,7 @@ QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
 def effects_table(*results: xr.Dataset) -> Table:
     """Return area and friction with all effects, without each in turn, and without any.
 
-    Beside each number stands what the effects left out change, relative to it. `results` are of
+    Beside each number stands its change by the effects that are left out. `results` are of
     `gripscale.analysis.effects`, one for each model.
     """
 
@@ -152,7 +152,7 @@ def _grip_words(data: xr.Dataset, name: str, first: str) -> str:
     if math.isnan(low):
         return f"{name} over {first}"
     if low <= 1.0 <= high:
-        return f"{name} and {first} do not differ in grip by more than is uncertain"
+        return f"{name} and {first} have no significant difference in grip"
     return f"{name} grips {'more' if ratio > 1.0 else 'less'} than {first}"
 
 
@@ -184,16 +184,15 @@ def _judge(data: xr.Dataset) -> str:
         )
     if roads:
         return (
-            "direct contact of the measured surfaces × its factors; each road is as uncertain as "
-            "alone, and independent of the other"
+            "direct contact of the measured surfaces × its factors; the errors of the roads are "
+            "independent"
         )
     of = "direct contact of the measured surface, the same for all"
     if "friction_ratio_low" not in data:
-        return f"{of}; no interval: what the measured moduli leave open was not predicted"
+        return f"{of}; no interval: the errors of the measured moduli were not predicted"
     if not np.isfinite(data["friction_ratio_low"].values[1:]).any():
         return (
-            f"{of}; no interval: the surface is too short, or how well a modulus is known is not "
-            "stated"
+            f"{of}; no interval: the surface is too short, or the error of a modulus is not stated"
         )
     return f"{of}; the interval is from measured moduli, sampling of the road and grids"
 

@@ -117,7 +117,7 @@ def shift_sentence(data: xr.Dataset) -> str:
         text = f"{names} {'lie' if which.size > 1 else 'lies'}"
     else:
         text = f"{int(flags.sum())} of {flags.size} predictions lie"
-    return f"{text} beyond the temperatures that the shift of the rubber rests on."
+    return f"{text} beyond the temperatures of the shift of the rubber."
 
 
 def collapse_sentences(data: xr.Dataset) -> Iterator[tuple[str, str]]:
@@ -139,8 +139,8 @@ def _collapse(collapsed: xr.DataArray) -> str:
         )
     attrs = collapsed.attrs
     reached = (
-        f"temperatures up to {percent(distance)} apart at the {attrs['points']} of "
-        f"{attrs['overlapping_points']} points that interpolation reaches to "
+        f"temperatures up to {percent(distance)} apart, at {attrs['points']} of "
+        f"{attrs['overlapping_points']} points, where the interpolation errs by less than "
         f"{percent(float(attrs['interpolation_error']))}"
     )
     if distance <= max(ONE_CURVE, float(attrs["interpolation_error"])):

@@ -31,8 +31,8 @@ ASK_DIRECT = (
     "interval"
 )
 ONLY_WAVES = (
-    "what is varied belongs to the chain alone: `gripscale run` judges its friction by the direct "
-    "contact of the measured surface"
+    "the varied input belongs to the chain only: `gripscale run` compares its friction with the "
+    "direct contact of the measured surface"
 )
 
 
@@ -187,7 +187,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     if IsotropicSurface.label in data.factor_label.values:
         yield "a road without direction is assumed"
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
-        yield "most of an interval is common to all points: how they differ is known better"
+        yield "most of an interval is common to all points: their differences are known better"
     if ADHESIVE_FRICTION in data:
         term = data[ADHESIVE_FRICTION]
         low, high = float(term.min()), float(term.max())

@@ -43,7 +43,7 @@ from gripscale.report.notices import Failure, explained
 HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
 """Symbols of the quantities, in their order."""
 OF_ANOTHER = (
-    "The uncertainty in this folder is of another case and is left out; run `gripscale "
+    "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
     "uncertainty` again."
 )
 UNCERTAINTY = (
@@ -114,15 +114,15 @@ def interval_sentence(data: xr.Dataset) -> str:
     count = data.sizes["sample"]
     if not is_measured(data):
         return (
-            f"interval: {count} samples of what is not known of the inputs, of the chain alone; no "
-            "surface was measured that could judge it"
+            f"interval: {count} samples of the chain with the errors of the inputs; no measured "
+            "surface judges it"
         )
     if DIRECT not in data.model.values:
         return (
             "interval: that of `gripscale run`, without errors of the inputs: the direct contact "
             "was not sampled (--model direct or both)"
         )
-    text = f"interval: what is not known of the inputs, drawn in {count} samples, is in it"
+    text = f"interval: with the errors of the inputs, from {count} samples"
     if missing := not_stated(data):
         text += f", but for {', '.join(missing)}"
     widths = [data[f"best_{name}_{RUN}"] for name in HEADS]
@@ -169,7 +169,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             values = [tangent.get(label, math.nan) for label in columns[0].values]
             columns.append(Column(column, values, *text, group=HEADS[name], format=percent))
     error = part[f"best_{names[0]}_part_share_error"].values[ranked]
-    notes = ["±: standard error of the logarithm; share: of its square in that of the interval."]
+    notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
     if NOT_ALONE in part.part_label.values:
         notes.append(
             f"{NOT_ALONE[0].upper()}{NOT_ALONE[1:]}: steps, interactions, and what a stretch of "
@@ -219,8 +219,8 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
     ]
     if apart:
         yield (
-            "The friction is not linear in what derivatives and samples differ on by more than a "
-            f"third: {', '.join(apart)}."
+            "The friction is not linear where derivatives and samples differ by more than a third: "
+            f"{', '.join(apart)}."
         )
 
 
@@ -324,7 +324,7 @@ def order_sentences(part: xr.Dataset) -> list[str]:
     count = int(np.isfinite(part.friction).sum())
     sentences = []
     if close:
-        sentences.append(f"Not in a significant order with {count} samples: {'; '.join(close)}.")
+        sentences.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
     if unseen:
         sentences.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
     return sentences
@@ -402,7 +402,7 @@ def uncertainty_lines(
         f"{head} = {number_and_interval(data, name)}" for name, head in _widened(data)
     )
     return [
-        *([f"With what is not known of the inputs, {count}: {answered}"] if answered else []),
+        *([f"With the errors of the inputs, {count}: {answered}"] if answered else []),
         *(
             f"Uncertainty, {part.model.item()}, 5, 50 and 95 % of {_samples(part)}: "
             + "; ".join(f"{head} = {', '.join(numbers)}" for head, numbers in _quantiles(part))

@@ -129,7 +129,7 @@ MOVING_ONLY = {
 GIVEN = {"pressure_received": "pressure", "sliding_speed": "speed"}
 """Columns in the unit of a key of the case."""
 TABLES = {
-    "load": ("What each wave receives, and the rubber there", LOAD),
+    "load": ("Load and rubber of each wave", LOAD),
     "contact": ("Contact and friction of each wave", CONTACT),
     "conditions": ("The rubber in its conditions", CONDITIONS),
     "errors": ("Errors and stretches of each wave", ERRORS),

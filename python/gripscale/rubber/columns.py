@@ -379,7 +379,7 @@ def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
     if swapped < _ROUNDING < as_named:
         raise InputError(
             f"{table.path}: storage and loss modulus look exchanged, because the loss factor of "
-            "the file is their quotient the other way round; columns must name them as they are",
+            "the file is storage over loss; columns must name them in their order",
             missing="columns",
         )
 

@@ -129,8 +129,8 @@ class AdmissibleSeries(Checked, eq=False):
         """Return them as those of this fingerprint; `InputError` if they belong to another."""
         if self.belongs_to not in ("", fingerprint):
             raise InputError(
-                "admissible must be what fits beside this series; got that of other moduli or "
-                "relaxation times: leave it out (admissible=None) where they are changed"
+                "admissible must belong to this series; got that of other moduli or relaxation "
+                "times: leave it out (admissible=None) where they are changed"
             )
         return self if self.belongs_to else replace(self, belongs_to=fingerprint)
 
@@ -581,9 +581,9 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
     if kelvins and len(kelvins) < len(rubbers):
         others = ", ".join(name for name in rubbers if name not in kelvins)
         sentences.append(
-            f"the temperature of {others} is not known beside that of {', '.join(kelvins)}"
+            f"the temperature of {others} is not known, that of {', '.join(kelvins)} is"
         )
     beyond = [name for name, rubber in rubbers.items() if rubber.shift_extrapolated]
     if beyond:
-        sentences.append(f"beyond the temperatures its shift rests on: {', '.join(beyond)}")
+        sentences.append(f"beyond the temperatures of its shift: {', '.join(beyond)}")
     return tuple(sentences)

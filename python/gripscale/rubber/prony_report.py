@@ -134,9 +134,9 @@ class SwappedModuli:
         """Return both misfits in a sentence that says what to do."""
         return (
             "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
-            f"factor of {math.exp(self.as_given):.2f} as they are, by "
-            f"{math.exp(self.swapped):.2f} the other way round; look at the titles of the "
-            "file, or name its columns (columns)"
+            f"factor of {math.exp(self.as_given):.2f} in this order, and by "
+            f"{math.exp(self.swapped):.2f} in the other; look at the titles of the file, or name "
+            "its columns (columns)"
         )
 
 
@@ -170,8 +170,8 @@ def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterat
     for name, misfit in zip(("slowest", "fastest"), ends, strict=True):
         if misfit is not None:
             yield (
-                f"the series misses the {END_ROWS} {name} rows by more than the scatter, in the "
-                f"mean by: {misfit}"
+                f"the mean misfit of the {END_ROWS} {name} rows exceeds the measurement scatter: "
+                f"{misfit}"
             )
     assert rubber.valid_band is not None
     low, high = rubber.valid_band
@@ -180,9 +180,9 @@ def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterat
     here, twice = (complex(rubber.complex_modulus(factor * low)) for factor in (1.0, 2.0))
     if here.imag > here.real and twice.real > 2.0 * here.real:
         yield (
-            f"no equilibrium modulus: {_mega(slow.modulus)} MPa are left at the slow end and fall "
-            f"with the frequency, {_mega(rubber.equilibrium_modulus)} MPa in the end; the data are "
-            "those of a melt, which carries no load at rest"
+            f"no equilibrium modulus: E' is {_mega(slow.modulus)} MPa at the slow end and still "
+            f"falls, to {_mega(rubber.equilibrium_modulus)} MPa; the data are those of a melt, "
+            "which carries no load at rest"
         )
     elif not slow.plateau:
         yield (

@@ -219,7 +219,7 @@ def superposition_warnings(overlaps: tuple[Overlap, ...], shift: Shift) -> Itera
     little = [str(pair) for pair in overlaps if pair.decades < _LITTLE]
     if little:
         yield (
-            f"neighbours hardly overlap, or not at all, so that their shift may be a bound: "
+            "neighbours hardly overlap, or not at all, and their shift may be a bound only: "
             f"{'; '.join(little)}"
         )
     for name, words in (("storage", "E'"), ("loss", "E''")):

@@ -232,7 +232,7 @@ def _slope_warnings(z: Array, step: float) -> Iterator[str]:
         yield f"the rms slope is {rms:.3g}, above {STEEPEST:g}: spikes, or another unit?"
     elif steep:
         yield (
-            f"{steep} of {slopes.size} slopes left are {STEEPEST:g} or steeper, up to "
+            f"{steep} of {slopes.size} remaining slopes are {STEEPEST:g} or steeper, up to "
             f"{slopes.max():.3g}: remove_spikes with spike_slope = {STEEPEST:g} takes them out"
         )
 
@@ -246,7 +246,7 @@ def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
     if rms > min(TALLEST * profile.length, LARGEST_HEIGHT):
         yield f"{sizes}: too high for a texture; is the unit of heights right?"
     elif slopes.size and np.quantile(slopes, 0.75) < SMOOTHEST:
-        yield f"{sizes}: hardly a slope; is the unit of heights right?"
+        yield f"{sizes}: hardly any slope; is the unit of heights right?"
     if profile.step > COARSEST_STEP:
         yield f"{sizes}: too coarse for a texture; is the unit of distances right?"
 
@@ -266,7 +266,7 @@ def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iter
     last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
     if limit is not None and _beyond(last, limit):
         yield (
-            f"the smallest wave, {in_mm(last, 3)}, is shorter than the measurement carries, "
+            f"the smallest wave, {in_mm(last, 3)}, is shorter than the measurement resolves, "
             f"{in_mm(limit, 3)}: it extrapolates the waves above it"
         )
     if end is not None and limit is not None and _beyond(end, limit):
@@ -308,5 +308,5 @@ def stack_notes(
         if min(abs(np.log(factor / edge)) for edge in limits) < AT_THE_EDGE:
             yield (
                 f"{name} is {factor:.3g}, at the edge of the range searched, {limits[0]:g} to "
-                f"{limits[1]:g}: the correlation does not fix it; give it, or take other scales"
+                f"{limits[1]:g}: the correlation does not determine it; state it, or change scales"
             )

@@ -169,11 +169,11 @@ _TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuse
         "Take more columns; for a direct contact set a tolerance, which refines its grid.",
     ),
     Status.ACTIVE_SET_NOT_SETTLED: (
-        "The points in contact of the half-plane did not stop changing.",
+        "The set of points in contact of the half-plane did not converge.",
         "Take another number of points.",
     ),
     Status.CONDITIONS_NOT_SETTLED: (
-        "Rubber, strains and temperatures still changed the result after the last pass.",
+        "Contact, strains and temperatures did not converge in the allowed passes.",
         "Leave out an effect, or take a smaller speed or pressure.",
     ),
 }
@@ -188,6 +188,6 @@ _CHAPTERS = {
     Status.FRICTIONS_DISAGREE: _WAVES,
     Status.CONTACT_TOO_NARROW: _WAVES,
     Status.PROFILE_TOO_ROUGH: _MESHES,
-    Status.CONDITIONS_NOT_SETTLED: "conditions.md#how-they-settle",
+    Status.CONDITIONS_NOT_SETTLED: "conditions.md#the-fixed-point",
 }
 """Chapters of statuses that have one of their own."""

@@ -139,13 +139,13 @@ class WaveResult:
         if self.status == Status.CONTACT_TOO_NARROW and "expected_contact_width" in self.details:
             return (
                 f"{self.status}: about {self.details['expected_contact_width']:.2g} m is expected, "
-                f"the finest mesh follows {self.details['smallest_contact_width']:.2g} m; "
+                f"the finest mesh resolves {self.details['smallest_contact_width']:.2g} m; "
                 "the pressure is too small for the block"
             )
         if "smallest_wave_carried" in self.details:
             return (
-                f"{self.status} for {self.details['columns']} columns: found with waves down to "
-                f"{self.details['smallest_wave_carried']:.2g} m alone; leave out shorter waves, or "
+                f"{self.status} for {self.details['columns']} columns: solved with waves down to "
+                f"{self.details['smallest_wave_carried']:.2g} m only; leave out shorter waves, or "
                 "take more columns"
             )
         if not math.isfinite(reached) or reached == 1.0:

@@ -235,7 +235,7 @@ def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> Non
             {},
             "hysteresis alone exceeds the measured friction at 2 of 3 points, by",
         ),
-        ([0.3, 0.3, 0.3], {"spread": [0.1, np.nan, 0.1]}, "spread must be known of all points or"),
+        ([0.3, 0.3, 0.3], {"spread": [0.1, np.nan, 0.1]}, "spread must be stated for all"),
         (
             [0.3, 0.3, 0.3],
             {"spread": [0.1, 0.0, 0.1]},

@@ -175,7 +175,7 @@ def test_answer_first_and_the_limits_named(data):
     assert lines[0].endswith("the limits decide")
     assert any("moduli are at the largest factor (2)" in line for line in lines)
     assert any(
-        "a tenth more room gives friction" in line and "E' at 10 Hz" in line for line in lines
+        "a limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines
     )
 
 

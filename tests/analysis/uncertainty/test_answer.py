@@ -177,7 +177,7 @@ def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
     )
     text = " ".join(map(str, answer_parts(data)))
     assert "from the chain of waves" in text
-    assert "no surface was measured" in text
+    assert "no measured surface judges it" in text
 
 
 def test_parts_add_up_and_have_their_freedom() -> None:

@@ -50,7 +50,7 @@ def test_quantiles_stand_in_the_texts(case: Path, name: str) -> None:
     assert data is not None
     answer, line = uncertainty_lines(data, case.read_text())
     friction = number_and_interval(data, "friction")
-    assert answer.startswith(f"With what is not known of the inputs, 10 samples: μ = {friction}")
+    assert answer.startswith(f"With the errors of the inputs, 10 samples: μ = {friction}")
     low, middle, high = (f"{v:#.2g}" for v in data.friction_quantile.values[0, [0, 2, 4]])
     assert line.startswith(
         f"Uncertainty, direct, 5, 50 and 95 % of 10 samples: μ = {low}, {middle}, {high}; A_r"
@@ -81,5 +81,5 @@ def test_those_of_another_case_are_left_out_and_said(case: Path, tmp_path: Path)
     text = " ".join((tmp_path / "results" / "report.txt").read_text().split())
     assert OF_ANOTHER in text
     page = write_report(tmp_path / "results").read_text()
-    assert "The uncertainty in this folder is of another case" in page
+    assert "The uncertainty in this folder belongs to another case" in page
     assert "μ, inputs sampled" not in page

@@ -76,7 +76,7 @@ def test_missing_heights_stay_missing():
 
 
 def test_too_short_profiles_are_refused():
-    with pytest.raises(InputError, match="4 blocks not shorter than the largest wave"):
+    with pytest.raises(InputError, match="4 blocks as long as the largest wave"):
         ProfileBlocks([road(0, length=0.03)], WAVE)
     with pytest.raises(InputError, match="block_length"):
         ProfileBlocks([road(0)], WAVE, block_length=-1.0)
