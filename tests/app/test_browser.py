@@ -272,7 +272,7 @@ def test_what_is_refused_is_one_sentence_and_the_page_lives_on(
         assert complaint.inner_text().count("\n") == 0
         seen.complaints(2)  # at the text, and where the road is
         assert seen.page.locator(".notice.good:visible").count() == 0, "never green beside red"
-        seen.page.locator("[data-reading]").wait_for(timeout=PATIENCE, state="detached")
+        seen.page.locator("[data-reading]").wait_for(timeout=PATIENCE, state="hidden")
         open_small(seen, small)
         seen.complaints(0)
         seen.press("Read, clean and fit")
