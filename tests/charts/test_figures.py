@@ -24,7 +24,8 @@ from gripscale.charts import (
     profile_figure,
     save_figure,
 )
-from gripscale.charts.chart import Outline
+from gripscale.charts.chart import Axis, Outline, Panel, Series, Sheet
+from gripscale.charts.paper import draw_sheet
 from gripscale.charts.style import short_number, stretches
 from gripscale.charts.surface import kept_points
 from gripscale.charts.view import JUDGE
@@ -399,3 +400,18 @@ def test_run_without_a_solution_says_so_and_shows_no_numbers(
     good = make_prediction()
     named = labels(contact_figure({"dynamic": good, "static": failed}))
     assert [one for one in named if one.startswith("static")] == ["static: element inverted"]
+
+
+def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
+    names = [
+        "chain of the upper half, pressure in classes",
+        "direct contact, random phases",
+        "direct contact, sine waves of the chain",
+        "direct contact, measured surface",
+    ]
+    panel = Panel(Axis("x"), Axis("y"), [Series([0, 1], [0, 1], label=name) for name in names])
+    figure = draw_sheet(Sheet([panel, panel]))
+    figure.canvas.draw()
+    box, whole = figure.legends[0].get_window_extent(), figure.bbox
+    assert box.x0 >= whole.x0
+    assert box.x1 <= whole.x1

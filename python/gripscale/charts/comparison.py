@@ -222,6 +222,10 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     return draw.on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
 
 
+MARGIN = 0.03
+"""Room beside the values of an axis, over its extent."""
+
+
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
     x = axis_shown(comparison, axis).of(comparison[axis].values)
@@ -255,10 +259,14 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
+    log = low > 0.0 and high > 8.0 * low
+    # room for a marker at each end
+    extent = (high / low) ** MARGIN if log else MARGIN * (high - low)
+    low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
     least = min(0.0, float(comparison.total_friction.min()))
     text = axis.replace("_", " ")
     return Panel(
-        Axis(axis_label(comparison, axis), log=low > 0.0 and high > 8.0 * low, low=low, high=high),
+        Axis(axis_label(comparison, axis), log=log, low=low, high=high),
         Axis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
         name=f"over-{axis}-{name}",

@@ -32,6 +32,7 @@ from gripscale.charts.chart import (
     Series,
     Sheet,
     ValueMap,
+    spelled_out,
 )
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, short_number, stretches
 from gripscale.io.netcdf import write_whole
@@ -41,6 +42,9 @@ DPI = 200
 
 PIECES = 5000
 """Pieces of an outline: several to a pixel, so that most gaps are still seen."""
+
+LETTER, KEY = 0.062, 0.5
+"""Width of a letter of a legend in the mean, and of a key with the gaps beside it [inch]."""
 
 MOST_MARKED = 1e7
 """Largest over smallest value of a logarithmic axis with marks between the powers of ten."""
@@ -316,8 +320,20 @@ def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
         look |= {"loc": "outside right center", "alignment": "left"}
     else:
         where = "upper" if sheet.legend == "above" else "lower"
-        look |= {"loc": f"outside {where} center", "ncols": sheet.legend_columns}
+        columns = _legend_columns(list(entries), sheet.legend_columns, sheet.width)
+        look |= {"loc": f"outside {where} center", "ncols": columns}
     figure.legend(list(entries.values()), list(entries), **look)
+
+
+def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
+    """Return how many columns of a legend fit into a figure of a width [inch], up to `most`."""
+
+    def needed(columns: int) -> float:
+        lengths = [len(spelled_out(label)) for label in labels]
+        widest = [max(part, default=0) for part in np.array_split(lengths, columns)]
+        return float(LETTER * sum(widest) + KEY * columns)
+
+    return next((columns for columns in range(most, 1, -1) if needed(columns) <= width), 1)
 
 
 def _key(mark: Mark) -> Any:
