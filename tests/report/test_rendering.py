@@ -13,6 +13,7 @@ from rich.console import Console
 
 from gripscale.io.table import Column, Table, as_text, percent, write_csv
 from gripscale.io.workbook import write_workbook
+from gripscale.report.elements import with_code
 
 PRESSURE = Column("pressure", np.array([3e5, math.nan]), "p", "bar", 1e5, group="load")
 RANGE = Column("range", np.array([[-0.1, 0.2], [0.3, math.nan]]), group="result", bad=[True, False])
@@ -99,3 +100,9 @@ def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page() -> None:
     assert head is not None
     assert " ".join(head[1].split()) == long
     assert len(head[1].split(" ")) <= 6
+
+
+def test_commands_of_a_text_are_code_and_markup_is_not() -> None:
+    assert with_code("<b> is; `gripscale run` runs") == (
+        "&lt;b&gt; is; <code>gripscale run</code> runs"
+    )

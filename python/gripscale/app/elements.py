@@ -18,7 +18,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
-from gripscale.report.elements import Card, Code, Element, Notice, Text, open_and_folded
+from gripscale.report.elements import Card, Code, Element, Notice, Text, open_and_folded, with_code
 
 T = TypeVar("T")
 
@@ -55,7 +55,9 @@ def notice_elements(notices: Sequence[Notice]) -> Iterator[AppElement]:
 @cache
 def _environment() -> Environment:
     loader = PackageLoader("gripscale.app")
-    return Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    environment.filters["with_code"] = with_code
+    return environment
 
 
 @cache

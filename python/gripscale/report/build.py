@@ -15,7 +15,7 @@ from markupsafe import Markup
 from gripscale.charts.bokeh_parts import document
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
-from gripscale.report.elements import Page
+from gripscale.report.elements import Page, with_code
 from gripscale.report.head import with_answer
 from gripscale.report.pages import page_of
 from gripscale.report.source import read_result
@@ -65,6 +65,7 @@ def _template() -> Template:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["with_code"] = with_code
     # Bokeh's figures name an object where it first occurs: the order of keys matters.
     environment.policies["json.dumps_kwargs"] = {
         "sort_keys": False,

@@ -6,6 +6,7 @@ All texts are plain: escaping is the template's task. A `gripscale.io.table.Tabl
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -14,6 +15,13 @@ from typing import ClassVar
 from gripscale.charts.page_elements import Chart, Image
 from gripscale.io import table
 from gripscale.io.table import Column, Table, on_page, significant
+
+
+def with_code(text: str) -> str:
+    """Return a text as HTML; what stands between backticks, such as a command, is code."""
+    from markupsafe import Markup, escape  # of Jinja2, which only pages need
+
+    return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(escape(text))))
 
 
 @dataclass(frozen=True)
