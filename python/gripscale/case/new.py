@@ -148,7 +148,7 @@ def _sorted(
     surfaces: list[Path] = []
     rubbers: list[Path] = []
     skipped: list[Path] = []
-    refused: dict[Path, GripscaleError] = {}
+    refused: list[tuple[Path, GripscaleError]] = []
     for file in map(Path, files):
         for path in sorted(file.iterdir()) if file.is_dir() else [file]:
             if holds_moduli(path):
@@ -160,10 +160,11 @@ def _sorted(
                 if file.is_dir():
                     skipped.append(path)
                 else:
-                    refused[path] = error
+                    refused.append((path, error))
             else:
                 surfaces.append(path)
-    for path, refusal in refused.items():
+    if refused:
+        path, refusal = refused[0]
         if surfaces and not rubbers:
             read_master_curve(path)  # raises why there are no moduli in it
         raise refusal

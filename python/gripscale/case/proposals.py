@@ -26,7 +26,7 @@ from gripscale.io.text_table import EXCEL, read_lines
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
-from gripscale.rubber.material import least_bulk_modulus
+from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
 from gripscale.rubber.prony import largest_modulus
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
@@ -42,8 +42,6 @@ CUT_OFF = "instrument"
 """Where its roughness ends: where the measurement does."""
 ROOM = 293.15
 """Temperature taken where neither a file nor the caller states one [K]."""
-BULK_MODULUS = 2e9
-"""That of rubber [Pa]."""
 
 
 class Weight(IntEnum):

@@ -163,6 +163,8 @@ class AdmissibleSeries(Checked, eq=False):
         raise InputError(f"admissible must have the keys {keys}; got {checks.short_repr(values)}")
 
 
+BULK_MODULUS = 2e9
+"""That of rubber [Pa], where none was measured."""
 LEAST_POISSON_RATIO = 0.3
 """Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
 
@@ -264,7 +266,7 @@ class Rubber(Checked, eq=False):
     equilibrium_modulus: float = checked(check_modulus)
     moduli: Vector = checked(checks.in_limits, unit="Pa", default=(), repr=False)
     relaxation_times: Vector = checked(checks.in_limits, unit="s", default=(), repr=False)
-    bulk_modulus: float = checked(check_modulus, default=2e9)
+    bulk_modulus: float = checked(check_modulus, default=BULK_MODULUS)
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)

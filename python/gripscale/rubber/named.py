@@ -11,7 +11,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import ComplexArray
 from gripscale.core.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.material import Rubber
+from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.prony import fit_prony
 
 _REFERENCE_FREQUENCY = 2.0 * np.pi * 6.94e7
@@ -65,7 +65,7 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
 
 
 def styrene_butadiene(
-    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: float = 2e9
+    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: float = BULK_MODULUS
 ) -> Rubber:
     """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
 

@@ -30,7 +30,13 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.material import AdmissibleSeries, Rubber, loss_shape, storage_shape
+from gripscale.rubber.material import (
+    BULK_MODULUS,
+    AdmissibleSeries,
+    Rubber,
+    loss_shape,
+    storage_shape,
+)
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
 from gripscale.rubber.prony_report import PronyFit, report, rms, swapped_moduli
 
@@ -166,7 +172,7 @@ def fit_prony(
     master: MasterCurve,
     *,
     terms: int | None = None,
-    bulk_modulus: float = 2e9,
+    bulk_modulus: float = BULK_MODULUS,
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = BEYOND,
     smoothing: float = SMOOTHING,
@@ -223,7 +229,7 @@ def fit_prony_report(
     master: MasterCurve,
     *,
     terms: int | None = None,
-    bulk_modulus: float = 2e9,
+    bulk_modulus: float = BULK_MODULUS,
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = BEYOND,
     smoothing: float = SMOOTHING,
