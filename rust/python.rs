@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use numpy::{PyArray1, PyArray2};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
@@ -14,6 +14,7 @@ use crate::executor::{Executor, Threads};
 use crate::problem::{Band, Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
+use crate::spectral::{Complex32, SingleLines};
 use crate::status::Status;
 use crate::steady;
 use crate::transient::{self, Moment, Run, Stage};
@@ -306,6 +307,32 @@ fn solve_transient<'py>(
     Ok(PyRun(run_cancellable(py, work, solve)?))
 }
 
+/// Filters of lines of a number of points, which release the interpreter.
+#[pyclass(frozen, name = "LineFilter")]
+struct PyLineFilter(SingleLines);
+
+#[pymethods]
+impl PyLineFilter {
+    #[new]
+    fn new(points: usize) -> Self {
+        Self(SingleLines::new(points))
+    }
+
+    /// Values with each of their harmonics, 0 to half the points, times its factor.
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        values: PyReadonlyArray1<'py, f32>,
+        factors: PyReadonlyArray1<'py, Complex32>,
+    ) -> PyResult<Bound<'py, PyArray1<f32>>> {
+        let (line, factors) = (values.as_slice()?.to_vec(), factors.as_slice()?);
+        let text = "expected a value for each point and a factor for each harmonic";
+        let filtered = py.detach(|| self.0.filtered(line, factors));
+        let filtered = filtered.ok_or_else(|| PyValueError::new_err(text))?;
+        Ok(PyArray1::from_vec(py, filtered))
+    }
+}
+
 /// Name, default and one sentence of every setting.
 #[pyfunction]
 fn default_settings() -> Vec<(&'static str, f64, &'static str)> {
@@ -330,7 +357,7 @@ fn strain_energies() -> BTreeMap<&'static str, Vec<&'static str>> {
 mod kernel {
     #[pymodule_export]
     use super::{
-        default_settings, solve_steady, solve_transient, statuses, strain_energies, PyRun,
-        PySolution,
+        default_settings, solve_steady, solve_transient, statuses, strain_energies, PyLineFilter,
+        PyRun, PySolution,
     };
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-pub use realfft::num_complex::Complex64;
+pub use realfft::num_complex::{Complex32, Complex64};
 
 impl fmt::Debug for Lines {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -114,6 +114,45 @@ impl Lines {
     }
 }
 
+/// Filters of lines of one length in single precision, for callers on any thread; the bindings' alone.
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+pub struct SingleLines {
+    forward: Arc<dyn RealToComplex<f32>>,
+    inverse: Arc<dyn ComplexToReal<f32>>,
+}
+
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+impl SingleLines {
+    pub fn new(length: usize) -> Self {
+        let mut planner = RealFftPlanner::new();
+        Self {
+            forward: planner.plan_fft_forward(length),
+            inverse: planner.plan_fft_inverse(length),
+        }
+    }
+
+    /// `line` with each harmonic, 0 to N/2, times its factor; none if a number of values does not fit.
+    pub fn filtered(&self, mut line: Vec<f32>, factors: &[Complex32]) -> Option<Vec<f32>> {
+        let mut spectrum = self.forward.make_output_vec();
+        if factors.len() != spectrum.len() {
+            return None;
+        }
+        self.forward.process(&mut line, &mut spectrum).ok()?;
+        for (value, factor) in spectrum.iter_mut().zip(factors) {
+            *value *= factor;
+        }
+        // a real line has no imaginary parts of its mean and of the wave that is its own opposite
+        spectrum[0].im = 0.0;
+        if line.len() % 2 == 0 {
+            spectrum[factors.len() - 1].im = 0.0;
+        }
+        self.inverse.process(&mut spectrum, &mut line).ok()?;
+        let share = 1.0 / line.len() as f32;
+        line.iter_mut().for_each(|value| *value *= share);
+        Some(line)
+    }
+}
+
 /// Convolution round the period of every component of tensors at the points of a line, for every point
 /// of a column separately; `spectrum` are the harmonics of the weights by columns, and `values` stand
 /// `[column * points + point]`.
@@ -171,5 +210,33 @@ impl Correlations {
         self.lines.inverse(&self.sum, &mut sums);
         self.sum.fill(Complex64::default());
         sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn single_precision_filters_as_double_does() {
+        for length in [9, 64, 135] {
+            let line: Vec<f64> = (0..length).map(|at| (0.7 * at as f64).sin() + 0.3).collect();
+            let mut expected = line.clone();
+            let factor = |k: usize| Complex64::new(1.0 / (1 + k) as f64, 0.1 * k as f64);
+            let factors: Vec<Complex64> = (0..=length / 2).map(factor).collect();
+            Lines::new(length).convolve(&factors, &mut expected);
+            let single = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
+            let lines = SingleLines::new(length);
+            let factors: Vec<Complex32> = factors
+                .iter()
+                .map(|value| Complex32::new(value.re as f32, value.im as f32))
+                .collect();
+            let found = lines.filtered(single(&line), &factors).unwrap();
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((f64::from(*found) - expected).abs() < 1e-5);
+            }
+            assert!(lines.filtered(single(&line[1..]), &factors).is_none());
+            assert!(lines.filtered(single(&line), &factors[1..]).is_none());
+        }
     }
 }

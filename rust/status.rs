@@ -44,40 +44,40 @@ macro_rules! statuses {
 
 statuses! {
     Converged = "converged",
-        "Residual and contact conditions are met at the full pressure.",
+        "The solution meets the contact conditions and the bound of the residual at the full pressure.",
         "";
     IterationLimit = "iteration limit",
-        "The Newton iterations allowed were used up before the full pressure.",
-        "Raise max_iterations, or start from the solution at a smaller pressure or a slower speed.";
+        "The solve used all allowed Newton iterations before it reached the full pressure.",
+        "Raise max_iterations, or start from the solution at a lower pressure or a lower speed.";
     ElementInverted = "element inverted",
-        "A Newton step turned an element inside out, at the smallest step of the pressure, too.",
-        "Try another mesh: element_order = 2 at large strain, more rows where the mean shear is strong.";
+        "A Newton step turned an element inside out, even at the smallest step of the pressure.",
+        "Try another mesh: set element_order = 2 at large strain, or take more rows where the mean shear is large.";
     NoActiveSet = "no active set",
-        "No set of touching nodes satisfies the contact conditions.",
-        "Try more columns, or start from the solution at a smaller pressure.";
+        "No set of nodes in contact satisfies the contact conditions.",
+        "Try more columns, or start from the solution at a lower pressure.";
     NotFinite = "not finite",
         "A number overflowed.",
         "Check the units of modulus, pressure and profile.";
     Fold = "fold in the load path",
-        "The pressure can be raised no further, not even by a thousandth: the steady solution ends there, or snaps to another.",
+        "The pressure cannot rise further, not even by a thousandth: the steady solution ends at this pressure, or jumps to another solution.",
         "Leave out shorter waves, shorten the load time, or use the half-plane model.";
     MeanShear = "mean shear too large",
-        "The pressure cannot be raised because friction shears the bonded block by more than 2: friction times pressure over the relaxation modulus after the load time.",
-        "Take a shorter load time, or a rubber that is still solid then.";
+        "The pressure cannot rise further because friction shears the bonded block by more than 2. This mean shear is friction times pressure over the relaxation modulus after the load time.",
+        "Take a shorter load time, or a rubber that is still solid after the load time.";
     TimeLimit = "time limit",
-        "The time limit ran out: the numbers are those of the finest mesh solved by then, or at the pressure reached.",
+        "The solve reached the time limit. Its numbers belong to the finest mesh that was solved, or to the pressure that was reached.",
         "Raise time_limit, or take fewer columns.";
     ToleranceNotMet = "tolerance not met",
-        "Converged, but the estimated error is above the tolerance on the finest mesh.",
+        "The solve converged, but its estimated error on the finest mesh is above the tolerance.",
         "Accept the estimated error, or raise the tolerance.";
     FrictionsDisagree = "frictions disagree",
-        "Solved, but friction from traction and from dissipation are further apart than friction_bound on the finest mesh.",
+        "The wave has a solution, but on the finest mesh friction from traction and friction from dissipation differ by more than friction_bound.",
         "Take more columns.";
     ContactTooNarrow = "contact too narrow",
-        "Contacts of fewer than 4 nodes carry half of the load on the finest mesh allowed, or Hertz's contact on the crest is narrower than half a node spacing of that mesh: then nothing is solved.",
+        "The contact is too narrow for the finest allowed mesh: contacts of fewer than 4 nodes carry half of the load. Nothing is solved if Hertz's contact on the crest is narrower than half a node spacing.",
         "Take more columns or a higher pressure, or use the half-plane model.";
     ProfileTooRough = "profile too rough",
-        "The long waves of the profile carry the load, but all waves together have no solution on this mesh: its nodes are too far apart for the sharpest crests.",
+        "The long waves of the profile have a solution, but all waves together have none. The nodes of the mesh are too far apart for the sharpest crests.",
         "Leave out shorter waves, or take more columns.";
 }
 
@@ -102,5 +102,18 @@ mod tests {
             assert_eq!(status.advice().ends_with('.'), expects_advice, "{word}");
         }
         assert!(!Status::ALL.contains(&Status::Stopped));
+    }
+
+    #[test]
+    fn every_sentence_is_short_and_begins_with_its_subject() {
+        for text in Status::ALL.iter().flat_map(|s| [s.sentence(), s.advice()]) {
+            for sentence in text.split(". ") {
+                assert!(sentence.split_whitespace().count() <= 22, "{sentence}");
+                let bare = ["Converged,", "Solved,"]
+                    .iter()
+                    .any(|word| sentence.starts_with(word));
+                assert!(!bare, "{sentence}");
+            }
+        }
     }
 }

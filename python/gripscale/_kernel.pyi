@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "LineFilter",
     "Run",
     "Solution",
     "default_settings",
@@ -13,6 +14,13 @@ __all__ = [
     "statuses",
     "strain_energies",
 ]
+
+@final
+class LineFilter:
+    def __new__(cls, points: int) -> LineFilter: ...
+    def __call__(
+        self, values: NDArray[np.float32], factors: NDArray[np.complex64]
+    ) -> NDArray[np.float32]: ...
 
 @final
 class Solution:

@@ -8,25 +8,13 @@ jumps between opposite borders, the smooth part s solves the discrete Laplace eq
 
 and is subtracted. For a line it is the straight line through the two end points; for a map it
 removes the tilt and bends the rest gently near the borders, where a window would flatten it.
-
-A long line is filtered in Fourier space by many short transforms side by side. With
-n = n_1 + N_1 n_2 and k = k_2 + N_2 k_1 for the N = N_1 N_2 points and waves of a line,
-
-    X[k] = sum_n1 e^(-2 pi i n_1 k_1/N_1) e^(-2 pi i n_1 k_2/N)
-               sum_n2 x[n] e^(-2 pi i n_2 k_2/N_2)
-
-(J. W. Cooley & J. W. Tukey, Math. Comput. 19 (1965) 297, doi:10.1090/S0025-5718-1965-0178586-1).
-Both sums transform many rows at once, which the vector units of the processor take four and more at
-a time; one long transform does not use them. The waves are only multiplied and transformed back, so
-that they need no sorting: 0.6 of the time of `rfft` and `irfft` on lines of 35,000 to 92,000
-points.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -44,10 +32,6 @@ SingleComplex = NDArray[np.complex64]
 DEFAULT_STEPS = 4
 """Steps of the surface in the smallest wave that is kept by default."""
 FEWEST_STEPS = 2
-COLUMNS = (128, 64)
-"""N_1, the first that divides the points."""
-SHORTEST = 4096
-"""Points of a line from which the convolution by short transforms is faster."""
 
 
 @dataclass(frozen=True)
@@ -169,51 +153,6 @@ def joined(z: Array) -> Array:
     half.flat[0] = np.inf
     smooth = scipy.fft.irfftn(scipy.fft.rfftn(jumps) / half, s=z.shape)
     return np.asarray(z - z.mean() - smooth)
-
-
-@dataclass(frozen=True)
-class LineConvolution:
-    """A filter of a line in Fourier space, in the wave order of its short transforms."""
-
-    transfer: SingleComplex = field(repr=False)
-    """Shape (N_2 // 2 + 1, N_1)."""
-    points: int
-
-    @classmethod
-    def of(cls, transfer: SingleComplex, points: int) -> LineConvolution | None:
-        """Return the convolution for a line's `rfft`, shape (points // 2 + 1,).
-
-        None if short transforms are not faster for this number of points.
-        """
-        columns = next((n for n in COLUMNS if points % n == 0), 0)
-        if points < SHORTEST or not columns:
-            return None
-        rows = points // columns
-        wave = np.arange(rows // 2 + 1)[:, None] + rows * np.arange(columns)
-        mirrored = wave > points // 2
-        factors = transfer[np.where(mirrored, points - wave, wave)]
-        return cls(np.where(mirrored, factors.conj(), factors), points)
-
-    def __call__(self, values: Single) -> Single:
-        """Return the filtered line, shape (points,)."""
-        columns = self.transfer.shape[1]
-        rows = self.points // columns
-        twiddle, inverse = _twiddle_factors(rows, columns)
-        waves = scipy.fft.rfft(values.reshape(rows, columns), axis=0)
-        waves *= twiddle
-        waves = scipy.fft.fft(waves, axis=1, overwrite_x=True)
-        waves *= self.transfer
-        waves = scipy.fft.ifft(waves, axis=1, overwrite_x=True)
-        waves *= inverse
-        return np.asarray(scipy.fft.irfft(waves, rows, axis=0, overwrite_x=True)).reshape(-1)
-
-
-@lru_cache(maxsize=16)
-def _twiddle_factors(rows: int, columns: int) -> tuple[SingleComplex, SingleComplex]:
-    """Return e^(-2 pi i n_1 k_2/N), shape (rows // 2 + 1, columns), and its conjugate."""
-    phase = np.outer(np.arange(rows // 2 + 1), np.arange(columns)) / (rows * columns)
-    factors = np.exp(-2j * np.pi * phase).astype(np.complex64)
-    return factors, factors.conj()
 
 
 @dataclass(frozen=True)

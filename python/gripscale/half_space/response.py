@@ -23,11 +23,12 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from gripscale._kernel import LineFilter
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import Grid, LineConvolution, PeriodicHeights, SingleComplex
+from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus
 
@@ -144,9 +145,7 @@ class Response:
             raise OutOfTime
         if pressure.dtype != np.float32:
             return self._filtered(pressure, self.compliance)
-        if self._line_displacement is not None:
-            return self._line_displacement(pressure)
-        return self._filtered(pressure, self.compliance_single)
+        return self._filtered_single(pressure, self.compliance_single)
 
     def full_contact(self, height: Array, mean: float) -> Array:
         """Return the pressure [Pa] of mean `mean` that follows `height` [m], tension included."""
@@ -159,21 +158,16 @@ class Response:
     def pressure(self, displacement: AnyArray) -> AnyArray:
         """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
         single = displacement.astype(np.float32, copy=False)
-        if self._line_pressure is not None:
-            return self._line_pressure(single)
-        return self._filtered(single, self.stiffness)
+        return self._filtered_single(single, self.stiffness)
 
     @cached_property
-    def _line_displacement(self) -> LineConvolution | None:
-        return self._line_filter(self.compliance_single)
+    def _line_filter(self) -> LineFilter:
+        return LineFilter(self.grid.points)
 
-    @cached_property
-    def _line_pressure(self) -> LineConvolution | None:
-        return self._line_filter(self.stiffness)
-
-    def _line_filter(self, transfer: SingleComplex) -> LineConvolution | None:
-        shape = self.grid.shape
-        return LineConvolution.of(transfer, shape[0]) if len(shape) == 1 else None
+    def _filtered_single(self, values: Single, transfer: SingleComplex) -> Single:
+        if values.ndim == 1:
+            return self._line_filter(values, transfer)
+        return np.asarray(self._filtered(values, transfer))
 
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)

@@ -1,4 +1,4 @@
-"""Lines filtered as many short transforms: the same as one long transform, to single precision."""
+"""Lines filtered in single precision: as by another code in double precision."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from gripscale.half_space.grid import SHORTEST, LineConvolution
+from gripscale._kernel import LineFilter
 
 ROUNDING = 2e-6
 """Of transforms in single precision: 6e-8 in each of some log2(N) = 16 stages, and margin."""
@@ -23,17 +23,19 @@ def transfer_of(points: int) -> np.ndarray:
     return transfer
 
 
-@pytest.mark.parametrize("points", [4096, 64 * 75, 128 * 45, 34560])
-def test_it_is_what_one_long_transform_does(points: int) -> None:
+@pytest.mark.parametrize("points", [9, 135, 4099, 64 * 75, 34560])
+def test_it_is_what_double_precision_does(points: int) -> None:
     transfer = transfer_of(points)
     values = np.random.default_rng(1).standard_normal(points).astype(np.float32)
-    short = LineConvolution.of(transfer, points)
-    assert short is not None
     spectrum = scipy.fft.rfft(values.astype(float)) * transfer
     expected = scipy.fft.irfft(spectrum, points)
-    assert np.abs(short(values) - expected).max() < ROUNDING * np.abs(expected).max()
+    found = LineFilter(points)(values, transfer)
+    assert found.dtype == np.float32
+    assert np.abs(found - expected).max() < ROUNDING * np.abs(expected).max()
 
 
-def test_there_is_none_where_it_does_not_pay() -> None:
-    assert LineConvolution.of(transfer_of(SHORTEST // 2), SHORTEST // 2) is None
-    assert LineConvolution.of(transfer_of(4099), 4099) is None
+def test_other_numbers_of_values_are_refused() -> None:
+    values, transfer = np.zeros(64, np.float32), transfer_of(64)
+    for wrong in ((values[1:], transfer), (values, transfer[1:])):
+        with pytest.raises(ValueError, match="a value for each point"):
+            LineFilter(64)(*wrong)
