@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import nullcontext
 from typing import Any
 
+import matplotlib.figure  # noqa: F401  # commands of the tests draw in this process
 import pytest
 from typer.testing import CliRunner, Result
 

@@ -15,15 +15,19 @@ import xarray as xr
 
 from gripscale.analysis import compare_over
 from gripscale.analysis.comparison import reference
-from gripscale.case import CaseFile, read_case
+from gripscale.case import CaseFile, read_case, record
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.experiment import Study
 from gripscale.experiment.inputs import rubber_note, surface_note, surface_of
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
+from gripscale.report import write_report
 from gripscale.report.answer import no_answer
+from gripscale.report.notices import case_notices
 from gripscale.report.record import InputRecord
 from gripscale.surface import self_affine_profile
+from tests.report.reading import Page
+from tests.samples import Shell
 
 ROUGH = self_affine_profile(0.8, 2e-3, 0.4e-3, 0.2, 1e-4, 3)
 CASE = """\
@@ -210,6 +214,48 @@ def test_the_farthest_load_of_a_study_is_named() -> None:
     (text,) = load_doubts(loads, {"speed": "km/h"})
     assert text.startswith("Speed = 3.6e+07 km/h is not between 3.6e-09 km/h and 360 km/h")
     assert load_doubts(loads[:2], {}) == []
+
+
+TRAPPED = (
+    CASE.replace('reference_temperature = "20 C"\n', "").replace('"100 mm"', '"1 mm"')
+    + '[solver]\nmodel = "half_plane"\npoints = 64\n'
+    + '[measured]\nfriction = "friction.csv"\n[output]\nfolder = "results"\n'
+)
+"""The temperature of the moduli is missing, and the footprint is shorter than the largest wave."""
+AT_200 = "Speed = 200 m/s is not between 1e-09 m/s and 100 m/s: is its unit right?"
+
+
+@pytest.mark.parametrize(
+    ("command", "of_its_load"),
+    [
+        (("sensitivity", "--model", "chain", "--vary", "speed=0.3,200"), AT_200),
+        (("cut-off", "--down-to", "0.8 mm"), ""),
+        (("calibrate", "--model", "chain", "--law", "constant"), AT_200),
+        (("design", "--levels", "1", "--goal", "speed=200 m/s"), AT_200),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_commands_and_their_pages_say_the_doubts_of_a_run(
+    tmp_path: Path, shell: Shell, command: tuple[str, ...], of_its_load: str
+) -> None:
+    file = write(tmp_path, case=TRAPPED, road=with_plate(20e-3))
+    (tmp_path / "friction.csv").write_text("speed [m/s],friction\n0.1,2\n1,2\n200,2\n")
+    said = [n.text for n in case_notices(None, InputRecord(record.inputs(prepare_case(file))))]
+    first = [*said[:3], *filter(None, [of_its_load])]
+    for words in ("plates", "states the temperature of its moduli", "The footprint, 1 mm"):
+        assert any(words in text for text in first)
+    name, *options = command
+    out = tmp_path / name
+    printed = shell(name, file.path, *options, "--output", out, columns=1000)
+    assert printed.exit_code == 0, printed.output
+    answer, _, warnings = printed.stdout.partition("Warnings, by what they change:\n")
+    assert "Answer: " in answer
+    assert {line.strip() for line in warnings.splitlines()[: len(first)]} == {*first}
+    (file_text,) = (path.read_text(encoding="utf-8") for path in out.glob("*.txt"))
+    page = Page(write_report(out)).text
+    for text in {*said, *first}:
+        assert text in page
+        assert text in " ".join(file_text.split())
 
 
 def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) -> None:

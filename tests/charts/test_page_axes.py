@@ -13,7 +13,8 @@ models = pytest.importorskip("bokeh.models", reason="needs pip install 'gripscal
 @pytest.mark.parametrize(
     ("low", "high", "marks"),
     [
-        (0.3, 0.7, [0.3, 0.4, 0.5, 0.6, 0.7]),
+        (0.4, 0.7, [0.4, 0.5, 0.6, 0.7]),
+        (0.3, 0.9, [0.3, 0.4, 0.5, 0.7]),  # 0.6, 0.8 and 0.9 would touch on a telephone
         (0.02, 0.6, [0.02, 0.05, 0.1, 0.2, 0.5]),
         (0.00996, 0.692, [0.01, 0.03, 0.1, 0.3]),
         (1e-9, 1e-7, []),  # as powers of ten, which Bokeh writes for the decades alone

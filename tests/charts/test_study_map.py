@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from gripscale.charts import friction_master_figure, map_figure
+from gripscale.charts.figure_folder import FigureFolder
 from gripscale.charts.write import draw_study
 from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, with_master_curve
 from gripscale.io import netcdf
@@ -88,14 +89,14 @@ def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
 
 
 def test_both_are_among_the_figures_of_a_study(study: xr.Dataset, tmp_path: Path) -> None:
-    draw_study(study, tmp_path)
+    draw_study(study, FigureFolder(tmp_path))
     assert {path.stem for path in tmp_path.glob("*.png")} == {
         "totals",
         "map",
         "friction_master_curve",
     }
     (alone := tmp_path / "alone").mkdir()
-    draw_study(study.isel(temperature=[0]), alone)
+    draw_study(study.isel(temperature=[0]), FigureFolder(alone))
     assert {path.stem for path in alone.glob("*.png")} == {"totals", "friction_master_curve"}
 
 

@@ -91,6 +91,8 @@ def check_figures(seen: Visit) -> int:
             assert top >= y - 1, name
             assert left + wide <= x + width + 1, name
             assert top + high <= y + height + 1, name
+        legends = sum(high for *_, high in boxes["legend"])
+        assert legends < 0.3 * height, f"{name}: entries below each other"
         assert boxes["frame"][0][3] > 0.5 * height, f"{name}: frame is squeezed"
         assert plot.evaluate(CURVES), f"{name} is empty"
     return len(plots)

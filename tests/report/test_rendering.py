@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -103,6 +104,6 @@ def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page() -> None:
 
 
 def test_commands_of_a_text_are_code_and_markup_is_not() -> None:
-    assert with_code("<b> is; `gripscale run` runs") == (
-        "&lt;b&gt; is; <code>gripscale run</code> runs"
-    )
+    text, page = "<b> is; `gripscale run` runs", "&lt;b&gt; is; <code>gripscale run</code> runs"
+    assert with_code(text) == page
+    assert f'<p class="note">{page}</p>' in replace(TABLE, notes=[text]).__html__()

@@ -299,6 +299,19 @@ def test_single_file_without_record_and_meshes(run_folder: Path, tmp_path: Path)
     assert "table-files" not in page.tables
 
 
+def test_only_the_table_of_a_saved_case_names_measured_friction(
+    changed_run: Callable[..., Path],
+) -> None:
+    """A comment does not, nor is an older case refused that states what no case has any more."""
+    folder = changed_run(lambda data: data)
+    case = folder / "case.toml"
+    case.write_text("# on a measured road\n[load]\nolder = 1\n", encoding="utf-8")
+    assert '<section id="measured"' not in write_report(folder).read_text(encoding="utf-8")
+    case.write_text("[measured\n", encoding="utf-8")
+    with pytest.raises(FileError, match=r"case\.toml is not valid TOML: Expected '\]'"):
+        write_report(folder)
+
+
 def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:
     totals = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
     load = Load(3e5, 0.3, 0.1)

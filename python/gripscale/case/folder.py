@@ -17,9 +17,10 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
+from typing import get_args
 
 from gripscale.case.read import CaseFile, read_case
-from gripscale.case.tables import Case
+from gripscale.case.tables import Case, FigureKind
 from gripscale.core.errors import FileError, GripscaleError
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import read_bytes
@@ -113,8 +114,15 @@ def _free_target(
     return next(filter(is_free, targets))
 
 
-BLOCKS = ("blocks_dynamic", "blocks_static")
-FIGURES = ("profile", "correlation", "master_curve", "contact_and_friction", *BLOCKS)
+FIGURES = (
+    "profile",
+    "correlation",
+    "master_curve",
+    "contact_and_friction",
+    "direct_contact",
+    "blocks_dynamic",
+    "blocks_static",
+)
 AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 NOTE = ".finished.json"
@@ -129,7 +137,7 @@ RESULTS = (
     "report.txt",
     "summary.xlsx",
     CASE,
-    *(f"figures/{name}.{kind}" for name in (*FIGURES, *AT_TIMES) for kind in ("png", "pdf")),
+    *(f"figures/{name}.{kind}" for name in (*FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 """Everything a run may write into its folder, beside copies of the files the case names."""
 

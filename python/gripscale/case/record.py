@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.io.text_table import read_bytes
+from gripscale.model import Load
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
 from gripscale.surface import HeightDifference, Measured, Profile, SineStack, Surface
@@ -99,8 +100,15 @@ POINTS = 600
 """Points of a curve that is drawn."""
 
 
-def inputs(results: CaseResults) -> xr.Dataset:
-    """Return everything a report says about the inputs of a case."""
+def inputs(
+    results: CaseResults,
+    surfaces: Iterable[Surface] | None = None,
+    loads: Iterable[Load] | None = None,
+) -> xr.Dataset:
+    """Return everything a report says about the inputs of a case: the group `inputs` of a result.
+
+    Its doubts are those of `surfaces` and `loads` where the answer is not of those of the case.
+    """
     surface = results.surface
     excitation = excited(results.file.case.load.speed, surface.sines)
     rubber = results.rubber
@@ -108,7 +116,7 @@ def inputs(results: CaseResults) -> xr.Dataset:
     notes = {
         "conditions_notes": "\n".join(results.conditions_notes()) or None,
         "load_notes": "\n".join(results.load_notes()) or None,
-        "doubts": "\n".join(results.doubts()) or None,
+        "doubts": "\n".join(results.doubts(surfaces, loads)) or None,
     }
     parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))
@@ -264,8 +272,8 @@ def rubber_variables(
             data |= _moduli(f"series_{side}", "series_omega", modulus)
     if len(rubber.moduli):
         times = np.asarray(rubber.relaxation_times)
-        data["term_relaxation_time"] = ("term", times, {"units": "s"})
-        data["term_modulus"] = ("term", np.asarray(rubber.moduli), {"units": "Pa"})
+        data["term_relaxation_time"] = ("maxwell_element", times, {"units": "s"})
+        data["term_modulus"] = ("maxwell_element", np.asarray(rubber.moduli), {"units": "Pa"})
     if master is not None:
         attrs["reference_temperature_K"] = master.reference_temperature
         data["master_frequency"] = ("row", master.frequency, {"units": "Hz"})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -102,9 +102,17 @@ class CaseResults:
             "which it cannot hold once: is its unit right? If so, leave such waves out."
         ]
 
-    def doubts(self) -> list[str]:
-        """Return why the answer may be that of another road, rubber or load, a sentence each."""
-        texts = [*doubt_sentences(self.surface), *load_doubts([self.load], self.file.units)]
+    def doubts(
+        self, surfaces: Iterable[Surface] | None = None, loads: Iterable[Load] | None = None
+    ) -> list[str]:
+        """Return why the answer may be that of another road, rubber or load, a sentence each.
+
+        Of an answer on other surfaces or under other loads than those of the case, these count.
+        """
+        roads = [self.surface] if surfaces is None else surfaces
+        texts = [text for road in roads for text in doubt_sentences(road)]
+        texts += load_doubts([self.load] if loads is None else loads, self.file.units)
+        texts = list(dict.fromkeys(texts))
         if self.rubber.rubber.reference_temperature is None:
             texts.append(
                 "Neither the file of the rubber nor the case states the temperature of its moduli: "

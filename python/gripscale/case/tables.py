@@ -370,11 +370,16 @@ class UncertaintyTable(Table):
     """Estimated relative error of each direct contact; that of its first full grid by default."""
 
 
+FigureKind = Literal["png", "pdf", "svg"]
+
+
 class OutputTable(Table):
     """Where the results go."""
 
     folder: str = "results"
     """Folder of the results, from the case file."""
+    figures: list[FigureKind] = Field(default=["png"], min_length=1)
+    """What each figure is written as."""
 
 
 class MeasuredTable(Table):

@@ -223,7 +223,7 @@ class Panel:
     caption: str = ""
     alt: str = ""
     height: int = 340
-    """On the page [px]."""
+    """On the page with one line of the legend [px]."""
     legend: str = ""
     """Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere."""
     to_scale: bool = False
@@ -266,3 +266,34 @@ class Sheet:
     colour_bar: ColourBar | None = None
     layout: Mapping[str, Any] = field(default_factory=dict)
     """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """One wave: pressure and mesh of a solution, or the words why there is none."""
+
+    caption: str
+    steepness: float
+    """Amplitude of the rigid wave over its wavelength."""
+    mean: float
+    """Mean pressure in the unit of the figure."""
+    pressure: tuple[Array, Array] | None
+    """x over the wavelength and contact pressure; None without a solution."""
+    mesh: tuple[Array, Array] | None
+    """Nodes in wavelengths, see `PredictionView.mesh_along`; None without them."""
+    slides: bool
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """Blocks of a figure on paper, row by row."""
+
+    blocks: Sequence[Block]
+    pressure_unit: str
+    columns: int
+    width: float
+    """Of the figure with all its columns [inch]."""
+
+
+Drawing = Sheet | Blocks
+"""What a figure on paper is drawn from."""

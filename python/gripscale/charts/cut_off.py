@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -24,9 +23,6 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
     AREA: ("$A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
@@ -38,13 +34,12 @@ def cut_off_charts(data: xr.Dataset) -> list[Chart]:
     return draw.on_page(_panels(data))
 
 
-def cut_off_figure(data: xr.Dataset) -> Figure:
-    """Draw friction, contact and the slope in contact over the same cut-offs."""
+def cut_off_sheet(data: xr.Dataset) -> Sheet:
+    """Describe friction, contact and the slope in contact over the same cut-offs."""
     layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
-    sheet = Sheet(
+    return Sheet(
         _panels(data), 1, WIDE, 6.6, gap=0.03, legend="above", legend_columns=2, layout=layout
     )
-    return draw.on_paper(sheet)
 
 
 def _panels(data: xr.Dataset) -> list[Panel]:

@@ -65,7 +65,7 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
     InputError
         If the stretch is not positive.
     """
-    return trace_figure(contact_trace(contact, stretch=stretch))
+    return draw.on_paper(trace_sheet(contact_trace(contact, stretch=stretch)))
 
 
 def named_traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
@@ -77,11 +77,11 @@ def named_traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
     ]
 
 
-def trace_figure(trace: xr.Dataset, title: str = "") -> Figure:
-    """Draw a trace on paper."""
+def trace_sheet(trace: xr.Dataset, title: str = "") -> Sheet:
+    """Describe a trace on paper."""
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
     heights = [FIELD_ROW] * len(fields) + [ROW] * len(lines) + [_drawn_height(close)]
-    return _drawn([*fields, *lines, close], heights, title)
+    return _sheet([*fields, *lines, close], heights, title)
 
 
 def contact_pictures(data: xr.Dataset) -> list[Chart]:
@@ -124,14 +124,14 @@ def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
 def height_figure(trace: xr.Dataset, name: str) -> Figure:
     """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
     close, worth = height_panels(trace, name)
-    return _drawn([worth, close], [ROW, _drawn_height(close)], name)
+    return draw.on_paper(_sheet([worth, close], [ROW, _drawn_height(close)], name))
 
 
-def _drawn(panels: list[Panel], heights: list[float], title: str) -> Figure:
-    """Draw panels of these heights [inch] below each other."""
+def _sheet(panels: list[Panel], heights: list[float], title: str) -> Sheet:
+    """Return panels of these heights [inch] below each other."""
     height = sum(heights) + BELOW * len(panels) + HEAD
     look: dict[str, Any] = {"legend_columns": 4, "legend_title": title}
-    return draw.on_paper(Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look))
+    return Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look)
 
 
 def _drawn_height(close: Panel) -> float:

@@ -5,20 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from gripscale.charts.chart import Panel, Sheet
+from gripscale.charts.chart import Drawing, Panel, Sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gripscale.charts.page_elements import Chart, Image, Picture
-    from gripscale.charts.view import PredictionView
 
 
-def on_paper(sheet: Sheet) -> Figure:
+def on_paper(drawing: Drawing) -> Figure:
     """Draw a figure with matplotlib, which is imported here."""
-    from gripscale.charts.paper import draw_sheet
+    if isinstance(drawing, Sheet):
+        from gripscale.charts.paper import draw_sheet
 
-    return draw_sheet(sheet)
+        return draw_sheet(drawing)
+    from gripscale.charts.blocks_on_paper import draw_blocks
+
+    return draw_blocks(drawing)
 
 
 def on_page(panels: Iterable[Panel]) -> list[Chart]:
@@ -37,13 +40,6 @@ def linked_on_page(panels: Sequence[Panel], name: str, caption: str, alt: str) -
 
 def image(picture: Picture) -> Image:
     """Return a picture as a page holds it, drawn with matplotlib."""
-    from gripscale.charts import blocks
+    from gripscale.charts.picture import image as packed
 
-    return blocks.image(picture)
-
-
-def blocks_image(prediction: PredictionView) -> Image:
-    """Draw the blocks of a prediction with matplotlib, as a page holds them."""
-    from gripscale.charts import blocks
-
-    return blocks.blocks_image(prediction)
+    return packed(picture)

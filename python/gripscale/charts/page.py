@@ -39,10 +39,14 @@ LEAST_EXPONENT = -5
 """Powers of ten below it are written as such; 0.0004 is shorter than what Bokeh makes of it."""
 LEAST_DECADES = 1000.0
 """From this ratio of largest to least on a log axis, Bokeh labels the decades."""
-LEGEND_ROW = 28
-"""Height of a row of the legend [px]; of more than two rows the figure grows."""
-LEGEND_WIDTH = 300
-"""Width the legend should keep within [px], that of a telephone; a letter takes about 6."""
+AROUND = 75
+"""Height of a figure around its frame [px]: abscissa and a line of the legend."""
+LEGEND_LINES = """\
+:host { width: max-content; max-width: 100%; }
+.bk-grid { display: flex; flex-wrap: wrap; width: auto; gap: 2px 14px; }
+.bk-label.bk-label { white-space: normal; }
+"""
+"""The legend has as many lines as the width of the frame asks for, and the figure grows by them."""
 PIXELS = 1.3
 """Pixels of a line on the page for each point of its width on paper."""
 LEAST_MARKER = 6.0
@@ -103,9 +107,10 @@ class Store:
 
 
 def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
-    figure = Part("Figure", height=panel.height, sizing_mode="stretch_width",
-                  match_aspect=panel.to_scale, outline_line_color=None, renderers=[],
-                  toolbar=_toolbar(along), center=[], right=[], above=[_legend()])  # fmt: skip
+    figure = Part("Figure", height=None, frame_height=panel.height - AROUND,
+                  sizing_mode="stretch_width", match_aspect=panel.to_scale,
+                  outline_line_color=None, renderers=[], toolbar=_toolbar(along), center=[],
+                  right=[], above=[_legend()])  # fmt: skip
     for which, axis in (("x", panel.x), ("y", panel.y)):
         # at equal scales Bokeh finds the limits
         free = replace(axis, low=None, high=None) if panel.to_scale else axis
@@ -142,7 +147,8 @@ def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
         if sum(bool(curve.label) for curve in curves) > 1:
             tips.insert(0, ("curve", "$name"))
         figure["toolbar"]["tools"].append(Part("HoverTool", renderers=points, tooltips=tips))
-    _fit_legend(figure, wanted=panel.legend != "none")
+    if panel.legend == "none" or not figure["above"][0]["items"]:
+        figure.update(above=[])
     return figure
 
 
@@ -243,8 +249,10 @@ def _set_ticks(drawn: Part, axis: Axis, values: Array) -> None:
         # of one of two decades they crowd at its upper end.
         first = int(np.floor(np.log10(values.min()))) - 1
         steps: tuple[float, ...] = (1, 3)
-        if span < 4.0:
+        if span < 2.0:
             steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)
+        elif span < 4.0:
+            steps = (1, 1.5, 2, 3, 4, 5, 7)
         elif span < 60.0:
             steps = (1, 2, 5)
         ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
@@ -389,19 +397,6 @@ def _tip(label: str, value: str) -> tuple[str, str]:
 
 def _legend() -> Part:
     """Return the legend above the frame; a click on an entry hides or shows its curve."""
-    return Part("Legend", items=[], orientation="horizontal", click_policy="hide", padding=2,
-                margin=0, spacing=8, border_line_color=None, label_text_font=FONT,
-                label_text_font_size="12px")  # fmt: skip
-
-
-def _fit_legend(figure: Part, *, wanted: bool) -> None:
-    """Give the legend as many columns as it has room for, and the figure room for its rows."""
-    (legend,) = figure["above"]
-    words = [item["label"]["value"] for item in legend["items"]]
-    if not words or not wanted:
-        figure.update(above=[])
-        return
-    fitting = min(max(LEGEND_WIDTH // (6 * max(map(len, words)) + 33), 1), 4)
-    legend.update(ncols=fitting)
-    rows = -(-len(words) // fitting)
-    figure.update(height=figure["height"] + LEGEND_ROW * max(rows - 2, 0))
+    return Part("Legend", items=[], orientation="horizontal", click_policy="hide", margin=2,
+                glyph_height=18, label_height=18, border_line_color=None, label_text_font=FONT,
+                label_text_font_size="12px", stylesheets=[LEGEND_LINES])  # fmt: skip

@@ -1,15 +1,18 @@
-"""Charts on paper: draws a `Sheet` with matplotlib and saves figures as PNG and PDF."""
+"""Charts on paper: draws a `Sheet` with matplotlib and saves figures."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import io
+from collections.abc import Mapping, Sequence
+from operator import methodcaller
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis as DrawnAxis
+from matplotlib.backend_bases import get_registered_canvas_class
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
@@ -35,6 +38,7 @@ from gripscale.charts.chart import (
     spelled_out,
 )
 from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, short_number, stretches
+from gripscale.core import checks
 from gripscale.io.netcdf import write_whole
 
 DPI = 200
@@ -72,6 +76,7 @@ RULES: Any = {
     "lines.linewidth": 1.4,
     "lines.markersize": 4.5,
     "legend.frameon": False,
+    "svg.fonttype": "none",  # words stay words
     "pdf.fonttype": 3,  # 42 cuts the whole font down for each figure, which costs 0.3 s
 }
 
@@ -366,33 +371,64 @@ def _mark_between(figure: Figure) -> None:
             figure.add_artist(Line2D(x, y, transform=where, in_layout=False, **look))
 
 
-def write_png(figure: Figure, target: Path | IO[bytes], dpi: float = DPI) -> None:
-    """Write `figure` as PNG; its layout is solved now, and stays."""
+def png(figure: Figure, dpi: float = DPI) -> bytes:
+    """Return `figure` as PNG; its layout is solved now, and stays."""
+    target = io.BytesIO()
     with mpl.rc_context(RULES):
         figure.set_dpi(dpi)
-        layout = figure.get_layout_engine()
-        if isinstance(layout, ConstrainedLayoutEngine):
-            _mark_between(figure)
-            layout.execute(figure)
-            figure.set_layout_engine("none")
+        _solve_layout(figure)
         # `savefig` would draw twice: once more to find out what it has to show.
         canvas: Any = FigureCanvasAgg(figure)
         canvas.print_png(target, pil_kwargs={"compress_level": 1})
+    return target.getvalue()
 
 
-def save_figure(figure: Figure, folder: Path, name: str) -> list[Path]:
-    """Write `figure` as PNG and PDF into `folder`; return the paths.
+def _lines(figure: Figure, kind: str) -> bytes:
+    """Return `figure` as PDF or SVG."""
+    target = io.BytesIO()
+    with mpl.rc_context(RULES):
+        _solve_layout(figure)
+        canvas: Any = get_registered_canvas_class(kind)(figure)  # imported here: not for pages
+        getattr(canvas, f"print_{kind}")(target)
+    return target.getvalue()
+
+
+def _solve_layout(figure: Figure) -> None:
+    layout = figure.get_layout_engine()
+    if isinstance(layout, ConstrainedLayoutEngine):
+        _mark_between(figure)
+        layout.execute(figure)
+        figure.set_layout_engine("none")
+
+
+KINDS = ("png", "pdf", "svg")
+"""What a figure can be written as."""
+
+
+def rendered(figure: Figure, kinds: Sequence[str]) -> dict[str, bytes]:
+    """Return the content of a file of each kind; raise `InputError` for one not in `KINDS`."""
+    for kind in kinds:
+        checks.one_of("kinds", kind, KINDS)
+    return {kind: png(figure) if kind == "png" else _lines(figure, kind) for kind in kinds}
+
+
+def save_figure(
+    figure: Figure, folder: Path, name: str, kinds: Sequence[str] = ("png", "pdf")
+) -> list[Path]:
+    """Write `figure` into `folder` as each of `kinds`: "png", "pdf" or "svg"; return the paths.
+
+    Raises `FileError` if one cannot be written, `InputError` for another kind.
+    """
+    return write_rendered(rendered(figure, kinds), folder, name)
+
+
+def write_rendered(files: Mapping[str, bytes], folder: Path, name: str) -> list[Path]:
+    """Write what `rendered` returned into `folder`; return the paths.
 
     Raises `FileError` if one cannot be written.
     """
-    from matplotlib.backends.backend_pdf import FigureCanvasPdf  # brings fontTools: not for pages
-
-    def write_pdf(target: Path) -> None:
-        with mpl.rc_context(RULES):
-            canvas: Any = FigureCanvasPdf(figure)
-            canvas.print_pdf(target)
-
-    return [
-        write_whole(folder / f"{name}.png", lambda target: write_png(figure, target)),
-        write_whole(folder / f"{name}.pdf", write_pdf),
-    ]
+    paths = []
+    for kind, content in files.items():
+        write = methodcaller("write_bytes", content)
+        paths.append(write_whole(folder / f"{name}.{kind}", write))
+    return paths

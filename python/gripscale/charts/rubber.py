@@ -66,11 +66,21 @@ def master_curve_figure(
     excitation
         Angular frequencies of the waves [rad/s], marked on the curves.
     """
+    return draw.on_paper(master_curve_sheet(rubber, master, fit, excitation))
+
+
+def master_curve_sheet(
+    rubber: Rubber,
+    master: MasterCurve | None = None,
+    fit: PronyFit | None = None,
+    excitation: ArrayLike = (),
+) -> Sheet:
+    """Describe what `master_curve_figure` draws; arguments and errors are its own."""
     omega = np.asarray(excitation, dtype=float)
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
     layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
-    return draw.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
 
 
 def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
@@ -84,7 +94,10 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
         values = excited.column("modulus") / MEGA, excited.column("loss_factor")
         labels = "$|E^*|$ of the waves", "waves"
         panels = [
-            panel.with_marks([Series(omega, value, INK, label, "", marker="D", filled=False)])
+            replace(
+                panel.with_marks([Series(omega, value, INK, label, "", marker="D", filled=False)]),
+                caption=f"{panel.caption} Diamonds: at the frequencies of the waves.",
+            )
             for panel, value, label in zip(panels, values, labels, strict=True)
         ]
     if "master_frequency" in inputs:
@@ -163,8 +176,7 @@ def _moduli_panels(
             Axis("modulus $E'$, $E''$ [MPa]", log=True),
             [*moduli, *borders, *waves[0]],
             name="master-curve",
-            caption="Storage and loss modulus: measured, and the Prony series that is solved with. "
-            "Diamonds: |E*| at the frequencies of the waves.",
+            caption="Storage and loss modulus: measured, and the Prony series that is solved with.",
             alt="Storage and loss modulus against angular frequency on logarithmic axes.",
             height=400,
         ),
@@ -173,7 +185,7 @@ def _moduli_panels(
             Axis("loss factor $E''/E'$ [-]", low=0.0),
             [*loss, *borders, *waves[1]],
             name="loss-factor",
-            caption="Loss factor: measured, Prony series, and at the frequencies of the waves.",
+            caption="Loss factor: measured, and of the Prony series.",
             alt="Loss factor against angular frequency.",
             height=400,
         ),
@@ -236,6 +248,11 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     InputError
         If the master curve has no shift.
     """
+    return draw.on_paper(superposition_sheet(sweeps, master))
+
+
+def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
+    """Describe what `superposition_figure` draws; arguments and errors are its own."""
     if master.shift is None or master.reference_temperature is None:
         raise InputError("master must have a shift, as superpose gives it; got none")
     kelvin = temperatures_in(master.shift, sweeps.temperatures, sweeps.tolerance)
@@ -269,7 +286,7 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     ]
     layout = {"sharex": "col", "sharey": "row"}
     bar = _temperatures(sweeps)
-    return draw.on_paper(Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout))
+    return Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout)
 
 
 def _temperatures(sweeps: Sweeps) -> chart.ColourBar:
@@ -296,6 +313,11 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     fits
         Formulas fitted to them; dashed beyond the temperatures fitted.
     """
+    return draw.on_paper(shift_sheet(table, fits))
+
+
+def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
+    """Describe what `shift_figure` draws; arguments and errors are its own."""
     celsius = table.temperature - ZERO_CELSIUS
 
     def factors(values: Array, error: Array, label: str = "") -> Series:
@@ -323,7 +345,7 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     rows = len(panels)
     layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
     height = 1.5 * rows + 1.4
-    return draw.on_paper(Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout))
+    return Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout)
 
 
 def _formula(table: ShiftTable, fit: ShiftFit, colour: str) -> Iterator[Series]:
@@ -353,6 +375,11 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
     report
         Of their superposition.
     """
+    return draw.on_paper(superposition_tests_sheet(sweeps, report))
+
+
+def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
+    """Describe what `superposition_tests_figure` draws; arguments and errors are its own."""
     gurp: list[Mark] = []
     cole: list[Mark] = []
     for sweep, colour in _coloured(sweeps, sweeps):
@@ -377,7 +404,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
               legend="best" if overlaps else ""),
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
-    return draw.on_paper(Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar))
+    return Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar)
 
 
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:

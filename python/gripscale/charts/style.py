@@ -7,13 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.rubber.extrapolation import WORTH_SAYING
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 BLUE, ORANGE, GREEN = "#0072B2", "#D55E00", "#009E73"
 SKY, PURPLE, YELLOW = "#56B4E9", "#CC79A7", "#E69F00"

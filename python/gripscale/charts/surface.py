@@ -48,18 +48,21 @@ def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
     Rows: as read, with the points cleaning removed or cut off; cleaned; 30 mm of it close up,
     where the missing heights are gaps.
     """
+    return draw.on_paper(profile_sheet(pairs))
+
+
+def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
+    """Describe what `profile_figure` draws; arguments and errors are its own."""
     columns = [_profile_panels(raw, cleaned, i) for i, (raw, cleaned) in enumerate(pairs)]
-    return draw.on_paper(
-        Sheet(
-            [panel for row in zip(*columns, strict=True) for panel in row],
-            columns=len(pairs),
-            width=WIDE if len(pairs) > 1 else 0.7 * WIDE,
-            height=5.2,
-            legend_columns=4,
-            keys=[Series([], [], ORANGE, "removed", dash="", marker=".")],
-            gap=0.02,
-            layout={"sharey": "row"},
-        )
+    return Sheet(
+        [panel for row in zip(*columns, strict=True) for panel in row],
+        columns=len(pairs),
+        width=WIDE if len(pairs) > 1 else 0.7 * WIDE,
+        height=5.2,
+        legend_columns=4,
+        keys=[Series([], [], ORANGE, "removed", dash="", marker=".")],
+        gap=0.02,
+        layout={"sharey": "row"},
     )
 
 
@@ -179,6 +182,15 @@ def correlation_figure(
     self_affine: SelfAffineFit | None = None,
 ) -> Figure:
     """Draw C_z [mm^2] against lag [mm], with the named sine stacks and their wavelengths marked."""
+    return draw.on_paper(correlation_sheet(measured, sines, self_affine))
+
+
+def correlation_sheet(
+    measured: HeightDifference,
+    sines: Mapping[str, SineStack],
+    self_affine: SelfAffineFit | None = None,
+) -> Sheet:
+    """Describe what `correlation_figure` draws; arguments and errors are its own."""
     panel = _correlation_panel(measured.lag, measured.value, measured.lower, measured.upper)
     marks: list[Mark] = []
     if self_affine is not None:
@@ -192,7 +204,7 @@ def correlation_figure(
         marks.append(Series(stack.wavelength / MILLI, foot, colour, "their wavelengths", dash="",
                             marker="|", size=9.0, width=1.4, clip=False))  # fmt: skip
     panel = panel.with_marks(marks)
-    return draw.on_paper(Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02))
+    return Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02)
 
 
 def correlation_charts(inputs: xr.Dataset) -> list[Chart]:

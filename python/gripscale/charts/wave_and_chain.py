@@ -42,8 +42,13 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     of a prediction without a single converged wave the legend says that there is nothing to draw.
     Lines are dashed beyond the measured band of the rubber.
     """
+    return draw.on_paper(contact_sheet(predictions))
+
+
+def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
+    """Describe what `contact_figure` draws; arguments and errors are its own."""
     views = [PredictionView(data, name) for name, data in predictions.items()]
-    return draw.on_paper(Sheet([_total_panel(views, name) for name in AXIS_TITLES]))
+    return Sheet([_total_panel(views, name) for name in AXIS_TITLES])
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
@@ -326,6 +331,11 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     InputError
         If there are no temperatures in it.
     """
+    return draw.on_paper(heat_sheet(data, title))
+
+
+def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
+    """Describe what `heat_figure` draws; arguments and errors are its own."""
     require_warming(data)
     data = data.isel(scale=np.isfinite(data.flash_temperature_rise_own.values))
     length = data.wavelength.values / MILLI
@@ -348,7 +358,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
     panel = Panel(chart.wavelength_axis(length), Axis(label, margin=0.08), marks)
     look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
-    return draw.on_paper(Sheet([panel], 1, NARROW, 3.4, **look))
+    return Sheet([panel], 1, NARROW, 3.4, **look)
 
 
 def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
@@ -432,6 +442,11 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
     title : str
         Above the panels.
     """
+    return draw.on_paper(effects_sheet(*results, title=title))
+
+
+def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
+    """Describe what `effects_figure` draws; arguments and errors are its own."""
     names = [str(name) for name in results[0].effect.values]
     ticks = {float(i): EFFECTS.get(name, name) for i, name in enumerate(names)}
     rows = Axis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
@@ -449,16 +464,14 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
         ]
         high = 1.3 * longest or None
         panels.append(Panel(Axis(label, low=0.0, high=high, numbers=4), rows, marks))
-    return draw.on_paper(
-        Sheet(
-            panels,
-            len(panels),
-            height=HEIGHT + ROW * len(names) * max(len(results), 1.5),
-            legend_columns=len(results),
-            legend_title="\n".join(filter(None, [title, PER_CENT])),
-            gap=0.04,
-            layout={"sharey": True},
-        )
+    return Sheet(
+        panels,
+        len(panels),
+        height=HEIGHT + ROW * len(names) * max(len(results), 1.5),
+        legend_columns=len(results),
+        legend_title="\n".join(filter(None, [title, PER_CENT])),
+        gap=0.04,
+        layout={"sharey": True},
     )
 
 

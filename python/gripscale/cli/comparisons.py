@@ -71,8 +71,8 @@ def compare(
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import prepare_case, read_case
     from gripscale.charts.comparison import at_measured_figure
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.ladder import varied
-    from gripscale.charts.paper import save_figure
     from gripscale.charts.write import draw_comparison, draw_effects
     from gripscale.experiment.axis import parse_vary
     from gripscale.experiment.measured_friction import read_measured_friction
@@ -149,12 +149,13 @@ def compare(
         parts += ["", best_line(data)]
 
     def draw_figures() -> None:
-        draw_comparison(data, target)
+        figures = FigureFolder(target, file.case.output.figures)
+        draw_comparison(data, figures)
         if worth:
-            draw_effects(worth, target)
+            draw_effects(worth, figures)
         if residuals is not None:
             labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
-            save_figure(at_measured_figure(residuals, labels), target, "at_measured")
+            figures.save(at_measured_figure(residuals, labels), "at_measured")
 
     failed = [
         replace(failure, sentence=f"{where} did not converge: {failure}")
@@ -225,6 +226,7 @@ def compare_surfaces(
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
     from gripscale.analysis.surface_comparison import compare_surfaces as compare
     from gripscale.case import read_case
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.side_by_side import road_pictures
     from gripscale.charts.write import draw
     from gripscale.report.side_by_side import (
@@ -244,7 +246,7 @@ def compare_surfaces(
         workers=workers,
         on_task=terminal.progress_printer(console),
     )
-    data = roads.data
+    data, figures = roads.data, FigureFolder(target, file.case.output.figures)
     terminal.conclude(
         console,
         target,
@@ -253,7 +255,7 @@ def compare_surfaces(
         lead=list(ratio_lines(data, "surface")),
         text="surfaces.txt",
         closing="Result (surfaces.nc), tables and figures are in",
-        draw=lambda: draw(road_pictures(data), target),
+        draw=lambda: draw(road_pictures(data), figures),
         page="surfaces.nc",
         failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "predictions"),
     )
@@ -288,6 +290,7 @@ def compare_rubbers(
     """Compare compounds on the same road: friction, area, and what makes the difference."""
     from gripscale.analysis.rubber_comparison import compare_compounds
     from gripscale.case import read_case
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.side_by_side import compound_pictures
     from gripscale.charts.write import draw
     from gripscale.core.units import temperature_in_kelvin
@@ -313,7 +316,7 @@ def compare_rubbers(
         workers=workers,
         on_task=terminal.progress_printer(console),
     )
-    data = compounds.data
+    data, figures = compounds.data, FigureFolder(target, file.case.output.figures)
     terminal.conclude(
         console,
         target,
@@ -327,7 +330,7 @@ def compare_rubbers(
         lead=list(ratio_lines(data, "rubber")),
         text="compounds.txt",
         closing="Result (compounds.nc), table and figures are in",
-        draw=lambda: draw(compound_pictures(data, compounds.rubbers), target),
+        draw=lambda: draw(compound_pictures(data, compounds.rubbers), figures),
         page="compounds.nc",
         failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "compounds"),
     )

@@ -33,10 +33,12 @@ def cut_off(
     """Contact and friction against the cut-off, down below what the profiles resolve."""
     from gripscale.analysis.cut_off_curve import FILE, case_cut_off
     from gripscale.case import folder, read_case
-    from gripscale.charts.cut_off import cut_off_figure
-    from gripscale.charts.paper import save_figure
+    from gripscale.charts.cut_off import cut_off_sheet
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.core.units import parse_quantity
-    from gripscale.report.cut_off import cut_off_parts, failures
+    from gripscale.report.cut_off import answer_lines, cut_off_parts, failures
+    from gripscale.report.notices import case_notices
+    from gripscale.report.record import InputRecord
 
     file = read_case(case)
     try:
@@ -58,13 +60,16 @@ def cut_off(
     def draw() -> None:
         if not failed:
             folder.make(target / "figures")
-            save_figure(cut_off_figure(data), target / "figures", "cut_off")
+            figures = FigureFolder(target / "figures", file.case.output.figures)
+            figures.save(cut_off_sheet(data), "cut_off")
 
     terminal.conclude(
         console,
         target,
         list(cut_off_parts(data)),
         results=[data],
+        lead=list(answer_lines(data)),
+        warnings=case_notices(None, InputRecord.of_file(target / FILE)),
         text="cut_off.txt",
         closing=f"Result ({FILE}), tables and figure are in",
         draw=draw,

@@ -70,8 +70,11 @@ def design(
     from gripscale.analysis.design_text import parse_goal, parse_levels, parse_limit, write_targets
     from gripscale.case import folder, read_case
     from gripscale.charts.design import design_pictures
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.report.design import compounds_table, design_lines, design_table
+    from gripscale.report.notices import case_notices
+    from gripscale.report.record import InputRecord
 
     file = read_case(case)
     points = None if not limit else tuple(parse_limit(text) for text in limit)
@@ -100,14 +103,17 @@ def design(
     )
     write_targets(data, target)
     compounds = compounds_table(data)
+    figures = FigureFolder(target, file.case.output.figures)
     terminal.conclude(
         console,
         target,
-        [*design_lines(data), design_table(data), *([] if compounds is None else [compounds])],
+        [design_table(data), *([] if compounds is None else [compounds])],
         results=[data],
+        lead=list(design_lines(data)),
+        warnings=case_notices(None, InputRecord.of_file(target / RESULT)),
         text="design.txt",
         closing=f"Result ({RESULT}), figure, and master curve, Prony series and rubber of each "
         "point (target_*) are in",
-        draw=lambda: draw(design_pictures(data), target),
+        draw=lambda: draw(design_pictures(data), figures),
         page=RESULT,
     )

@@ -10,7 +10,6 @@ from importlib.resources.abc import Traversable
 from typing import Annotated
 
 from gripscale.cli.terminal import argument, command, print_wrapped, screen
-from gripscale.core import checks
 
 COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
 CODE = re.compile(r"^(`{3,}|~{3,}).*?^\1", flags=re.MULTILINE | re.DOTALL)
@@ -33,6 +32,8 @@ def docs(
 ) -> None:
     """Show a page of the documentation in the terminal, or list all pages."""
     from rich.markdown import Markdown
+
+    from gripscale.core import checks
 
     console, texts = screen(), pages()
     if page is None:

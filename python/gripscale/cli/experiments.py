@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -46,6 +47,7 @@ def study(
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
     from gripscale.analysis.best_estimate import with_best_estimate
     from gripscale.case import folder
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.experiment.axis import parse_vary
     from gripscale.experiment.study import RESULT, Study
     from gripscale.io import netcdf
@@ -64,15 +66,15 @@ def study(
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
         terminal.print_wrapped(console, line)
-    figures = target / "figures"
-    folder.make(figures)
+    figures = FigureFolder(target / "figures", planned.file.case.output.figures)
+    folder.make(figures.path)
     folder.save_case(planned.file, target)
     result = planned.run(
         target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
     )
     result = with_best_estimate(result)
     netcdf.save(result, target / RESULT)
-    drawn = stored is not None and any(figures.iterdir())
+    drawn = stored is not None and any(figures.path.iterdir())
 
     def draw_figures() -> None:
         from gripscale.charts.write import draw_study
@@ -162,6 +164,7 @@ def uncertainty(
     from gripscale.analysis.sampled_inputs import length
     from gripscale.analysis.sampling import Uncertainty
     from gripscale.case import folder, read_case
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.uncertainty import uncertainty_pictures
     from gripscale.charts.write import draw
     from gripscale.core import checks
@@ -192,8 +195,8 @@ def uncertainty(
     console, target = terminal.open_folder(
         file, output, "uncertainty", f"Uncertainty of {file.path}"
     )
-    figures = target / "figures"
-    folder.make(figures)
+    figures = FigureFolder(target / "figures", file.case.output.figures)
+    folder.make(figures.path)
     data = propagate(
         file,
         choice,
@@ -255,13 +258,18 @@ def calibrate(
     cluster: Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.analysis.calibration import calibrate_case, default_model, measured_of
+    from gripscale.analysis.calibration import calibrate_case, measured_of
     from gripscale.analysis.calibration_text import notes, parse_fixed, shear_stress_table
-    from gripscale.case import read_case
-    from gripscale.charts.write import draw_calibration
+    from gripscale.case import prepare_case, read_case, record
+    from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.charts.uncertainty import calibration_pictures
+    from gripscale.charts.write import draw
+    from gripscale.experiment.inputs import default_model
     from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.io import netcdf
     from gripscale.report.calibration import calibration_lines, calibration_parts, failures
+    from gripscale.report.notices import case_notices
+    from gripscale.report.record import InputRecord
 
     values = parse_fixed(fixed or [])
     file = read_case(case)
@@ -269,8 +277,9 @@ def calibrate(
     friction = measured_of(file) if measured is None else read_measured_friction(measured)
     opening = f"Area term of {file.path} from {friction.source}"
     console, target = terminal.open_folder(file, output, "calibration", opening)
+    results = prepare_case(file)
     fitted = calibrate_case(
-        file,
+        results,
         model=model,
         law=law,
         fixed=values,
@@ -284,16 +293,23 @@ def calibrate(
     data = fitted.to_dataset().assign_attrs(
         file.attributes, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
     )
-    netcdf.save(data, target / "calibration.nc")
+    loads = [
+        replace(results.load, speed=float(speed), pressure=float(pressure))
+        for speed, pressure in zip(friction.speed, fitted.predicted.pressure, strict=True)
+    ]
+    inputs = record.inputs(results, loads=loads)
+    netcdf.save(data, target / "calibration.nc", {"inputs": inputs})
+    figures = FigureFolder(target, file.case.output.figures)
     terminal.conclude(
         console,
         target,
         list(calibration_parts(data)),
         results=[data],
         lead=list(calibration_lines(data)),
+        warnings=case_notices(None, InputRecord(inputs)),
         text="calibration.txt",
         closing="Tables, figures, result and [conditions.shear_stress] are in",
         files={"shear_stress.toml": shear_stress_table(fitted)},
-        draw=lambda: draw_calibration(data, target),
+        draw=lambda: draw(calibration_pictures(data), figures),
         failure=str(failures(data) or ""),
     )

@@ -31,6 +31,10 @@ if TYPE_CHECKING:
     from gripscale.surface import Surface
 
 
+FIGURES = ("png", "pdf")
+"""What figures of a command without a case are written as."""
+
+
 class Choice(StrEnum):
     """Names of the examples."""
 
@@ -176,10 +180,11 @@ def fit_surface(
             parts.append(slopes_table(prepared.measured.slopes))
     print_parts(console, parts)
     if output is not None:
+        from gripscale.charts.figure_folder import FigureFolder
         from gripscale.charts.write import surface_figures
 
         folder.make(output)
-        surface_figures(prepared, output)
+        surface_figures(prepared, FigureFolder(output, FIGURES))
         console.print()
         print_wrapped(console, f"Figures are in {output}")
 
@@ -287,10 +292,11 @@ def _columns(text: str) -> dict[str, str | int] | list[str | int]:
 def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.case import folder
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import rubber_figures
 
     folder.make(output)
-    rubber_figures(prepared, (), output)
+    rubber_figures(prepared, (), FigureFolder(output, FIGURES))
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
         print_wrapped(console, f"The figure is in {output}")

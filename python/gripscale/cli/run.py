@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from gripscale.case import CaseResults
     from gripscale.case.events import Event, OnEvent
     from gripscale.case.read import CaseFile
+    from gripscale.charts.figure_folder import Figures
     from gripscale.core.units import DisplayUnit
+    from gripscale.experiment.measured_friction import MeasuredFriction
     from gripscale.io.table import Table
 
 
@@ -62,8 +64,10 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
+    from gripscale.case import folder
     from gripscale.case.finished import is_finished
     from gripscale.case.read import read_case
+    from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
 
     as_json = progress == ProgressFormat.JSON
     console = terminal.screen(stderr=as_json)
@@ -73,7 +77,10 @@ def run(
         if not (fresh or as_json) and is_finished(file, target, _shown_too(target)):
             _print_finished(console, target)
         else:
-            _run(console, emit, file, target, fresh)
+            folder.require_writable(target)
+            kinds = file.case.output.figures
+            with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
+                _run(console, emit, file, target, figures, fresh)
 
 
 @contextmanager
@@ -107,79 +114,35 @@ def _shown_too(target: Path) -> tuple[Path, ...]:
     return (target / "uncertainty" / "uncertainty.nc",)
 
 
-def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: bool) -> None:
+def _run(
+    console: Console, emit: OnEvent, file: CaseFile, target: Path, figures: Figures, fresh: bool
+) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
-    from gripscale.analysis.comparison import FILE as DIRECT
-    from gripscale.analysis.comparison import reference, save_reference
-    from gripscale.analysis.effects import FILE as EFFECTS
-    from gripscale.analysis.effects import case_effects
     from gripscale.analysis.measured_comparison import friction_of_case
-    from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case import folder, prepare_case, record, run_case
-    from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten, WaveSolved
+    from gripscale.case import prepare_case
+    from gripscale.case.events import FileWritten
     from gripscale.case.finished import note_finished
     from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
-    from gripscale.core.provenance import version_of
-    from gripscale.report.answer import answer_lines
-    from gripscale.report.cut_off import basis_lines as answer_of_curve
-    from gripscale.report.cut_off import rules_table
-    from gripscale.report.measured import measured_lines
-    from gripscale.report.notices import case_notices, explained, warning_lines
-    from gripscale.report.record import InputRecord
+    from gripscale.report.notices import explained
     from gripscale.report.summary import FILE as SUMMARY
-    from gripscale.report.uncertainty import uncertainty_lines
 
-    folder.require_writable(target)
     friction = friction_of_case(file)
     results = prepare_case(file)
     require_feasible(results)
-    header = f"gripscale {version_of('gripscale')}, case {file.path}"
-    terminal.print_wrapped(console, header)
-    if file.case.below_measurement.down_to is not None:
-        terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
-    direct = reference(results, target)
-    warnings = case_notices(direct, InputRecord(record.inputs(results)))
-    answer, inputs = ["", *answer_lines(direct)], ["", *_inputs(results)]
-    for line in (*answer, *warning_lines(warnings, REPORT), *inputs):
-        terminal.print_wrapped(console, line)
-    opening = [header, *answer, *warning_lines(warnings), *inputs]
-    print_event = _event_printer(console, results.display_unit("speed"))
-    with background_figures(results, target / "figures") as draw_solved:
-
-        def on_event(event: Event) -> None:
-            emit(event)
-            print_event(event)
-            if isinstance(event, WaveSolved):
-                draw_solved(event.prediction)
-
-        with console.status("solving") if console.is_terminal else nullcontext():
-            run_case(results, output=target, on_event=on_event, fresh=fresh)
-            if direct is not None:
-                save_reference(results, target)
-                emit(DirectContactSolved.of(direct))
-                emit(FileWritten(str(target / DIRECT)))
-            effects = case_effects(results, results.chain, target, target / "effects")
-            if effects is not None:
-                emit(EffectsSolved.of(effects))
-                emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
-        parts, heat = _parts(results, direct, effects)
-        if friction is not None and results.load.speed > 0.0:
-            parts += measured_lines(friction, results.load.speed, results.display_unit("speed"))
-        sampled = stored_uncertainty(target)
-        parts += uncertainty_lines(sampled, file.text, input_digests(file))
-        for curve in results.continued.values():
-            parts += ["", *answer_of_curve(curve), rules_table(curve)]
-
-        solved = [] if direct is None else [direct]
+    with background_figures(results, figures) as draw:
+        opening = _print_answer(console, results, target)
+        effects = _solve(console, emit, results, target, draw, fresh)
+        parts, heat = _parts(results, friction, effects, target)
+        solved = [] if results.direct is None else [results.direct]
         solved += [results.dataset(name) for name in results.predictions]
 
         def draw_conditions() -> None:
             if heat is not None:
-                draw_heat(heat, target / "figures")
+                draw_heat(heat, figures)
             if effects is not None:
-                draw_effects([effects], target / "figures")
+                draw_effects([effects], figures)
 
         terminal.conclude(
             console,
@@ -195,19 +158,81 @@ def _run(console: Console, emit: OnEvent, file: CaseFile, target: Path, fresh: b
         emit(FileWritten(str(target / REPORT)))
         if solved:
             emit(FileWritten(str(target / SUMMARY)))
-    # a page of an earlier result stays beside this one
-    page, first = target / "report.html", next(iter(results.predictions), None)
-    written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None
-    if first is not None and written is not None and results.key(first) not in written:
-        words = shlex.join(["gripscale", "report", str(target)])
-        text = f"{page.name} in it is older and shows another result; `{words}` renews it"
-        terminal.print_wrapped(console, text)
+    _print_older_page(console, results, target)
     failures = list(results.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
     note_finished(file, target, _shown_too(target))
+
+
+def _print_answer(console: Console, results: CaseResults, target: Path) -> list[str]:
+    """Solve what the answer is of, print it above the inputs; return the lines of the report."""
+    from gripscale.analysis.comparison import reference
+    from gripscale.case import record
+    from gripscale.core.provenance import version_of
+    from gripscale.report.answer import answer_lines
+    from gripscale.report.notices import case_notices, warning_lines
+    from gripscale.report.record import InputRecord
+
+    file = results.file
+    header = f"gripscale {version_of('gripscale')}, case {file.path}"
+    terminal.print_wrapped(console, header)
+    if file.case.below_measurement.down_to is not None:
+        terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
+    direct = reference(results, target)
+    warnings = case_notices(direct, InputRecord(record.inputs(results)))
+    answer, inputs = ["", *answer_lines(direct)], ["", *_inputs(results)]
+    for line in (*answer, *warning_lines(warnings, REPORT), *inputs):
+        terminal.print_wrapped(console, line)
+    return [header, *answer, *warning_lines(warnings), *inputs]
+
+
+def _solve(
+    console: Console,
+    emit: OnEvent,
+    results: CaseResults,
+    target: Path,
+    draw: OnEvent,
+    fresh: bool,
+) -> xr.Dataset | None:
+    """Solve and write the chain and, where the case asks for them, the effects of conditions."""
+    from gripscale.analysis.comparison import FILE as DIRECT
+    from gripscale.analysis.comparison import save_reference
+    from gripscale.analysis.effects import FILE as EFFECTS
+    from gripscale.analysis.effects import case_effects
+    from gripscale.case import run_case
+    from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten
+
+    print_event = _event_printer(console, results.display_unit("speed"))
+
+    def on_event(event: Event) -> None:
+        emit(event)
+        print_event(event)
+        draw(event)
+
+    with console.status("solving") if console.is_terminal else nullcontext():
+        run_case(results, output=target, on_event=on_event, fresh=fresh)
+        if results.direct is not None:
+            save_reference(results, target)
+            emit(DirectContactSolved.of(results.direct))
+            emit(FileWritten(str(target / DIRECT)))
+        effects = case_effects(results, results.chain, target, target / "effects")
+        if effects is not None:
+            emit(EffectsSolved.of(effects))
+            emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
+    return effects
+
+
+def _print_older_page(console: Console, results: CaseResults, target: Path) -> None:
+    """Say if a page of an earlier result stays beside this one."""
+    page, first = target / "report.html", next(iter(results.predictions), None)
+    written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None
+    if first is not None and written is not None and results.key(first) not in written:
+        words = shlex.join(["gripscale", "report", str(target)])
+        text = f"{page.name} in it is older and shows another result; `{words}` renews it"
+        terminal.print_wrapped(console, text)
 
 
 def _inputs(results: CaseResults) -> list[str]:
@@ -264,13 +289,20 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
 
 
 def _parts(
-    results: CaseResults, direct: xr.Dataset | None, worth: xr.Dataset | None
+    results: CaseResults,
+    friction: MeasuredFriction | None,
+    effects: xr.Dataset | None,
+    target: Path,
 ) -> tuple[list[str | Table], xr.Dataset | None]:
     """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
+    from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case.results import DYNAMIC
     from gripscale.charts.view import PredictionView
     from gripscale.report.comparison import judgement, slopes_table
+    from gripscale.report.cut_off import basis_lines, rules_table
+    from gripscale.report.measured import measured_lines
     from gripscale.report.side_by_side import effects_table
+    from gripscale.report.uncertainty import uncertainty_lines
     from gripscale.report.waves import LEGEND, heat_table, prediction_table
 
     views = [PredictionView(results.dataset(name), name) for name in results.predictions]
@@ -280,12 +312,17 @@ def _parts(
     if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
         heat = results.dataset(DYNAMIC)
         parts.append(heat_table(heat))
-    if worth is not None:
-        parts.append(effects_table(worth))
-    if direct is not None:
-        parts += slopes_table(direct)
-    if views and direct is not None:
-        parts += ["", *judgement(views[0], direct)]
+    if effects is not None:
+        parts.append(effects_table(effects))
+    if results.direct is not None:
+        parts += slopes_table(results.direct)
+        parts += ["", *judgement(views[0], results.direct)] if views else []
+    if friction is not None and results.load.speed > 0.0:
+        parts += measured_lines(friction, results.load.speed, results.display_unit("speed"))
+    sampled = stored_uncertainty(target)
+    parts += uncertainty_lines(sampled, results.file.text, input_digests(results.file))
+    for curve in results.continued.values():
+        parts += ["", *basis_lines(curve), rules_table(curve)]
     return parts, heat
 
 

@@ -54,11 +54,13 @@ def sensitivity(
     """Tell which part of the master curve, and which input, decides the friction of a case."""
     from gripscale.analysis.friction_sensitivity import FILE, STORAGE, VARIED, case_sensitivity
     from gripscale.case import folder, read_case
-    from gripscale.charts.paper import save_figure
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.sensitivity import height_pictures, sensitivity_figure
     from gripscale.charts.write import draw as write_pictures
     from gripscale.experiment.axis import parse_vary
-    from gripscale.report.sensitivity import failures, sensitivity_parts
+    from gripscale.report.notices import case_notices
+    from gripscale.report.record import InputRecord
+    from gripscale.report.sensitivity import answer_lines, failures, sensitivity_parts
 
     pairs = [parse_vary(text, VARIED) for text in vary or ()]
     axes = dict(pairs) or None
@@ -82,8 +84,9 @@ def sensitivity(
     def draw() -> None:
         if STORAGE in data:
             folder.make(target / "figures")
-            save_figure(sensitivity_figure(data), target / "figures", "sensitivity")
-            write_pictures(height_pictures(data), target / "figures")
+            figures = FigureFolder(target / "figures", file.case.output.figures)
+            figures.save(sensitivity_figure(data), "sensitivity")
+            write_pictures(height_pictures(data), figures)
 
     failed = failures(data)
     terminal.conclude(
@@ -91,6 +94,8 @@ def sensitivity(
         target,
         list(sensitivity_parts(data)),
         results=[data],
+        lead=list(answer_lines(data)),
+        warnings=case_notices(None, InputRecord.of_file(target / FILE)),
         text="sensitivity.txt",
         closing=f"Result ({FILE}), tables and figure are in",
         draw=draw,

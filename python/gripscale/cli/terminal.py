@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from gripscale.case import CaseFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
+    from gripscale.report.elements import Notice
     from gripscale.report.notices import Failure
 
 
@@ -103,6 +104,7 @@ def conclude(
     closing: str,
     opening: Sequence[str | Table] = (),
     lead: Sequence[str] = (),
+    warnings: Sequence[Notice] = (),
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,
@@ -112,18 +114,21 @@ def conclude(
     """End a command: print and write what it found, draw its figures, set the exit code.
 
     The numbers of `results` are written as a flat table for Excel.
-    `lead`, the answer, and `parts` are printed. The file `text`, with lines of `width`, has `lead`,
-    then `opening`, which the screen shows already, then `parts`; `files` are further texts by name.
+    `lead`, the answer, the first of the ranked `warnings` and `parts` are printed. The file `text`,
+    with lines of `width`, has `lead`, all warnings, then `opening`, which the screen shows already,
+    then `parts`; `files` are further texts by name.
     `closing` says what is in the folder. `page` is the result whose page is written, where the
     libraries for it are installed; `failure` is what has no result, and sets the exit code.
     """
     from gripscale.case import folder
     from gripscale.io.table import as_text
+    from gripscale.report.notices import warning_lines
     from gripscale.report.summary import write_summary
 
     console.print()
-    print_parts(console, [*lead, *parts])
-    above = [line for lines in (lead, opening) if lines for line in (*lines, "")]
+    print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
+    answer = [*lead, *warning_lines(warnings)]
+    above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
     texts = {text: as_text(*above, *parts, width=width), **(files or {})}
     for name, content in texts.items():
         folder.write_text(target / name, content)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -228,6 +229,19 @@ def rubber_before(rubber: Rubber, model: Model) -> Rubber:
 
 
 NAMED_MODELS = (Chain.name, DirectContact.name)
+OF_THE_CHAIN = ("factors", "waves", "pressure_classes")
+"""Inputs that no other model of a case depends on."""
+
+
+def default_model(file: CaseFile, varied: Mapping[str, Sequence[Any]] | None = None) -> str:
+    """Return the name of what predicts a case by default, whose inputs take the `varied` values.
+
+    The direct contact where every surface was measured and no input of the chain alone is varied,
+    else the chain. Raises `FileError` if a surface is none that `surface_of` takes.
+    """
+    values = varied or {}
+    measured = all(is_measured(surface, file) for surface in values.get("surface", ("case",)))
+    return DirectContact.name if measured and not {*OF_THE_CHAIN} & {*values} else Chain.name
 
 
 def model_of(

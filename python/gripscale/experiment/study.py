@@ -42,7 +42,7 @@ from gripscale.experiment.speed_and_temperature import (
 )
 from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
 from gripscale.half_space.line_to_map import upper_height_of
-from gripscale.half_space.model import JUDGED_TO, DirectContact
+from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
 from gripscale.model import BASIS, Model, input_doubts
 from gripscale.rubber import Rubber
@@ -104,9 +104,6 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
     return coords
 
 
-OF_THE_CHAIN = ("factors", "waves", "pressure_classes")
-"""Inputs that no other model of a case depends on."""
-
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
 """Inputs that vary the waves of a surface."""
 
@@ -163,7 +160,7 @@ class Study:
         self.axes: tuple[Axis, ...] = axes_of(vary)
         self.static = self.file.case.load.static if static is None else static
         if model is None:
-            model = self._best_name()
+            model = inputs.default_model(self.file, {axis.name: axis.values for axis in self.axes})
         self.model = inputs.model_of(model, self.file, tolerance)
         for value in self._values("temperature"):
             inputs.at_temperature(self.model, value)
@@ -174,13 +171,6 @@ class Study:
                 f"pressure_classes belongs to the chain; got the model {self.model.name}"
             )
         self._varied: dict[Any, Surface] = {}
-
-    def _best_name(self) -> str:
-        """Return the name of the best model that the inputs allow."""
-        surfaces = self._values("surface") or ("case",)
-        measured = all(inputs.is_measured(surface, self.file) for surface in surfaces)
-        of_waves = any(axis.name in OF_THE_CHAIN for axis in self.axes)
-        return DirectContact.name if measured and not of_waves else Chain.name
 
     @cached_property
     def surfaces(self) -> list[Surface]:
@@ -304,6 +294,7 @@ class Study:
                 for index, label in self._labels(axes, static=bool(prefix)):
                     labels.setdefault(str(keys.values[index]), label)
         answers: dict[str, xr.Dataset] = {}
+        assert bench.store is not None, "a study keeps its predictions"
         for key in labels:
             answer = bench.store.get(key)
             if answer is None:

@@ -21,13 +21,24 @@ from gripscale.report.elements import Card, Facts
 from gripscale.report.measured import residual_table
 from gripscale.report.notices import Failure
 
+PARAMETERS = {
+    "stress_0": "shear stress τ_0",
+    "width": "width factor c",
+    "speed_0": "speed v_0 of the largest stress",
+    "activation_energy": "activation energy",
+    "ratio": "gain of stress at high speed",
+    "critical_speed": "critical speed v_c",
+    "exponent": "exponent n of the speed",
+}
+"""Words for the parameters of the laws, which a case states by their names."""
+
 
 def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the fitted area term with its intervals, and what it does to friction."""
     values = [
-        f"{e.name} = {written(e.value, e.unit, 3)} ({interval(e)})"
+        f"{PARAMETERS[e.name]} = {written(e.value, e.unit, 3)} ({interval(e)})"
         if e.determined
-        else f"{e.name} not determined by the data"
+        else f"{PARAMETERS[e.name]} not determined by the data"
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
@@ -135,7 +146,7 @@ def held_out_table(data: xr.Dataset) -> Table:
 def calibration_cards(data: xr.Dataset) -> list[Card]:
     """Return a card for each parameter, with its interval."""
     return [
-        Card(e.name.replace("_", " "), written(e.value, e.unit, 3), interval(e), not e.determined)
+        Card(PARAMETERS[e.name], written(e.value, e.unit, 3), interval(e), not e.determined)
         for e in estimates(data)
     ]
 

@@ -26,18 +26,18 @@ NAMES = {"friction": FRICTION, "contact_fraction": AREA}
 """Names of the curves by those of the numbers of an answer."""
 
 
-def cut_off_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the answer, what it rests on, the curve and the rules of cut-off."""
-    if failures(data):
-        yield f"Answer: none. {data[STATUS].item()}"
-        return
-    yield from answer_lines(data)
-    yield rules_table(data)
-    yield curve_table(data)
+def cut_off_parts(data: xr.Dataset) -> Iterator[Table]:
+    """Yield the rules of cut-off and the curve; nothing without one."""
+    if not failures(data):
+        yield rules_table(data)
+        yield curve_table(data)
 
 
 def answer_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield friction and contact at the last cut-off, at the measured one, and the evidence."""
+    if failures(data):
+        yield f"Answer: none. {data[STATUS].item()}"
+        return
     end = float(data.cut_off[-1])
     below = not bool(data.curve_measured[-1])
     numbers = ", ".join(

@@ -6,7 +6,6 @@ All texts are plain: escaping is the template's task. A `gripscale.io.table.Tabl
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -18,10 +17,10 @@ from gripscale.io.table import Column, Table, on_page, significant
 
 
 def with_code(text: str) -> str:
-    """Return a text as HTML; what stands between backticks, such as a command, is code."""
-    from markupsafe import Markup, escape  # of Jinja2, which only pages need
+    """Return a text as `table.with_code` does, marked as HTML for a template."""
+    from markupsafe import Markup  # of Jinja2, which only pages need
 
-    return Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+    return Markup(table.with_code(text))
 
 
 @dataclass(frozen=True)

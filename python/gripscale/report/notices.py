@@ -199,12 +199,17 @@ def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Notice]
 
 
 def warning_lines(warnings: Sequence[Notice], rest: str = "") -> Iterator[str]:
-    """Yield ranked warnings as lines; with `rest`, a file that has them all, the first only."""
+    """Yield ranked warnings as lines; with `rest`, a file that has them all, the first only.
+
+    These are `MOST_OPEN`, and all that leave open whether the answer is that of another case.
+    """
     if warnings:
         yield "Warnings, by what they change:"
-    yield from (f"  {notice.text}" for notice in (warnings[:MOST_OPEN] if rest else warnings))
-    if rest and len(warnings) > MOST_OPEN:
-        yield f"  ... and {len(warnings) - MOST_OPEN} more in {rest}"
+    doubts = sum(math.isinf(notice.effect) for notice in warnings)
+    count = max(MOST_OPEN, doubts) if rest else len(warnings)
+    yield from (f"  {notice.text}" for notice in warnings[:count])
+    if len(warnings) > count:
+        yield f"  ... and {len(warnings) - count} more in {rest}"
 
 
 def _failures(view: PredictionView) -> Iterator[str]:

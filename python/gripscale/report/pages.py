@@ -10,11 +10,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case.run import KEY
+from gripscale.charts.blocks import blocks_image
 from gripscale.charts.comparison import axis_charts, ladder_charts
 from gripscale.charts.cut_off import cut_off_charts
 from gripscale.charts.design import design_pictures
 from gripscale.charts.direct_contact import contact_pictures
-from gripscale.charts.draw import blocks_image, image
+from gripscale.charts.draw import image
 from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
 from gripscale.charts.rubber import rubber_charts
@@ -335,7 +336,7 @@ def _study_sections(source: Study) -> list[Section]:
 
 def _study_notices(data: xr.Dataset) -> list[Notice]:
     failed = list(study.failures(data))
-    heads = [Notice("error", notices.explained(text)) for text in failed[:NAMED_FAILURES]]
+    heads = _errors(failed[:NAMED_FAILURES])
     if len(failed) > NAMED_FAILURES:
         rest = len(failed) - NAMED_FAILURES
         heads.append(Notice("error", f"{rest} more did not converge; see the table of totals."))
@@ -346,6 +347,11 @@ def _study_notices(data: xr.Dataset) -> list[Notice]:
         heads.append(Notice("warning", text, share, doubt=Doubt.RUBBER))
     notes = [study.shift_sentence(data), *str(data.attrs.get("notes", "")).splitlines()]
     return [*heads, *(Notice("warning", text, doubt=Doubt.SURFACE) for text in notes if text)]
+
+
+def _errors(failed: Iterable[notices.Failure]) -> list[Notice]:
+    """Return what has no result, with what to do about it."""
+    return [Notice("error", notices.explained(each)) for each in failed]
 
 
 def _study_cards(source: Study) -> list[Card]:
@@ -426,7 +432,7 @@ def roads_page(source: Study) -> Page:
     return _page(
         f"Roads side by side: {', '.join(data.surface.values.tolist())}",
         str(data.attrs.get("title", "")),
-        [Notice("error", notices.explained(text)) for text in side_by_side.failed_totals(data)],
+        _errors(side_by_side.failed_totals(data)),
         [],
         [
             Section(
@@ -492,7 +498,10 @@ def calibration_page(source: Study) -> Page:
     return _page(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
-        [Notice("error", f"{notices.explained(failed)}.")] if failed else [],
+        [
+            *([Notice("error", f"{notices.explained(failed)}.")] if failed else []),
+            *notices.case_notices(None, source.record),
+        ],
         calibration.calibration_cards(data),
         [
             Section("law", "The law", [Text(CALIBRATION), facts, *tables[1:]]),
@@ -506,11 +515,12 @@ def calibration_page(source: Study) -> Page:
 def sensitivity_page(source: Study) -> Page:
     """Return the report of what decides the friction."""
     data = source.data
-    lead, *parts = sensitivity.sensitivity_parts(data)
+    lead, *below = sensitivity.answer_lines(data)
+    parts = [*below, *sensitivity.sensitivity_parts(data)]
     return _page(
         f"What decides the friction of {case_name(data.attrs) or 'a case'}",
         str(lead),
-        [Notice("error", notices.explained(each)) for each in sensitivity.failures(data)],
+        [*_errors(sensitivity.failures(data)), *notices.case_notices(None, source.record)],
         sensitivity.cards(data),
         [
             Section("effects", "What the friction depends on", uncertainty.as_elements(parts)),
@@ -538,11 +548,10 @@ def cut_off_elements(data: xr.Dataset | None) -> list[Element]:
 def cut_off_page(source: Study) -> Page:
     """Return the report of contact and friction against the cut-off."""
     data, case = source.data, case_name(source.data.attrs) or "case.toml"
-    lead = next(part for part in cut_off.cut_off_parts(data) if isinstance(part, str))
     return _page(
         f"Contact and friction of {case} against the cut-off",
-        lead,
-        [Notice("error", notices.explained(each)) for each in cut_off.failures(data)],
+        next(cut_off.answer_lines(data)),
+        [*_errors(cut_off.failures(data)), *notices.case_notices(None, source.record)],
         cut_off.cards(data),
         [
             Section("cut-off", "Against the cut-off", cut_off_elements(data)),
@@ -559,7 +568,7 @@ def design_page(source: Study) -> Page:
     page = _page(
         f"Compound for {case or 'a case'}",
         answer_line,
-        [],
+        notices.case_notices(None, source.record),
         design.design_cards(data),
         [
             Section(

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from gripscale.io import netcdf
 from gripscale.io.table import significant
 from gripscale.report.elements import Doubt, Notice, number
 
@@ -19,6 +21,16 @@ class InputRecord:
     """The record that a run keeps of its inputs, as `gripscale.case.record` writes it."""
 
     data: xr.Dataset
+
+    @classmethod
+    def of_tree(cls, tree: xr.DataTree) -> InputRecord:
+        """Return the record in a result with its groups; an empty one where it holds none."""
+        return cls(tree.children.get("inputs", xr.DataTree()).to_dataset(inherit=False))
+
+    @classmethod
+    def of_file(cls, path: Path) -> InputRecord:
+        """Return the record in a result file; raise `FileError` if it cannot be read."""
+        return cls.of_tree(netcdf.load_tree(path))
 
     def has(self, name: str) -> bool:
         """Return whether a variable or an attribute is there."""
@@ -101,8 +113,8 @@ class InputRecord:
             sentences.append((Doubt.SURFACE, why))
         if self.is_empty:
             text = (
-                "The result holds no record of its inputs (it was not written by `gripscale run`, "
-                "or by an older version): profiles, fits and master curve are missing here."
+                "The result holds no record of its inputs (a script or an older version wrote it): "
+                "profiles, fits, master curve and doubts about the inputs are missing here."
             )
             sentences.append((Doubt.SOURCE, text))
         yield from (Notice("warning", text, doubt=doubt) for doubt, text in sentences)

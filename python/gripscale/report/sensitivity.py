@@ -33,13 +33,9 @@ signed = fixed(2, "+")
 
 
 def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the answer, the sums, what each decade is worth, and the rules of thumb."""
+    """Yield the sums, what each decade is worth, and the rules of thumb; nothing if none."""
     if STORAGE not in data:
-        yield "Answer: none. No contact was solved: " + "; ".join(
-            sorted({each.sentence for each in failures(data)})
-        )
         return
-    yield from answer_lines(data)
     yield sums_table(data)
     if _has_feedback(data):
         yield feedback_table(data)
@@ -51,6 +47,10 @@ def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
 
 def answer_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what more loss and less stiffness give, and where on the master curve that is."""
+    if STORAGE not in data:
+        reasons = sorted({each.sentence for each in failures(data)})
+        yield f"Answer: none. No contact was solved: {'; '.join(reasons)}"
+        return
     loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
     load = [
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePath
 from typing import Any
@@ -130,6 +131,8 @@ class Study:
     kind: str
     name: str
     data: xr.Dataset
+    record: InputRecord = field(default_factory=lambda: InputRecord(xr.Dataset()))
+    """The record of its inputs, where its command keeps it."""
 
     @property
     def axes(self) -> list[str]:
@@ -178,7 +181,8 @@ def read_result(path: Path) -> Source:
             kind = "study"
     if not kind:
         return _run({path.stem: tree})
-    return Study(kind, path.stem, with_best_estimate(tree.to_dataset()))
+    data = with_best_estimate(tree.to_dataset())
+    return Study(kind, path.stem, data, InputRecord.of_tree(tree))
 
 
 def _read_folder(folder: Path) -> Source:
@@ -215,7 +219,13 @@ def _read_folder(folder: Path) -> Source:
 
 def _measured(case: Path) -> MeasuredFriction | None:
     """Read the measured friction that a saved case names; none without one."""
-    if not case.is_file() or b"measured" not in case.read_bytes():
+    if not case.is_file():
+        return None
+    try:
+        tables = tomllib.loads(case.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise FileError(f"case file {case} is not valid TOML: {error}") from error
+    if "measured" not in tables:
         return None
     # to import what reads a case takes longer than to read all results
     from gripscale.analysis.measured_comparison import friction_of_case
@@ -232,9 +242,7 @@ def _comparisons(folder: Path) -> Compared:
 
 def _run(trees: dict[str, xr.DataTree]) -> Run:
     views = [PredictionView(tree.to_dataset(), name) for name, tree in trees.items()]
-    first = next(iter(trees.values()))
-    inputs = first.children.get("inputs", xr.DataTree())
-    return Run(views, inputs.to_dataset(inherit=False))
+    return Run(views, InputRecord.of_tree(next(iter(trees.values()))).data)
 
 
 def _checked(path: Path) -> xr.DataTree:

@@ -13,7 +13,7 @@ from gripscale.charts.view import HEADINGS, SYMBOLS, believed
 from gripscale.core.arrays import Array
 from gripscale.core.units import display_unit_of
 from gripscale.experiment.axis import axis_shown, dimensions, name_of, of_numbers
-from gripscale.experiment.study import OF_THE_CHAIN
+from gripscale.experiment.inputs import OF_THE_CHAIN
 from gripscale.io.table import significant
 from gripscale.model import ADHESIVE_FRICTION, INPUT_DOUBTS, STATUS, STEEP_SHARE
 from gripscale.report.answer import WORTH_NAMING

@@ -1,0 +1,40 @@
+"""Draws the figures that `gripscale.charts.figure_folder.FigureProcess` hands over."""
+
+import pickle
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from gripscale.charts import blocks_on_paper, paper  # noqa: F401  # before the first figure is here
+from gripscale.charts.figure_folder import FigureFolder
+from gripscale.core.errors import GripscaleError
+
+
+def messages() -> Iterator[Any]:
+    """Yield what comes through standard input until it ends."""
+    while True:
+        try:
+            yield pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+
+
+def draw(folder: FigureFolder) -> None:
+    """Draw each figure with its name, and write them from the message None on."""
+    held: list[tuple[dict[str, bytes], str]] = []
+    released = False
+    for message in messages():
+        if message is not None:
+            figure, name = message
+            held.append((folder.rendered(figure), name))
+        released = released or message is None
+        while released and held:
+            folder.write(*held.pop(0))
+
+
+if __name__ == "__main__":
+    try:
+        draw(next(messages()))
+    except GripscaleError as error:
+        sys.stdout.write(str(error))
+        sys.exit(1)

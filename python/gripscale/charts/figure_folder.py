@@ -1,0 +1,118 @@
+"""Folders of figures, drawn in this process or in another while this one computes.
+
+matplotlib takes half a second to import and holds Python's lock as it draws. A process of its own
+gets the description of each figure, which needs no matplotlib, and draws on the second core.
+"""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, TYPE_CHECKING
+
+from gripscale.charts import draw
+from gripscale.charts.chart import Drawing
+from gripscale.core.errors import FileError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class FigureFolder:
+    """A folder of figures and what they are written as."""
+
+    path: Path
+    kinds: Sequence[str] = ("png",)
+    """Out of `gripscale.charts.paper.KINDS`."""
+
+    def save(self, figure: Drawing | Figure, name: str) -> None:
+        """Write a figure or what describes it; `FileError` if that fails."""
+        self.write(self.rendered(figure), name)
+
+    def rendered(self, figure: Drawing | Figure) -> dict[str, bytes]:
+        """Return the content of each file of a figure."""
+        from gripscale.charts import paper
+
+        drawn = draw.on_paper(figure) if isinstance(figure, Drawing) else figure
+        return paper.rendered(drawn, self.kinds)
+
+    def write(self, files: Mapping[str, bytes], name: str) -> None:
+        """Write the files of a figure; `FileError` if that fails."""
+        from gripscale.charts import paper
+
+        paper.write_rendered(files, self.path, name)
+
+
+class FigureProcess:
+    """A folder of figures that another process draws, in the order in which they are saved.
+
+    It writes none before `release`: a run draws its inputs before it may clear its folder.
+    """
+
+    def __init__(self, folder: FigureFolder) -> None:
+        command = [sys.executable, "-m", "gripscale.charts"]
+        pipe = subprocess.PIPE
+        # of another session: Ctrl-C reaches this process alone, which ends the other
+        self._process = subprocess.Popen(command, stdin=pipe, stdout=pipe, start_new_session=True)
+        self._turn = threading.Lock()
+        self._send(folder)
+
+    def save(self, figure: Drawing, name: str) -> None:
+        """Hand over the description of a figure; what goes wrong is raised by `close`."""
+        self._send((figure, name))
+
+    def release(self) -> None:
+        """Let the process write what it has drawn, and what it will draw."""
+        self._send(None)
+
+    def close(self) -> None:
+        """Wait for the last figure; raise `FileError` if one could not be drawn or written."""
+        refusal, _ = self._process.communicate()
+        if self._process.returncode:
+            raise FileError(refusal.decode() or "figures could not be drawn: the process ended")
+
+    def kill(self) -> None:
+        """End the process with whatever it draws."""
+        self._process.kill()
+        self._process.communicate()
+
+    def _send(self, message: object) -> None:
+        with self._turn:
+            try:
+                pickle.dump(message, self._input, protocol=pickle.HIGHEST_PROTOCOL)
+                self._input.flush()
+            except BrokenPipeError:  # `close` tells why the process ended
+                pass
+
+    @property
+    def _input(self) -> IO[bytes]:
+        assert self._process.stdin is not None
+        return self._process.stdin
+
+
+Figures = FigureFolder | FigureProcess
+
+
+@contextmanager
+def figures_elsewhere(folder: FigureFolder) -> Iterator[Figures]:
+    """Give a folder whose figures another process draws until the end of the block.
+
+    Once matplotlib is imported here a process would cost more than it saves: then this one draws.
+    """
+    if "matplotlib.figure" in sys.modules:
+        yield folder
+        return
+    process = FigureProcess(folder)
+    try:
+        yield process
+    except BaseException:
+        process.kill()
+        raise
+    process.close()
