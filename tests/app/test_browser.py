@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -15,6 +16,7 @@ from typing import Any
 
 import pytest
 
+from gripscale.app.case import MAX_UPLOAD
 from gripscale.app.commands import COMMANDS
 from gripscale.app.run_tabs import POLL
 from gripscale.case import EXAMPLES
@@ -247,6 +249,16 @@ def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
     whole_way.page.set_viewport_size({"width": 1400, "height": 900})
 
 
+def test_the_caption_of_a_wide_table_is_whole_on_a_telephone(whole_way: AppVisit) -> None:
+    whole_way.tab("1 Road")
+    whole_way.press("Read, clean and fit")
+    caption = whole_way.says("Cleaning of road")
+    whole_way.page.set_viewport_size({"width": 390, "height": 900})
+    inside = "e => e.getBoundingClientRect().right <= innerWidth"
+    whole_way.look(lambda: caption.evaluate(inside), "whole caption")
+    whole_way.page.set_viewport_size({"width": 1400, "height": 900})
+
+
 def test_silence_and_no_network_but_the_page(whole_way: AppVisit) -> None:
     assert whole_way.said == []
     assert whole_way.asked == []
@@ -285,6 +297,37 @@ def test_what_is_refused_is_one_sentence_and_the_page_lives_on(
         seen.tab("4 Run")
         seen.press("Run")
         seen.complaints(2)
+        assert seen.said == []
+
+
+TEXTS = """text => {
+    window.texts = []
+    const keep = () => text.value !== window.texts.at(-1) && window.texts.push(text.value)
+    setInterval(keep, 5)
+}"""
+"""Keeps every text that the case has from now on."""
+
+
+def test_files_dropped_together_are_taken_together(
+    browser: Any, server: str, small: Path, tmp_path: Path
+) -> None:
+    lines = [tmp_path / f"line_{number}.txt" for number in range(5)]
+    for line in lines:
+        shutil.copy(small / "road.txt", line)
+    with visit(browser, server) as seen:
+        seen.page.get_by_label("case.toml").evaluate(TEXTS)
+        seen.drop(0, *lines)
+        seen.look(lambda: all(f'"inputs/{line.name}"' in seen.case() for line in lines), "lines")
+        seen.says("sine waves from")
+        texts = seen.page.evaluate("texts")
+        assert [text.count("inputs/line_") for text in texts] == [0, len(lines)]
+        seen.drop(0, *lines[:2])
+        seen.look(lambda: seen.case().count("inputs/line_") == 2, "lines of a second drop")
+        with (tmp_path / "large.txt").open("wb") as file:
+            file.truncate(MAX_UPLOAD + 1)
+        seen.drop(0, lines[0], tmp_path / "large.txt")
+        seen.says("large.txt is too large; expected files of at most 50 MB, and none of these")
+        assert seen.case().count("inputs/line_") == 2
         assert seen.said == []
 
 

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from gripscale.analysis.comparison import save_reference
-from gripscale.app.elements import Folded, html, notice_elements
-from gripscale.app.run_tabs import ComparedRun, runs_table
+from gripscale.app.elements import Cards, Folded, html, notice_elements
+from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
 from gripscale.case import read_case, run_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
+from gripscale.charts.rubber import rubber_charts
 from gripscale.report import source
 from gripscale.report.elements import Element, Notice, Text
 from gripscale.report.pages import page_of
@@ -98,6 +99,28 @@ def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
     assert names.index("best_friction") < names.index("friction")
     alone = runs_table([ComparedRun(run, dynamic, None)])
     assert "best_friction" not in {column.name for column in alone.columns}
+
+
+def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
+    result = source.read_result(ran)
+    assert isinstance(result, source.Run)
+    run = SimpleNamespace(text=(ran / "case.toml").read_text(), folder=ran)
+    dynamic = result.predictions[0]
+    rows = [ComparedRun(run, dynamic, result.direct), ComparedRun(run, dynamic, None)]
+    states = next(column.values for column in runs_table(rows).columns if column.name == "status")
+    assert list(states) == ["best estimate not to be relied on", "complete"]
+    reason, numbers, *others = answer_elements(run)
+    assert reason.text.startswith("Answer: none to rely on. The measured surface is too small")
+    assert isinstance(numbers, Cards)
+    assert len(others) == 3, "two warnings and the others folded"
+
+
+def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
+    result = source.read_result(ran)
+    assert isinstance(result, source.Run)
+    for excited, drawn in ((None, False), (result.predictions[0], True)):
+        moduli, factor, *_ = rubber_charts(result.inputs, excited)
+        assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]
 
 
 def test_the_chain_is_judged_by_what_is_stored(ran: Path) -> None:

@@ -98,9 +98,9 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     run = ended(runs.start(by_name("sensitivity")))
     assert run.state == "finished", run.log()
     assert "has finished" in run_status(run).text
-    numbers, answer, *_ = answer_elements(run)
+    numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
-    assert answer.text.startswith("Answer: 1 % more E''")
+    assert numbers.basis[0].startswith("Answer: 1 % more E''")
     page = run.write_page()
     assert page == run.folder / "report.html"
     text = page.read_text(encoding="utf-8")
@@ -119,11 +119,11 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     other = state.visit.store("other.txt", (small / "road.txt").read_bytes())
     run = ended(Runs(state).start(by_name("compare-surfaces"), {"samples": "0"}, [other]))
     assert run.state == "finished", run.log()
-    numbers, _, answer, *_ = answer_elements(run)
+    numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
     assert numbers.cards[0].label == "μ of other"
     assert "that of case-1" in numbers.cards[0].detail
-    assert answer.text.startswith("Answer: other over case-1: friction × 1.00")
+    assert numbers.basis[1].startswith("Answer: other over case-1: friction × 1.00")
     assert "table-texture" in run.write_page().read_text(encoding="utf-8")
 
 
@@ -134,10 +134,10 @@ def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> N
     command = by_name("calibrate")
     run = ended(Runs(state).start(command))
     assert run.state == "finished", run.log()
-    numbers, _, answer, *_ = answer_elements(run)
+    numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
-    assert [card.label for card in numbers.cards][:2] == ["stress 0", "width"]
-    assert answer.text.startswith("Answer: area term with stress_0 = 0.346 MPa")
+    assert [card.label for card in numbers.cards][:2] == ["shear stress τ_0", "width factor c"]
+    assert numbers.basis[1].startswith("Answer: area term with shear stress τ_0 = 0.346 MPa")
     assert all(
         option.value in dict(option.choices).values()
         for option in command.options

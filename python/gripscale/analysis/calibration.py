@@ -34,6 +34,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import solve_design
+from gripscale.experiment.inputs import default_model
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.model import DirectContact
@@ -299,7 +300,7 @@ def calibrate_case(
         part in it.
     model : str, optional
         "direct" or "chain": what predicts the hysteresis and the real contact area; by default
-        `default_model` of the case.
+        `gripscale.experiment.inputs.default_model` of the case.
     law, fixed, hold_out
         As for `calibrate`.
     measured : MeasuredFriction, optional
@@ -334,11 +335,6 @@ def calibrate_case(
         design = points_of(friction, predicting, rubber, surface, results.load)
         predicted = predicted_of(solve_design(design, bench))
     return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
-
-
-def default_model(file: CaseFile) -> str:
-    """Return what predicts by default: the direct contact of a measured surface, else the chain."""
-    return "direct" if file.case.surface.measured_files else "chain"
 
 
 def measured_of(file: CaseFile) -> MeasuredFriction:

@@ -413,8 +413,7 @@ def solve_reference(results: CaseResults) -> xr.Dataset | None:
         traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
         return reduce.sample_numbers(answer, task).assign(answer[traces].isel(profile=0))
 
-    with bench_in(None) as bench:
-        return solve_design(design, bench, numbers)
+    return solve_design(design, Bench(None), numbers)
 
 
 def reference_design(

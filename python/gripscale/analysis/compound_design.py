@@ -14,7 +14,7 @@ import hashlib
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,9 @@ from gripscale.analysis.design_dataset import of_change, of_compound, scalars, t
 from gripscale.analysis.goal_friction import CompoundGoal, GoalFriction
 from gripscale.analysis.rubber_comparison import at_one_temperature
 from gripscale.case import folder as folders
+from gripscale.case import record
 from gripscale.case.read import CaseFile, read_case
+from gripscale.case.run import prepare_case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
@@ -120,7 +122,8 @@ def design_compound(
         does not have, or today's compound has no friction.
     """
     file = case if isinstance(case, CaseFile) else read_case(case)
-    problem = design_problem(file, goals, limits, workers)
+    results = prepare_case(file)
+    problem = design_problem(results, goals, limits, workers)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     key = _key(file, problem, wanted, rubbers or {})
     target = Path(folder) / RESULT
@@ -136,6 +139,11 @@ def design_compound(
     compounds, notes = _compounds(problem, reference, rubbers or {}, file)
     notes = (*notes, *_left_out(file))
     base = base.merge(compounds).assign_attrs(base.attrs, notes="\n".join(notes))
+    goal_loads = [
+        replace(results.load, speed=goal.speed, pressure=goal.pressure)
+        for goal in problem.friction.goals
+    ]
+    groups = {"inputs": record.inputs(results, problem.roads.values(), goal_loads)}
     points: list[xr.Dataset] = []
     for level in _order(wanted, problem):
         if _saturated(points, level):
@@ -145,7 +153,7 @@ def design_compound(
             point = _solved_point(problem, reference, level, points[-1:])
         points.append(point)
         data = _joined(base, points)
-        netcdf.save(data, target)
+        netcdf.save(data, target, groups)
         if on_point is not None:
             on_point(point)
     return data

@@ -20,8 +20,8 @@ the friction of the optimum to first order.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -34,12 +34,15 @@ from gripscale.analysis.compound_limits import (
 )
 from gripscale.analysis.goal_friction import CompoundGoal, GoalFriction
 from gripscale.case.read import CaseFile
+from gripscale.case.results import CaseResults
+from gripscale.case.run import prepare_case
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.inputs import case_rubber, surface_of
+from gripscale.experiment.inputs import surface_of
 from gripscale.rubber import Rubber
+from gripscale.surface import Surface
 
 LEAST_GAP = 1e-4
 """Gap at which the search ends [-]."""
@@ -78,6 +81,8 @@ class DesignProblem:
     limits: CompoundLimits
     rolling: PointLimit
     """The loss factor that stands for rolling resistance; its upper end is today's."""
+    roads: Mapping[str, Surface] = field(default_factory=dict)
+    """The roads of the goals by their names."""
 
     @property
     def rubber(self) -> Rubber:
@@ -253,19 +258,21 @@ def default_goal(file: CaseFile) -> CompoundGoal:
 
 
 def design_problem(
-    file: CaseFile,
+    case: CaseResults | CaseFile,
     goals: Sequence[CompoundGoal] = (),
     limits: CompoundLimits | None = None,
     workers: int | None = None,
 ) -> DesignProblem:
     """Return the problem that a case, goals and limits make; arguments as `design_compound`."""
-    rubber = case_rubber(file)
+    results = case if isinstance(case, CaseResults) else prepare_case(case)
+    file, rubber = results.file, results.rubber.rubber
     if not rubber.moduli.size:
         raise InputError("a design needs a rubber that relaxes; got an elastic one")
     wanted = list(goals) or [default_goal(file)]
-    roads = {goal.road: surface_of(goal.road, file) for goal in wanted}
+    names = {goal.road: results.surface if goal.road == "case" else goal.road for goal in wanted}
+    roads = {name: surface_of(road, file) for name, road in names.items()}
     friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers))
     rolling = PointLimit(
         "loss_factor", 0.0, 1.0, FREQUENCY, None if rubber.shift is None else ROLLING
     )
-    return DesignProblem(friction, limits or CompoundLimits(), rolling)
+    return DesignProblem(friction, limits or CompoundLimits(), rolling, roads)

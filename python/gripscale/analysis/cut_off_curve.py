@@ -15,6 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.best_estimate import Factor, LogNormalValue
+from gripscale.case import record
 from gripscale.case.prepare import prepare_continuation
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
@@ -95,7 +96,8 @@ def save_curve(data: xr.Dataset, results: CaseResults, folder: str | Path) -> xr
         **provenance.attributes(),
     }
     data = data.assign_attrs(results.file.attributes, **attrs)
-    return netcdf.load(netcdf.save(data, Path(folder) / FILE))
+    groups = {"inputs": record.inputs(results)}
+    return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
 
 
 def cut_off_curve(

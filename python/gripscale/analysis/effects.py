@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from contextlib import nullcontext
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +26,7 @@ from gripscale.experiment.design import (
     attributes,
     solve_design,
 )
-from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task, load_stored
 from gripscale.io import netcdf
 from gripscale.model import (
@@ -112,8 +110,8 @@ def effects(
     points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
     coords = {"effect": ("effect", list(tasks), attributes("effects that count"))}
     design = Design({"effect": len(tasks)}, points, coords)
-    with bench_in(None) if folder is None else nullcontext(Bench(Store(folder))) as bench:
-        data = solve_design(design, replace(bench, workers=workers, client=client, on_task=on_task))
+    store = None if folder is None else Store(folder)
+    data = solve_design(design, Bench(store, workers, client, on_task))
     data = data[[name for name in KEPT if name in data]]
     if ADHESIVE_FRICTION in data:
         both = data.total_friction + data[ADHESIVE_FRICTION]

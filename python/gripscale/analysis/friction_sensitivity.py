@@ -29,6 +29,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.first_order import QUANTITIES, first_order
+from gripscale.case import record
 from gripscale.case.prepare import case_chain
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.run import prepare_case
@@ -292,13 +293,12 @@ def case_sensitivity(
             with_feedback=with_feedback,
             traces=vary is None,
         )
-    direct = chosen == DirectContact.name
-    prepared = prepare_case(file) if direct and vary is None else None
-    study = Study(prepared or file, axes, static=False, model=solved)
+    prepared = prepare_case(file)
+    study = Study(prepared, axes, static=False, model=solved)
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     data = solve_design(study.design, bench, _kept)
     data = data.assign_coords(coordinates(study.axes, file.units))
-    if STORAGE in data and prepared is not None:
+    if STORAGE in data and chosen == DirectContact.name and vary is None:
         errors = first_order(prepared, seed=file.case.uncertainty.seed)
         named = {f"{name}_error": CARRIED.format(name) for name in QUANTITIES}
         data = data.assign(errors.rename(named).variables)
@@ -313,7 +313,9 @@ def case_sensitivity(
         **provenance.attributes(),
     }
     data = data.assign_attrs(file.attributes, **attrs)
-    return netcdf.load(netcdf.save(data, Path(folder) / FILE))
+    loads = [point.task.load for point in study.points]
+    groups = {"inputs": record.inputs(prepared, study.surfaces, loads)}
+    return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
 
 
 def _kept(answer: xr.Dataset, task: Task) -> xr.Dataset:

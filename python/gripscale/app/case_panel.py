@@ -7,7 +7,7 @@ import io
 import panel as pn
 
 from gripscale.app.case import CaseState
-from gripscale.app.elements import column, html, in_worker, work_button
+from gripscale.app.elements import CUT_TEXT, column, html, in_worker, work_button
 from gripscale.app.uploads import file_upload
 from gripscale.case.examples import EXAMPLES
 from gripscale.report.elements import Notice
@@ -32,7 +32,8 @@ def case_panel(state: CaseState) -> pn.Column:
         options={f"{name}: {example.about}": name for name, example in EXAMPLES.items()},
         margin=(4, 8),
         sizing_mode="stretch_width",
-        styles={"flex": "1 1 180px", "min-width": "0"},
+        styles={"flex": "1 1 340px", "min-width": "0"},
+        stylesheets=[CUT_TEXT],
     )
 
     async def load_example() -> None:

@@ -25,9 +25,10 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Cards:
-    """Results at the head of a page."""
+    """Results at the head of a page, and what they are for and rest on."""
 
     cards: Sequence[Card]
+    basis: Sequence[str]
     kind: ClassVar[str] = "cards"
 
 
@@ -115,6 +116,10 @@ BUSY = """\
 :host .bk-btn[disabled] { cursor: progress; animation: busy 1s infinite; }
 :host .bk-btn[disabled]::after { content: " ..."; }
 """
+
+
+CUT_TEXT = "input, select { text-overflow: ellipsis; }"
+"""Text that is longer than its field ends in dots."""
 
 
 def work_button(label: str, work: Callable[[], Awaitable[None]], **look: Any) -> pn.widgets.Button:

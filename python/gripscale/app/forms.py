@@ -12,7 +12,7 @@ from typing import Any, Literal, get_args, get_origin
 import panel as pn
 
 from gripscale.app.case import CaseState, field_text, field_value
-from gripscale.app.elements import PageElements, column, in_worker, panes, work_button
+from gripscale.app.elements import CUT_TEXT, PageElements, column, in_worker, panes, work_button
 from gripscale.case import CaseFile
 from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
 from gripscale.case.schema import table_of
@@ -23,6 +23,7 @@ LOOK: dict[str, Any] = {
     "sizing_mode": "stretch_width",
     "margin": (2, 8),
     "styles": {"flex": "1 1 190px", "min-width": "0", "max-width": "340px"},
+    "stylesheets": [CUT_TEXT],
 }
 WITHOUT_FIELD = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
 """Keys without a field: files are uploaded, and waves are written into the text of the case."""
@@ -123,7 +124,8 @@ def field(state: CaseState, section: Section, key: Key) -> Any:
     if choices:
         widget = pn.widgets.Select(options=list(labels), **look)
     else:
-        widget = pn.widgets.TextInput(placeholder=by_default if has_default else key.takes, **look)
+        limits = re.sub("^a (whole )?number, ", "", key.takes)
+        widget = pn.widgets.TextInput(placeholder=by_default if has_default else limits, **look)
 
     def edit() -> None:
         text = str(widget.value or "")

@@ -25,6 +25,7 @@ from gripscale.app.case_panel import problem_pane
 from gripscale.app.commands import COMMANDS, Command, Option
 from gripscale.app.elements import (
     Cards,
+    Folded,
     PageElements,
     code,
     column,
@@ -42,7 +43,7 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.report import source
-from gripscale.report.answer import has_answer
+from gripscale.report.answer import has_answer, no_answer
 from gripscale.report.elements import Element, Text
 from gripscale.report.head import with_answer
 from gripscale.report.pages import page_of
@@ -170,13 +171,15 @@ def output_text(run: Run, state: CaseState) -> str:
 
 
 def answer_elements(run: Run) -> PageElements:
-    """Return the answer of a finished run: of its contact where the surface was measured."""
+    """Return the answer of a finished run, what it rests on, and what is to be known of it."""
     try:
         result = source.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
     page = with_answer(page_of(result), result)
-    return [Cards(page.cards), Text(page.subtitle), *map(Text, page.basis)]
+    numbers = Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
+    folded = [Folded(page.notices_folded)] if page.notices_folded else []
+    return [*page.errors, numbers, *page.notices_open, *folded]
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
@@ -299,7 +302,7 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
     """Return the answer and the chain of each prediction, and the keys in which cases differ."""
     first = compared[0][0].text
     totals, states = [], []
-    for _, view, _ in compared:
+    for _, view, direct in compared:
         with_area_term = with_adhesive(view.data)
         numbers = [
             view.total("contact_fraction"),
@@ -307,7 +310,7 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
             math.nan if with_area_term is None else float(with_area_term),
         ]
         totals.append(numbers if view.complete else [math.nan] * len(numbers))
-        states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
+        states.append(_state(view, direct))
     speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _, _ in compared]
     area, friction, with_term = zip(*totals, strict=True)
@@ -325,6 +328,12 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         Column("changes", changes, "keys that differ from the first", words=True),
     ]
     return Table("runs", columns, "The runs of this visit")
+
+
+def _state(view: PredictionView, direct: xr.Dataset | None) -> str:
+    if direct is not None and no_answer(direct):
+        return "best estimate not to be relied on"
+    return "complete" if view.complete else f"{view.waves} of {view.planned} waves"
 
 
 CHAIN = "chain of waves"

@@ -19,7 +19,7 @@ from gripscale.app.elements import column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
-from gripscale.app.uploads import name_at_once
+from gripscale.app.uploads import prepare_areas
 from gripscale.case import folder, read_case
 from gripscale.case.examples import EXAMPLES
 from gripscale.core.errors import InputError
@@ -54,7 +54,7 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
 
     pn.state.on_session_destroyed(leave)
     if pn.state.curdoc is not None:
-        name_at_once(pn.state.curdoc)
+        prepare_areas(pn.state.curdoc)
     of_case = (
         ("1 Road", road_tab(state)),
         ("2 Rubber", rubber_tab(state)),

@@ -16,7 +16,7 @@ import panel as pn
 from gripscale.app.case import CaseState
 from gripscale.app.elements import AppElement, column, html, work_button
 from gripscale.case.prepare import PreparedRubber
-from gripscale.charts.blocks import image
+from gripscale.charts.draw import image
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.rubber import superposition_figure
 from gripscale.core.units import ZERO_CELSIUS

@@ -17,21 +17,26 @@ from bokeh.models import CustomJS
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
 from gripscale.app.elements import column, in_worker
+from gripscale.core.errors import InputError
 
 NewText = Callable[[Mapping[str, bytes]], str]
 """From uploads by name to the text of the case with them; may read them, in the worker thread."""
 PAUSE = 3.0
-"""Seconds without a further file after which those dropped together are complete.
-
-The browser sends two at a time, with some 2 s between.
-"""
+"""Seconds without a further file after which those that are still announced do not come."""
 READING = """\
 :host([data-reading])::before { content: attr(data-reading); display: block; font-weight: 600;
     overflow-wrap: anywhere; padding: 0.2rem 0; }
 [data-filepond-item-state="processing-complete"] .filepond--item-panel { background: #64605e; }
 """
 """What is read is named; a file that arrived is not green: it may be refused yet."""
-AT_ONCE = """\
+IN_BROWSER = """\
+FilePond.setOptions({
+    allowImagePreview: false,
+    allowMinimumUploadDuration: false,
+    instantUpload: false,
+    maxParallelUploads: 1000,
+})
+const {IDLE, INIT, LOADING, LOAD_ERROR} = FilePond.FileStatus
 const holds = part => part.shadowRoot?.querySelector('.filepond--root')
 const area_of = event => event.composedPath().find(holds)
 const name = (event, files) => {
@@ -39,18 +44,31 @@ const name = (event, files) => {
     const names = [...files ?? []].map(file => file.name)
     if (area && names.length) area.setAttribute('data-reading', `Reading ${names.join(', ')} ...`)
 }
+const send = event => {
+    const {error, pond} = event.detail, area = area_of(event), files = pond.getFiles()
+    if (error) area?.removeAttribute('data-reading')
+    if (!area || files.some(({status}) => status === INIT || status === LOADING)) return
+    const types = files.map(({file, status}) =>
+        [file._relativePath || file.name, status === LOAD_ERROR ? 'too large' : file.type])
+    const {model} = Bokeh.index.query_one(view => view.el === area)
+    model.mime_type = Object.fromEntries(types)
+    for (const file of files) if (file.status === IDLE) pond.processFile(file)
+}
 document.addEventListener('drop', event => name(event, event.dataTransfer?.files), true)
 document.addEventListener('input', event => name(event, event.composedPath()[0].files), true)
-document.addEventListener('FilePond:addfile', event => {
-    if (event.detail.error) area_of(event)?.removeAttribute('data-reading')
-})
+document.addEventListener('FilePond:addfile', send)
 """
-"""Names files at the drop, in the browser itself: the widget plays 1 s before it sends them."""
+"""Names files at the drop, announces them to the server as keys of `mime_type`, and sends them.
+
+By itself the widget plays more than 1 s, sends two files, plays again, and sends the next two.
+"""
+TOO_LARGE = "too large"
+"""Type that the browser announces of a file that it does not send."""
 
 
-def name_at_once(page: Document) -> None:
-    """Let the areas of a page name files as soon as they are dropped."""
-    page.js_on_event("document_ready", CustomJS(code=AT_ONCE))
+def prepare_areas(page: Document) -> None:
+    """Let the areas of a page name, announce and send all files of a drop at once."""
+    page.js_on_event("document_ready", CustomJS(code=IN_BROWSER))
 
 
 def file_upload(
@@ -73,7 +91,7 @@ def file_upload(
             max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
             sizing_mode="stretch_width",
             margin=(0, 8),
-            previews=[],
+            previews=["image"],  # without any, Panel would load that of PDFs too, which fails
             stylesheets=[READING],
         )
         area.param.watch(receive, "value")
@@ -82,17 +100,19 @@ def file_upload(
     async def receive(event: Any) -> None:
         if holder.loading:
             return  # a further file of those that are awaited
-        holder.loading, accepted, uploads = True, False, uploads_in(event.obj)
+        area, taken, accepted = event.obj, 0, False
+        holder.loading = True
         try:
-            while uploads:
-                accepted = False
+            while len(area.value) > taken:
+                uploads = await dropped_together(area)
+                taken, accepted = len(uploads), False
                 with state.refusals(table):
+                    require_sent(area)
                     state.set_text(await in_worker(partial(new_text, uploads)))
                     accepted = True
-                uploads = await further_uploads(event.obj, len(uploads)) if several else {}
             # the widget still marks its files as done: it stays, out of sight, until the next drop
-            event.obj.visible = False
-            holder[1:] = [empty_area(), event.obj]
+            area.visible = False
+            holder[1:] = [empty_area(), area]
             if accepted and then is not None:
                 await then()
         finally:
@@ -103,16 +123,25 @@ def file_upload(
     return holder
 
 
-async def further_uploads(area: pn.widgets.FileDropper, count: int) -> dict[str, bytes]:
-    """Return all files that were dropped together once more than `count` are there, or none."""
-    end = time.monotonic() + PAUSE
-    while len(area.value) == count and (time.monotonic() < end or area._file_buffer):
-        await asyncio.sleep(0.1)
-    return uploads_in(area) if len(area.value) > count else {}
+def require_sent(area: pn.widgets.FileDropper) -> None:
+    """Raise `InputError` if a file of an area is too large to be sent."""
+    for name, kind in area.mime_type.items():
+        if kind == TOO_LARGE:
+            raise InputError(
+                f"{name} is too large; expected files of at most {MAX_UPLOAD / 1e6:.0f} MB, and "
+                "none of these was read"
+            )
 
 
-def uploads_in(area: pn.widgets.FileDropper) -> dict[str, bytes]:
-    """Return the files of an area by name."""
+async def dropped_together(area: pn.widgets.FileDropper) -> dict[str, bytes]:
+    """Return files of an area by name once all that the browser announced have come."""
+    received, end = -1, 0.0
+    while {n for n, kind in area.mime_type.items() if kind != TOO_LARGE} - area.value.keys():
+        if len(area.value) > received or area._file_buffer:
+            received, end = len(area.value), time.monotonic() + PAUSE
+        if time.monotonic() > end:
+            break  # its sending was ended in the browser
+        await asyncio.sleep(0.02)
     return {
         name: content.encode("utf-8") if isinstance(content, str) else content
         for name, content in area.value.items()

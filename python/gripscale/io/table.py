@@ -12,6 +12,7 @@ import html
 import io
 import itertools
 import math
+import re
 import textwrap
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -325,7 +326,7 @@ class Table:
                 )
             strong = ' class="strong"' if row in self.strong else ""
             body.append(f"<tr{strong}>{''.join(cells)}</tr>")
-        notes = "".join(f'<p class="note">{html.escape(note)}</p>' for note in self.notes)
+        notes = "".join(f'<p class="note">{with_code(note)}</p>' for note in self.notes)
         return (
             f'<div class="scroll{" narrow" if self.narrow else ""}" tabindex="0" role="region" '
             f'aria-label="{caption}">\n'
@@ -336,6 +337,11 @@ class Table:
             + "\n".join(body)
             + f"\n</tbody>\n</table>\n{notes}</div>\n"
         )
+
+
+def with_code(text: str) -> str:
+    """Return a text as HTML; what stands between backticks, such as a command, is code."""
+    return re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(text))
 
 
 def _bound(head: str) -> str:

@@ -121,7 +121,10 @@ def read_sheets(path: Path) -> dict[str, Rows]:
                 sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets
             }
     except Exception as error:  # openpyxl, zipfile and the XML parser each fail in their own way
-        raise FileError(f"{path}: expected an xlsx file ({type(error).__name__})") from error
+        raise FileError(
+            f"{path}: expected an xlsx file; got a damaged file or another kind with this ending: "
+            "save it as .xlsx from the program that wrote it"
+        ) from error
     if not sheets:
         raise FileError(f"{path}: expected a sheet of cells; got none")
     return sheets
@@ -222,33 +225,38 @@ class TextTable:
         Raises `FileError`, with the line and what was `expected`, for the first other cell or
         number beyond `MOST`.
         """
-        cells = [self._with_point(row[column]) for row in self.rows]
-        if _PLAIN.issuperset("".join(cells)):
+        cells = self._cells(column)
+        if missing:
+            cells = ["nan" if cell.lower() in MISSING else cell for cell in cells]
+        letters = "".join(cells).replace("nan", "") if missing else "".join(cells)
+        if _PLAIN.issuperset(letters):
             with suppress(ValueError):  # a word of these letters: the loop below names it
-                plain = np.array(cells, dtype=float)
-                if (np.abs(plain) <= MOST).all():
+                plain = np.array(list(map(float, cells)))
+                if not (np.abs(plain) > MOST).any():
                     return plain
-        values = np.empty(len(self.rows))
-        for at, row in enumerate(self.rows):
-            value = parse_number(self._with_point(row[column]))
+        values = np.empty(len(cells))
+        for at, cell in enumerate(cells):
+            value = parse_number(cell)
             if value is None or not (abs(value) <= MOST or (missing and math.isnan(value))):
                 raise FileError(
                     f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
-                    f"got {short_repr(row[column])}"
+                    f"got {short_repr(self.rows[at][column])}"
                 )
             values[at] = value
         return values
 
     def resolution(self, column: int) -> float:
         """Return the last decimal place of any printed number of a column, such as 0.001."""
-        cells = [self._with_point(row[column]) for row in self.rows]
+        cells = self._cells(column)
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
         exponents = (Decimal(cell).as_tuple().exponent for cell in cells)
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
-    def _with_point(self, cell: str) -> str:
-        return cell.replace(",", ".") if self.decimal == "," else cell
+    def _cells(self, column: int) -> list[str]:
+        """Return the cells of a column, their decimal sign a point."""
+        cells = [row[column] for row in self.rows]
+        return [cell.replace(",", ".") for cell in cells] if self.decimal == "," else cells
 
 
 def read_table(
@@ -286,12 +294,15 @@ def read_lines(
     if is_excel(path):
         lines = sheet_lines(path, sheet)
     elif sheet is None:
-        split = enumerate(_LINE_END.split(read_text(path)), start=1)
+        text = read_text(path).replace("\r\n", "\n")
+        split = enumerate(_LINE_END.split(text) if "\r" in text else text.split("\n"), start=1)
         lines = [(number, line) for number, line in split if line.strip()]
     else:
         raise InputError(
             f"{path}: sheet must be left out, a text file has none; got {short_repr(sheet)}"
         )
+    if not above:
+        return lines
     return [
         (number, f"# {line}" if number <= above and is_row(line) else line)
         for number, line in lines
@@ -338,8 +349,9 @@ def table_in(
     if not lines:
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
-    numbers = [number for number, line in lines[first:] if not is_comment(line)]
-    rows = [cells_of(line, separator) for _, line in lines[first:] if not is_comment(line)]
+    below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
+    numbers = [number for number, _ in below]
+    rows = [cells_of(line, separator) for _, line in below]
     count = len(rows[0])
     _check_faults(path, lines[:first], separator, range(count, count + 1))
     for number, row in zip(numbers, rows, strict=True):

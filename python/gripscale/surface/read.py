@@ -110,8 +110,9 @@ def read_instrument_file(
             raise
         except Exception as error:  # each of its forty readers fails in its own way
             raise FileError(
-                f"{path}: expected a surface in a known instrument format; "
-                f"SurfaceTopography cannot read it ({type(error).__name__})"
+                f"{path}: expected a surface as text or in the format of an instrument; got "
+                f"{len(raw)} bytes in none of these formats, or damaged: export it from the "
+                "instrument as text, .x3p or .sur"
             ) from error
     x_unit = "m" if step else length_unit(path, "the file", unit, "x_unit", x_unit)
     z_unit = length_unit(path, "the file", unit, "z_unit", z_unit)

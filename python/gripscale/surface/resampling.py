@@ -153,6 +153,13 @@ def printed_grid(
     return grid
 
 
+def without_line(rows: Array) -> Array:
+    """Return rows of heights at equal steps, each without its least-squares line."""
+    x = np.linspace(-1.0, 1.0, rows.shape[-1])
+    slope = rows @ x / (x @ x)
+    return np.asarray(rows - rows.mean(axis=-1, keepdims=True) - slope[..., None] * x)
+
+
 def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -> Array:
     """Return heights [m], shape (points,) or (nx, ny), with all gaps (NaN) filled.
 

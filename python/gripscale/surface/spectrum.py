@@ -34,10 +34,10 @@ first equation by least squares with C >= 0.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
@@ -45,7 +45,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.profile import FEWEST_POINTS, Profile, of_one_step
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import filled, without_line
 
 PER_DECADE = 10
 """Wavenumbers a decade where a spectrum is averaged."""
@@ -182,11 +182,8 @@ def first_of_bins(values: NDArray[Any], per_decade: int) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff(bins, prepend=-1.0))
 
 
-TAPERS: dict[str, tuple[str, Literal["linear", "constant"]]] = {
-    "hann": ("hann", "linear"),
-    "none": ("boxcar", "constant"),
-}
-"""Weights of a window, and the trend subtracted before."""
+TAPERS = ("hann", "none")
+"""Weights of a window: with "hann" its straight line is subtracted before, else its mean."""
 
 WINDOWS = 4
 """Windows a tapered line is cut into by default; as many fit again between them."""
@@ -216,11 +213,9 @@ def profile_spectrum(
         over all small waves; a straight line is taken out of each window. "none" for a line that is
         a whole number of periods: only the mean is taken out.
     """
-    from scipy import signal
-
     profiles = of_one_step(profile, "averaged")
     step = profiles[0].step
-    weights, trend = TAPERS[checks.one_of("taper", taper, TAPERS)]
+    checks.one_of("taper", taper, TAPERS)
     shortest = min(len(p) for p in profiles)
     parts = WINDOWS if taper == "hann" else 1
     points = max(shortest // parts, FEWEST_POINTS)
@@ -231,13 +226,24 @@ def profile_spectrum(
                 f"window must be from {FEWEST_POINTS * step:g} m to {shortest * step:g} m long; "
                 f"got {window:g}"
             )
-    detrend = partial(signal.detrend, type=trend)
     heights = [filled(p.z, periodic=taper == "none") for p in profiles]
-    powers = [signal.welch(z, 1.0 / step, weights, points, detrend=detrend)[1] for z in heights]
-    density = np.average(powers, axis=0, weights=[len(p) for p in profiles])
+    powers = [_windowed_power(z, points, taper) for z in heights]
+    density = step / (2.0 * np.pi) * np.average(powers, axis=0, weights=[len(p) for p in profiles])
     q = 2.0 * np.pi / (points * step) * np.arange(1.0, points // 2 + 1)
     missing = sum(p.missing for p in profiles) / sum(len(p) for p in profiles)
-    return ProfileSpectrum(q, density[1:] / (2.0 * np.pi), np.full(q.size, q[0]), missing)
+    return ProfileSpectrum(q, density[1:], np.full(q.size, q[0]), missing)
+
+
+def _windowed_power(z: Array, points: int, taper: str) -> Array:
+    """Return the one-sided |F{w z}|^2 / sum(w^2), mean over windows that overlap by a half."""
+    windows = sliding_window_view(z, points)[:: points - points // 2]
+    if taper == "hann":
+        windows, weights = without_line(windows), np.hanning(points + 1)[:-1]
+    else:
+        windows, weights = windows - windows.mean(axis=1, keepdims=True), np.ones(points)
+    power = np.mean(np.abs(np.fft.rfft(weights * windows)) ** 2, axis=0) / (weights @ weights)
+    power[1 : (points + 1) // 2] *= 2.0  # the highest wave of an even number has no mirror image
+    return np.asarray(power)
 
 
 def map_spectrum(

@@ -91,7 +91,7 @@ class Measured:
             named["all profiles"] = self.cleaned
         return textures(named, "texture_of")
 
-    @property
+    @cached_property
     def notes(self) -> tuple[str, ...]:
         """What reading changed and what is implausible, a sentence each."""
         notes = []
@@ -100,7 +100,7 @@ class Measured:
             notes += [_about(raw, note) for note in (*raw.notes, *warnings)]
         return tuple(notes)
 
-    @property
+    @cached_property
     def doubts(self) -> tuple[str, ...]:
         """Those of the notes that leave no answer to rely on: sentinels, plates and supports."""
         if self.map is not None:

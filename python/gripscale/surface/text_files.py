@@ -146,8 +146,8 @@ def read_text_profile(
     if columns is None and len(table.columns) != 2:
         raise FileError(
             f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and "
-            f"height, or titles that name them; got {len(table.columns)} columns titled "
-            f"{table.titles or 'not at all'}"
+            f"height, or titles that name them; got {len(table.columns)} columns "
+            f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
         )
     x_column, z_column = columns or (0, 1)
     x_unit = _column_unit(table, x_column, "x_unit", x_unit)

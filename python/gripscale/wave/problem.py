@@ -165,16 +165,17 @@ class Status(StrEnum):
 
 _TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuses()} | {
     Status.FRICTIONS_DISAGREE: (
-        "Solved, but friction from traction and from dissipation differ too much on the last mesh.",
-        "Take more columns; for a direct contact set a tolerance, which refines its grid.",
+        "The contact has a solution, but on the last mesh friction from traction and friction from "
+        "dissipation differ too much.",
+        "Take more columns. For a direct contact, set a tolerance: it refines the grid.",
     ),
     Status.ACTIVE_SET_NOT_SETTLED: (
-        "The set of points in contact of the half-plane did not converge.",
+        "The half-plane model did not converge to a set of points in contact.",
         "Take another number of points.",
     ),
     Status.CONDITIONS_NOT_SETTLED: (
-        "Contact, strains and temperatures did not converge in the allowed passes.",
-        "Leave out an effect, or take a smaller speed or pressure.",
+        "Contact, strains and temperatures did not agree after the allowed passes.",
+        "Leave out an effect, or take a lower speed or pressure.",
     ),
 }
 """Sentence and advice by the word of a status, of the kernel and of the solvers in Python."""
