@@ -188,7 +188,7 @@ def test_bad_files_are_named(tmp_path):
         read_uniaxial_test(tmp_path / "none.xlsx")
     text = tmp_path / "text.xlsx"
     text.write_text("0 1 0\n")
-    with pytest.raises(FileError, match=r"text\.xlsx: expected an xlsx file"):
+    with pytest.raises(FileError, match=r"text\.xlsx: expected an xlsx file; got a damaged"):
         read_uniaxial_test(text)
     with pytest.raises(FileError, match="expected rows of time, stretch, stress"):
         read_uniaxial_test(write(tmp_path / "words.xlsx", [["time", "stretch", "stress"]]))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
-from scipy import integrate
+from scipy import integrate, signal
 
 from gripscale.core.errors import InputError
 from gripscale.surface import (
@@ -84,6 +86,19 @@ def test_a_slope_of_the_line_is_not_spread_over_small_waves():
     tilted = Profile(x, 0.1 * x)
     assert profile_spectrum(tilted).rms_height < 1e-12
     assert profile_spectrum(tilted, taper="none").rms_height > 0.01
+
+
+@pytest.mark.parametrize(("points", "taper"), [(50, "hann"), (51, "hann"), (50, "none")])
+def test_windows_are_those_of_another_code(points, taper):
+    """Welch's spectrum by scipy, of windows of an even and of an odd number of points."""
+    z = np.random.default_rng(3).normal(0.0, 1e-5, 1007).cumsum()
+    found = profile_spectrum(
+        Profile(STEP * np.arange(z.size), z), window=points * STEP, taper=taper
+    )
+    weights, trend = {"hann": ("hann", "linear"), "none": ("boxcar", "constant")}[taper]
+    detrend = partial(signal.detrend, type=trend)
+    _, expected = signal.welch(z, 1.0 / STEP, weights, points, detrend=detrend)
+    np.testing.assert_allclose(2.0 * np.pi * found.density, expected[1:], rtol=1e-10)
 
 
 def test_several_profiles_are_averaged_by_their_length():

@@ -52,9 +52,12 @@ def withheld(family: str, seed: int, octaves: int) -> tuple[float, float, float]
     return float(area), float(friction), float(curve.band[-1])
 
 
-@pytest.mark.parametrize(("octaves", "held"), [(1, 18), (2, 18), (3, 17)])
+@pytest.mark.parametrize(("octaves", "held"), [(1, 18), (2, 18), (3, 16)])
 def test_withheld_octaves_of_maps(octaves, held):
-    """Four maps of five families; three withheld octaves hold a texture of their own."""
+    """Four maps of five families; three withheld octaves hold a texture of their own.
+
+    Of 20 in a band of 90 % 18 are expected, with a standard deviation of 1.3.
+    """
     results = {(f, seed): withheld(f, seed, octaves) for f in ISOTROPIC for seed in range(4)}
     for (family, seed), (area, friction, _) in results.items():
         print(f"{family:12s} {seed} {octaves} octaves: area {area:.2f}, friction {friction:.2f}")

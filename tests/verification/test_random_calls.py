@@ -24,7 +24,7 @@ MANY = int(os.environ.get("GRIPSCALE_CALLS", "3000"))
 FEW = 12
 SLOW = ("sines", "persson")
 """Those that take a tenth of a second a call: a tenth as many are drawn."""
-LONGEST = 5.0
+LONGEST = 10.0
 """Seconds a call may take."""
 
 Call = Callable[[random.Random], Any]
@@ -36,7 +36,7 @@ def number(chance: random.Random, usual: float) -> float:
     odd = [0.0, -usual, float("nan"), float("inf"), 1e308, 1e-320, 1e100, 1e-100]
     if chance.random() < 0.02:
         return chance.choice(odd)
-    return usual * 10.0 ** chance.gauss(0.0, decades)
+    return float(usual) * 10.0 ** chance.gauss(0.0, decades)
 
 
 def scaled(size: float, shape: np.ndarray) -> np.ndarray:
@@ -83,6 +83,7 @@ def rough_line(chance: random.Random) -> Any:
         tolerance=chance.choice([None, 0.02, 0.3]),
         most_points=4096,
         most_iterations=30,
+        time_limit=0.4 * LONGEST,  # very lossy rubber takes longer; threads of BLAS count, too
     )
 
 
