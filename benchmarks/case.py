@@ -74,7 +74,7 @@ def _whole_command(console: Console) -> None:
             ["time, all", " ".join(f"{s:.1f}" for s in seconds), f"aim {AIM_SECONDS:.0f} s"],
             ["peak memory", f"{max(megabytes):.0f} MB", f"< {MOST_MEGABYTES:.0f} MB"],
         ],
-        "Dynamic and static chain, eight waves each, six figures as PNG and PDF.",
+        "Dynamic and static chain, eight waves each, six figures.",
     )
 
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import scipy.fft
@@ -20,7 +21,8 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.half_space import RoughContact
+from gripscale._kernel import LineFilter
+from gripscale.half_space import RoughContact, response
 from gripscale.surface import HeightMap, Profile
 
 DATA = Path(__file__).parents[1] / "examples/data"
@@ -128,7 +130,6 @@ def _measured(solve: Callable[[], RoughContact]) -> list[str]:
 def _timed_transforms() -> Iterator[list[float]]:
     """Give the processor seconds of every transform called within."""
     seconds: list[float] = []
-    kept = {name: getattr(scipy.fft, name) for name in ("rfftn", "irfftn", "ifft", "irfft")}
 
     def timed(transform: Callable[..., Any]) -> Callable[..., Any]:
         def call(*values: Any, **options: Any) -> Any:
@@ -139,10 +140,9 @@ def _timed_transforms() -> Iterator[list[float]]:
 
         return call
 
-    for name, transform in kept.items():
-        setattr(scipy.fft, name, timed(transform))
-    try:
+    with ExitStack() as ending:
+        for name in ("rfftn", "irfftn", "ifft", "irfft"):
+            ending.enter_context(patch.object(scipy.fft, name, timed(getattr(scipy.fft, name))))
+        of_lines = patch.object(response, "LineFilter", lambda points: timed(LineFilter(points)))
+        ending.enter_context(of_lines)
         yield seconds
-    finally:
-        for name, transform in kept.items():
-            setattr(scipy.fft, name, transform)

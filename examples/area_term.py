@@ -15,7 +15,9 @@ import numpy as np
 
 from gripscale.analysis import calibrate_case, predictions_at
 from gripscale.case import prepare_case
-from gripscale.charts.write import draw_calibration
+from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.uncertainty import calibration_pictures
+from gripscale.charts.write import draw
 from gripscale.conditions import GaussianStress
 from gripscale.experiment import MeasuredFriction, Store
 
@@ -68,7 +70,7 @@ def main(folder: str = "results/examples") -> None:
     )
     worst = max(one.rms_outside for one in wrong.held_out)
     print(f"with a constant stress: rms up to {worst:.3f}")
-    draw_calibration(fit.to_dataset(), target)
+    draw(calibration_pictures(fit.to_dataset()), FigureFolder(target))
 
 
 if __name__ == "__main__":

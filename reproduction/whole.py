@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Mark, Panel, Series, Sheet
-from gripscale.charts.paper import write_png
+from gripscale.charts.paper import save_figure
 from gripscale.charts.style import COLOURS, GREY
 from reproduction.inputs import read_inputs
 from reproduction.whole_surfaces import Cases, Found, solved
@@ -34,7 +34,7 @@ def main() -> None:
     for case in Cases(read_inputs()).small_strain():
         found.append(solved(case))
         print("| " + " | ".join(found[-1].cells()) + " |", flush=True)
-        write_png(chain_and_whole_figure(found), folder / "chain_and_whole.png")
+        save_figure(chain_and_whole_figure(found), folder, "chain_and_whole", ["png"])
 
 
 def chain_and_whole_figure(found: Sequence[Found]) -> Figure:

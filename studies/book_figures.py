@@ -28,7 +28,7 @@ from gripscale.case import prepare_case
 from gripscale.charts import blocks_figure, draw, effects_figure
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.direct_contact import named_traces
-from gripscale.charts.paper import write_png
+from gripscale.charts.paper import save_figure
 from gripscale.charts.sensitivity import sensitivity_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
 from gripscale.charts.view import PredictionView
@@ -328,7 +328,7 @@ def pictures() -> Iterator[tuple[str, Figure]]:
 def main(folder: Path = FIGURES) -> None:
     """Write the pictures into a folder."""
     for name, figure in pictures():
-        write_png(figure, folder / f"{name}.png")
+        save_figure(figure, folder, name, ["png"])
 
 
 if __name__ == "__main__":
