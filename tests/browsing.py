@@ -19,24 +19,29 @@ BETWEEN = 100
 """Milliseconds between two looks at what is waited for."""
 
 
-CURVES = """place => {
+INK = """(place, least) => {
     const all = root => [...root.querySelectorAll('*')].flatMap(
         e => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e]);
-    const coloured = canvas => {
+    const drawn = canvas => {
         const size = [canvas.width, canvas.height];
         if (Math.min(...size) < 100) return false;
         const pixels = canvas.getContext('2d').getImageData(0, 0, ...size).data;
         for (let i = 0, count = 0; i < pixels.length; i += 4) {
-            const colours = pixels.subarray(i, i + 3);
-            count += Math.max(...colours) - Math.min(...colours) > 60;
+            const [red, green, blue, ink] = pixels.subarray(i, i + 4);
+            const lightest = Math.max(red, green, blue), darkest = Math.min(red, green, blue);
+            count += ink > 100 && lightest - darkest >= least && darkest < 200;
             if (count > 20) return true;
         }
         return false;
     };
-    return all(place.shadowRoot ?? place).some(e => e.tagName === 'CANVAS' && coloured(e));
+    return all(place.shadowRoot ?? place).some(e => e.tagName === 'CANVAS' && drawn(e));
 }"""
-"""Whether a place holds a figure with something drawn: axes and letters are grey, and a point has
-some 40 pixels."""
+"""Whether a place holds a figure with more than 20 pixels whose lightest and darkest of three
+colours differ by `least`."""
+CURVES = f"place => ({INK})(place, 60)"
+"""Whether a place holds a figure with curves: axes and letters are grey, a point has 40 pixels."""
+GREY = f"place => ({INK})(place, 0)"
+"""Whether a place holds a figure with anything drawn, if only axes."""
 
 
 @contextmanager

@@ -21,7 +21,7 @@ from gripscale.app.commands import COMMANDS
 from gripscale.app.run_tabs import POLL
 from gripscale.case import EXAMPLES
 from gripscale.surface import read_profile
-from tests.browsing import BETWEEN, CURVES, PATIENCE, Visit
+from tests.browsing import BETWEEN, CURVES, GREY, PATIENCE, Visit
 
 from .test_run import SLOW, there
 
@@ -69,11 +69,17 @@ class AppVisit(Visit):
             self.page.wait_for_timeout(BETWEEN)
 
     def charts(self, count: int, grey: int = 0) -> None:
-        """Wait until there are so many figures, each with curves on it, some of them only grey."""
+        """Wait until there are so many figures, each with curves on it, some of them only grey.
+
+        A figure of before is counted no more once `forget_charts` was called.
+        """
         coloured = f"all.filter({CURVES}).length >= {count - grey}"
-        drawn = f"all => all.length === {count} && {coloured}"
-        shown = self.page.locator(".chart")
+        drawn = f"all => all.length === {count} && all.every({GREY}) && {coloured}"
+        shown = self.page.locator(".chart:not([data-before])")
         self.look(lambda: shown.evaluate_all(drawn), f"{count} figures with curves")
+
+    def forget_charts(self) -> None:
+        self.page.locator(".chart").evaluate_all("all => all.forEach(e => e.dataset.before = 1)")
 
     def laid_out(self, selector: str) -> list[list[float]]:
         """Wait until elements keep their places, with a width; return their left and right ends."""
@@ -335,8 +341,10 @@ def test_a_drag_along_the_profile_is_the_crop_of_the_case(
     browser: Any, server: str, small: Path
 ) -> None:
     with visit(browser, server) as seen:
+        seen.forget_charts()  # of the shipped road
         open_small(seen, small)
         seen.charts(1, grey=1)
+        seen.laid_out(".chart")
         box = seen.page.locator(".chart").bounding_box()
         left, right = (box["x"] + share * box["width"] for share in (0.3, 0.6))
         height = box["y"] + 150

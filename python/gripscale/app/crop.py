@@ -41,8 +41,7 @@ class RawSurface:
 
     async def update(self) -> None:
         """Read and draw the surface, if what it is read from has changed."""
-        keys = [self._state.get(("surface", name)) for name in READ_BY]
-        if keys == self._drawn:
+        if (keys := self._keys()) == self._drawn:
             return
         self._drawn = keys
         try:
@@ -61,6 +60,9 @@ class RawSurface:
         finally:
             self.body.loading = False
 
+    def _keys(self) -> list[Any]:
+        return [self._state.get(("surface", name)) for name in READ_BY]
+
     def _live(self, chart: Chart) -> pn.Column:
         """Return the chart, on which a selection is the new crop."""
         of_map = self._state.get(("surface", "map")) is not None
@@ -70,7 +72,7 @@ class RawSurface:
         figure.toolbar.active_drag = tool
 
         def select(event: SelectionGeometry) -> None:
-            if event.final:
+            if event.final and self._drawn == self._keys():  # a late drag is on another road
                 ends: Any = event.geometry
                 self._state.set(("surface", "crop"), _range(ends["x0"], ends["x1"]))
                 if of_map:
