@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis import compare_over
+from gripscale.analysis import case_sensitivity, compare_over
 from gripscale.analysis.comparison import reference
 from gripscale.case import CaseFile, read_case, record
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.experiment import Study
-from gripscale.experiment.inputs import rubber_note, surface_note, surface_of
+from gripscale.experiment.inputs import rubber_notes, surface_note, surface_of
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
 from gripscale.report import write_report
 from gripscale.report.answer import no_answer
@@ -285,5 +285,13 @@ def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Pa
     file = write(tmp_path)
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
     (tmp_path / "warm.txt").write_text(f"T = 40 °C\n{DMA}", encoding="utf-8")
-    assert "its moduli are assumed to be those at 20 °C" in rubber_note("other.txt", file)
-    assert rubber_note("warm.txt", file) == ""
+    assert "its moduli are assumed to be those at 20 °C" in rubber_notes(["other.txt"], file)[0]
+    assert rubber_notes(["warm.txt"], file) == ()
+
+
+def test_a_sensitivity_doubts_a_foreign_rubber_without_a_temperature(tmp_path: Path) -> None:
+    file = write(tmp_path)
+    (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
+    case_sensitivity(file, folder=tmp_path, vary={"rubber": ["case", "other.txt"]}, model="chain")
+    warnings = case_notices(None, InputRecord.of_file(tmp_path / "sensitivity.nc"))
+    assert warnings[0].text.startswith("other.txt: the file states no temperature")

@@ -40,7 +40,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import attributes
-from gripscale.experiment.inputs import contents, rubber_of, stated_by
+from gripscale.experiment.inputs import contents, rubber_notes, rubber_of, stated_by
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
 from gripscale.io import netcdf
@@ -143,7 +143,8 @@ def design_compound(
         replace(results.load, speed=goal.speed, pressure=goal.pressure)
         for goal in problem.friction.goals
     ]
-    groups = {"inputs": record.inputs(results, problem.roads.values(), goal_loads)}
+    of_compounds = rubber_notes((rubbers or {}).values(), file)
+    of_inputs = record.inputs(results, problem.roads.values(), goal_loads, of_compounds)
     points: list[xr.Dataset] = []
     for level in _order(wanted, problem):
         if _saturated(points, level):
@@ -153,7 +154,7 @@ def design_compound(
             point = _solved_point(problem, reference, level, points[-1:])
         points.append(point)
         data = _joined(base, points)
-        netcdf.save(data, target, groups)
+        netcdf.save(data, target, {"inputs": of_inputs})
         if on_point is not None:
             on_point(point)
     return data

@@ -42,7 +42,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.axis import axes_of
 from gripscale.experiment.design import CONVERGED, attributes, solve_design, surface_numbers
-from gripscale.experiment.inputs import NAMED_MODELS, conditions_of
+from gripscale.experiment.inputs import NAMED_MODELS, conditions_of, rubber_notes
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study, coordinates
 from gripscale.experiment.task import PREDICTIONS, Store, Task
@@ -314,7 +314,8 @@ def case_sensitivity(
     }
     data = data.assign_attrs(file.attributes, **attrs)
     loads = [point.task.load for point in study.points]
-    groups = {"inputs": record.inputs(prepared, study.surfaces, loads)}
+    of_rubbers = rubber_notes(axes.get("rubber", ()), file)
+    groups = {"inputs": record.inputs(prepared, study.surfaces, loads, of_rubbers)}
     return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
 
 

@@ -34,7 +34,7 @@ from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import Design, Point, attributes, solve_design
-from gripscale.experiment.inputs import rubber_note, rubber_of
+from gripscale.experiment.inputs import rubber_notes, rubber_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import PREDICTIONS, Store, Task
@@ -283,7 +283,7 @@ def compare_compounds(
     if temperature is None:
         temperature = file.case.conditions.temperature
     together, notes = at_one_temperature(compounds, temperature)
-    notes = (*filter(None, (rubber_note(value, file) for value in rubbers.values())), *notes)
+    notes = (*rubber_notes(rubbers.values(), file), *notes)
     vary = {"rubber": together}
     believed = Study(file, vary, static=False)
     best = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -95,11 +95,15 @@ def _is_named(path: Path, file: CaseFile) -> bool:
     return path.resolve() in {file.resolve(name) for name in file.case.surface.measured_files}
 
 
-def rubber_note(value: Any, file: CaseFile) -> str:
-    """Return that the file of a rubber states no temperature and takes that of the case, or none.
+def rubber_notes(values: Iterable[Any], file: CaseFile) -> tuple[str, ...]:
+    """Return a sentence for each rubber file without a temperature, which takes that of the case.
 
-    Raises `FileError` if `value` is no rubber that `rubber_of` takes, or cannot be read.
+    Raises `FileError` if a value is no rubber that `rubber_of` takes, or cannot be read.
     """
+    return tuple(filter(None, (_rubber_note(value, file) for value in values)))
+
+
+def _rubber_note(value: Any, file: CaseFile) -> str:
     if not isinstance(value, str | Path) or value in ("case", *NAMED_RUBBERS):
         return ""
     path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
@@ -108,7 +112,7 @@ def rubber_note(value: Any, file: CaseFile) -> str:
         return ""
     return (
         f"{value}: the file states no temperature; its moduli are assumed to be those at "
-        f"{kelvin - ZERO_CELSIUS:.4g} °C, the reference temperature of the case"
+        f"{kelvin - ZERO_CELSIUS:.4g} °C, the reference temperature of the case."
     )
 
 
