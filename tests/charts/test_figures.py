@@ -107,11 +107,11 @@ def test_contact_is_drawn_against_falling_wavelength_in_mm(
     figure = contact_figure({"dynamic": make_prediction(), "static": make_prediction(speed=0.0)})
     complete(figure)
     area, friction = figure.axes
-    x, y = curve(area, "dynamic, running")
+    x, y = curve(area, "dynamic, running total")
     np.testing.assert_allclose(x, [20.0, 5.0, 1.25])
     np.testing.assert_allclose(y, [0.5, 0.25, 0.125])
     np.testing.assert_allclose(curve(area, "static, each wave")[1], 0.5)
-    np.testing.assert_allclose(curve(friction, "dynamic, running")[1], [0.1, 0.2, 0.3])
+    np.testing.assert_allclose(curve(friction, "dynamic, running total")[1], [0.1, 0.2, 0.3])
     assert len(friction.lines) == 2  # nothing of the chain at rest
     low, high = area.get_ylim()
     assert 0.05 < low < 0.125  # the smallest number shown, with little below it
@@ -131,7 +131,7 @@ def test_the_judge_of_a_chain_is_a_level_line(make_prediction: Callable[..., xr.
 
 def test_failed_wave_is_not_drawn_as_a_result(make_prediction: Callable[..., xr.Dataset]) -> None:
     figure = contact_figure({"dynamic": make_prediction(status="iteration limit")})
-    for label in ("dynamic, running", "dynamic, each wave"):
+    for label in ("dynamic, running total", "dynamic, each wave"):
         assert np.isnan(curve(figure.axes[0], label)[1]).tolist() == [False, False, True]
 
 

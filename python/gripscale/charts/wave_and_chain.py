@@ -134,7 +134,7 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
     x, beyond = view.column("wavelength") / MILLI, style.waves_beyond(view.data)
     running, each = view.usable(f"running_{quantity}"), view.usable(quantity)
     yield Series(
-        x, running, colour, f"{view.name}, running", marker="o", beyond=style.down_to(beyond)
+        x, running, colour, f"{view.name}, running total", marker="o", beyond=style.down_to(beyond)
     )
     yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond, width=0.8,
                  filled=False)  # fmt: skip
