@@ -33,6 +33,11 @@ MORE = (
     ("keys", "load"),
     ("docs", "limits"),
 )
+BARE = (
+    ("init", "imitated", "--example", "sweeps"),
+    ("run", "imitated/case.toml"),
+)
+"""What the wheel does without any of its extras."""
 SOURCE_NEEDED = ("reproduce",)
 """What a wheel cannot do, and says so."""
 
@@ -50,6 +55,9 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         tool = _installed(wheel, arguments.python, folder / "environment")
+        for words in BARE:
+            _run(tool, folder, *words)
+        _install(tool.parent, f"{wheel}[report]")
         taken = [_run(tool, folder, *words) for words in START]
         for words in MORE:
             _run(tool, folder, *words)
@@ -72,8 +80,7 @@ def _installed(wheel: Path, python: str, place: Path) -> Path:
     """Return the command of an environment that holds the wheel and what it depends on."""
     subprocess.run([python, "-m", "venv", place], check=True)
     scripts = place / ("Scripts" if os.name == "nt" else "bin")
-    pip = [scripts / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, f"{wheel}[report]"], check=True)
+    _install(scripts, str(wheel))
     found = subprocess.run(
         [scripts / "python", "-c", "import gripscale; print(gripscale.__file__)"],
         env=_environment(),
@@ -85,6 +92,11 @@ def _installed(wheel: Path, python: str, place: Path) -> Path:
     if not Path(found).is_relative_to(place):
         sys.exit(f"gripscale comes from {found}, not from the wheel")
     return scripts / "gripscale"
+
+
+def _install(scripts: Path, what: str) -> None:
+    pip = [scripts / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, what], check=True)
 
 
 def _environment() -> dict[str, str]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gripscale.charts.colour_scales import SCALES
 from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
@@ -38,12 +39,12 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def shades(count: int, scale: str = "Viridis") -> list[str]:
-    """Return colours in order, from dark to light, of one of Bokeh's palettes of 256."""
-    from bokeh import palettes  # a quarter of a second, which few charts need
-
+    """Return colours in order, from dark to light, of one of `SCALES`."""
+    anchors = np.array([list(bytes.fromhex(colour)) for colour in SCALES[scale].split()])
     top = 0.88 if scale in ("Viridis", "Plasma") else 1.0  # their ends are too pale for lines
-    palette: tuple[str, ...] = getattr(palettes, f"{scale}256")
-    return [palette[round(255 * top * share)] for share in np.linspace(0.0, 1.0, max(count, 1))]
+    at = np.linspace(0.0, top, max(count, 1)) * (len(anchors) - 1)
+    parts = [np.interp(at, np.arange(len(anchors)), part).round() for part in anchors.T]
+    return [f"#{bytes(colour).hex()}" for colour in np.array(parts, dtype=np.uint8).T.tolist()]
 
 
 def colours(count: int, *, ordered: bool) -> list[str]:
