@@ -11,16 +11,7 @@ import pytest
 
 from gripscale.case import write_example
 
-EXTRAS = [
-    "bokeh",
-    "jinja2",
-    "panel",
-    "tomlkit",
-    "openpyxl",
-    "dask",
-    "distributed",
-    "SurfaceTopography",
-]
+EXTRAS = ("bokeh", "jinja2", "panel", "openpyxl", "dask", "distributed", "SurfaceTopography")
 WITHOUT = f"import sys\nsys.modules |= dict.fromkeys({EXTRAS})\n"
 
 

@@ -536,13 +536,16 @@ MOST_PRESSURE = 10.0
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
     """Raise `InputError` unless E(t) after `load_time` [s], infinite at rest, carries the pressure.
 
-    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact.
+    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact; no
+    sliding rubber is stiffer than E(0).
     """
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
     if pressure <= MOST_PRESSURE * modulus:
         return
     name, what, instead = f"the relaxation modulus after {load_time:.3g} s", "the rubber", ""
+    if load_time == 0.0:
+        name = "the modulus at the highest frequencies"
     if math.isinf(load_time):
         name, what = "equilibrium_modulus", "the rubber, a melt at rest,"
         instead = "; leave out the static contact, in a case by a speed and static = false"

@@ -195,7 +195,8 @@ def solve_scale(
     (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
 
     The `status` of the result is `converged`, or the reason not to use the numbers. Raises
-    `InputError` if a value is not a number or out of its range.
+    `InputError` if a value is not a number or out of its range, or the pressure is more than ten
+    times the modulus of the rubber: the equilibrium modulus at rest, else E(0).
 
     Parameters
     ----------
@@ -231,8 +232,8 @@ def solve_scale(
         Largest residual force over the applied force, and gap over the amplitude [-].
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
-    if problem.load.speed == 0.0:
-        require_load_bearing(rubber, problem.load.pressure, math.inf)
+    load = problem.load
+    require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
     block = FiniteStrainBlock.of(
         columns=columns,
         rows=rows,

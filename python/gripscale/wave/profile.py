@@ -64,8 +64,8 @@ def solve_profile(
     `gripscale.half_space.one_period`, with flanks no steeper than 4.
 
     Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
-    columns, or the rubber at rest is a melt: the pressure is more than ten times the equilibrium
-    modulus.
+    columns, or the pressure is more than ten times the modulus of the rubber: at rest the
+    equilibrium modulus, which a melt does not have, else that at the highest frequencies.
 
     Parameters
     ----------
@@ -136,8 +136,8 @@ def solve_profile(
     thorough = {"rescue_columns": COLUMNS[-1]}
     block = replace(block, settings={**block.settings, **thorough, **(settings or {})})
     problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
-    if problem.load.speed == 0.0:
-        require_load_bearing(rubber, problem.load.pressure, math.inf)
+    load = problem.load
+    require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
     result = block.solve(problem, start, workers=workers)
     in_contact = result.x[result.pressure > 0.0]
     further = {
