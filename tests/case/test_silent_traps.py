@@ -22,7 +22,7 @@ from gripscale.experiment import Study
 from gripscale.experiment.inputs import rubber_notes, surface_note, surface_of
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
 from gripscale.report import write_report
-from gripscale.report.answer import no_answer
+from gripscale.report.answer import answer_lines, no_answer
 from gripscale.report.notices import case_notices
 from gripscale.report.record import InputRecord
 from gripscale.surface import self_affine_profile
@@ -279,6 +279,15 @@ def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:
         "other.txt: read with scales, smallest_wavelength, spike_slope of the case, but not crop, "
         "which belongs to the road of the case"
     )
+
+
+def test_an_answer_ends_where_the_heights_do_whatever_the_cut_off(tmp_path: Path) -> None:
+    file = write(tmp_path, case=CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "0.02 mm"'))
+    results = prepare_case(file)
+    direct = reference(results, tmp_path)
+    assert "roughness down to 0.2 mm" in " ".join(answer_lines(direct))  # two steps
+    warnings = case_notices(direct, InputRecord(record.inputs(results)))
+    assert warnings[0].text.startswith("The cut-off of the case is 0.02 mm, but the heights hold")
 
 
 def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Path) -> None:

@@ -124,8 +124,8 @@ def test_warnings_stand_by_what_they_change() -> None:
     steep, octave, band, gaps = (warning.text for warning in warnings)
     assert steep.startswith("50 % of the friction comes from slopes above 1")
     assert octave == (
-        "With roughness down to 0.05 mm, half the cut-off, the friction changes by +41 % and the "
-        "contact area by -16 %."
+        "If the roughness goes on as over its last octave, down to 0.05 mm, half the cut-off, the "
+        "friction changes by +41 % and the contact area by -16 %; `gripscale cut-off` computes it."
     )
     assert band.startswith("25 % of the friction lies up to 2.3 decades above the measured band.")
     assert gaps == "6.0 % of the contact lies on filled gaps of the measurement."

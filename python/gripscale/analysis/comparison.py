@@ -52,7 +52,7 @@ from gripscale.experiment.task import Store, Task
 from gripscale.half_space.continued import DOWN_TO
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.location import PREFIX
-from gripscale.half_space.model import JUDGED_TO, DirectContact
+from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
 from gripscale.io import netcdf
 from gripscale.model import (
     STATUS,
@@ -465,7 +465,7 @@ def continued_factors(
     curve = results.continued[load]
     if curve[STATUS].item() != CONVERGED:
         raise InputError(f"roughness below the measurement has no result: {curve[STATUS].item()}")
-    return [continuation_factor(curve, results.surface.cutoff_wavelength)]
+    return [continuation_factor(curve, resolved_wavelength(results.surface))]
 
 
 def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
@@ -500,7 +500,8 @@ def reference_totals(
     )
     if results.continued:
         best[CONTINUED_TO] = results.file.case.below_measurement.down_to
-    best["cutoff_wavelength"] = xr.Variable((), results.surface.cutoff_wavelength, {"units": "m"})
+    end = resolved_wavelength(results.surface)
+    best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
     totals = answer(
         best,
         {f"total_{name}": value for name, value in means.items()},

@@ -20,6 +20,7 @@ from gripscale.experiment.axis import Axis
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.study import coordinates
 from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,
@@ -95,7 +96,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     best = best_estimate(samples, comparison.factors, upper_height=reach)
     for name, text in zip(SHARES, list(BASIS.values())[-2:], strict=True):
         add(f"best_{name}", best[f"best_{name}"], text)
-    cut_offs = [setup.surface.cutoff_wavelength for setup in setups]
+    cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
     for name, text in WORDS.items():
         values = reduce.usable(samples, name)

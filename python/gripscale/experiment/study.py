@@ -42,7 +42,7 @@ from gripscale.experiment.speed_and_temperature import (
 )
 from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
 from gripscale.half_space.line_to_map import upper_height_of
-from gripscale.half_space.model import JUDGED_TO
+from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
 from gripscale.io import netcdf
 from gripscale.model import BASIS, Model, input_doubts
 from gripscale.rubber import Rubber
@@ -330,7 +330,11 @@ class Study:
             if varied
             else ((), heights[0], attributes(text))
         }
-        cut_offs = {point.task.surface.cutoff_wavelength for point in self.points}
+        direct = isinstance(self.model, DirectContact)
+        cut_offs = {
+            resolved_wavelength(surface) if direct else surface.cutoff_wavelength
+            for surface in (point.task.surface for point in self.points)
+        }
         if len(cut_offs) == 1:
             text = "shortest wavelength of the roughness"
             numbers["cutoff_wavelength"] = ((), cut_offs.pop(), attributes(text, "m"))

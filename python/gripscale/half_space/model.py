@@ -49,6 +49,16 @@ def smallest_wavelength(surface: Surface, measured: Profile | HeightMap) -> floa
     return max(surface.cutoff_wavelength, 2.0 * float(np.max(measured.step)))
 
 
+def resolved_wavelength(surface: Surface) -> float:
+    """Return the shortest wave [m] that counts in all measurements of a surface.
+
+    A cut-off that was stated may be shorter; without a measurement it is what counts.
+    """
+    measured = () if surface.measured is None else surface.measured.surfaces
+    ends = [smallest_wavelength(surface, each) for each in measured]
+    return max(ends, default=surface.cutoff_wavelength)
+
+
 def _with_basis(
     answer: xr.Dataset, contacts: Sequence[RoughContact], lengths: Sequence[float], piece: float
 ) -> xr.Dataset:

@@ -127,7 +127,8 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
         half = in_mm(float(data.cutoff_wavelength) / model.OCTAVE, 3)
         yield Notice(
             "warning",
-            f"With roughness down to {half}, half the cut-off, {in_words(octave)}.",
+            f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "
+            f"{in_words(octave)}; `gripscale cut-off` computes it.",
             friction=octave.get("friction", math.nan),
             area=octave.get("contact_fraction", math.nan),
             doubt=Doubt.SURFACE,

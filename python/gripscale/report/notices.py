@@ -11,10 +11,11 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.analysis.cut_off_curve import CONTINUED_TO
 from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.provenance import versions
-from gripscale.core.units import MILLI
+from gripscale.core.units import MILLI, in_mm
 from gripscale.io.table import NONE, significant
 from gripscale.report.answer import (
     answer_cards,
@@ -289,11 +290,24 @@ def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> I
     if not record.number("cut_off_beyond_measurement") > 0.0:
         return
     limit, end = record.number("cut_off_carried_m"), record.number("cut_off_m")
-    lengths = (f"{number(length, MILLI)} mm" for length in (limit, end))
-    text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
     changed = {}
     if direct is not None and has_answer(direct):
+        held = float(direct.cutoff_wavelength)
+        if held > 1.01 * end and CONTINUED_TO not in direct:
+            yield Notice(
+                "warning",
+                f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
+                f"shorter than {in_mm(held, 3)}, two of their steps: `gripscale cut-off`, or "
+                "down_to in [below_measurement], continues the roughness.",
+                math.inf,
+                math.inf,
+            )
+        end = held
+        if not limit > 1.01 * end:
+            return
         changed = changes(direct, limit / end)
+    lengths = (f"{number(length, MILLI)} mm" for length in (limit, end))
+    text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
     yield Notice(
         "warning",
         f"{text}: without it {in_words(changed)}." if changed else f"{text}.",
