@@ -366,5 +366,5 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     words = " ".join(result.stdout.split())
     assert first in words
     assert second in words
-    assert f"{chain.friction / float(direct.friction.mean()):.2g} times its friction" in second
+    assert f"{chain.friction / float(direct.friction.mean()):.2g} times this friction" in second
     assert second in " ".join((tmp_path / "report.txt").read_text().split())

@@ -34,6 +34,7 @@ from gripscale.analysis.sources import Source
 from gripscale.analysis.variance_shares import shares
 from gripscale.case.results import CaseResults
 from gripscale.core.arrays import Array
+from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import TOTALS, Load, answer
 from gripscale.rubber.extrapolation import Extrapolation
 
@@ -155,10 +156,13 @@ def measured_answer(
 
 
 def _below_measurement(reference: xr.Dataset, results: CaseResults) -> dict[str, float]:
-    """Return the shortest wavelength that was measured [m], and how much friction is below it."""
+    """Return the shortest wavelength that was measured [m], and how much friction is below it.
+
+    Roughness that ends there has none: its shorter waves are those of the rubber at edges.
+    """
     correlation = results.surface.correlation
     limit = None if correlation is None else correlation.resolution_limit
-    if limit is None:
+    if limit is None or resolved_wavelength(results.surface) > 0.99 * limit:
         return {}
     above = float(running(reference, "friction", np.array([limit]))[0])
     total = float(usable(reference, "friction_from_dissipation").mean("sample"))

@@ -210,13 +210,20 @@ def solve_rough_contact(
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
 
 
+LEAST_TOLERANCE = 1e-5
+"""Relative error that is still above the rounding of single precision."""
+
+
 def relative_tolerance(name: str, value: float | None) -> float | None:
-    """Return a relative tolerance, or None; raise `InputError` unless it is between 0 and 1."""
+    """Return a relative tolerance, or None; raise `InputError` unless it can be reached."""
     if value is None:
         return None
     tolerance = checks.positive(name, value)
-    if tolerance >= 1.0:
-        raise InputError(f"{name} must be below 1, being a relative error; got {tolerance:g}")
+    if not LEAST_TOLERANCE <= tolerance < 1.0:
+        raise InputError(
+            f"{name} must be from {LEAST_TOLERANCE:g} to below 1, being a relative error; "
+            f"got {tolerance:g}"
+        )
     return tolerance
 
 

@@ -197,9 +197,9 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
     if not chain.complete:
         return
-    against = f"{chain.total('contact_fraction') / area:.2g} times its contact area"
+    against = f"{chain.total('contact_fraction') / area:.2g} times this contact area"
     if chain.moving:
-        against += f" and {chain.total('friction') / friction:.2g} times its friction"
+        against += f" and {chain.total('friction') / friction:.2g} times this friction"
     yield f"The chain has {against}; `gripscale compare` shows the cost of each assumption."
 
 

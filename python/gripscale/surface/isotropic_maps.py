@@ -154,6 +154,7 @@ def isotropic_maps(
 
 def seed_numbers(seeds: Iterable[int]) -> list[int]:
     """Return seeds as a list; raise `InputError` unless they are whole numbers, one at least."""
-    if not isinstance(seeds, Iterable) or isinstance(seeds, str | bytes):
+    single = isinstance(seeds, np.ndarray) and not seeds.ndim
+    if single or not isinstance(seeds, Iterable) or isinstance(seeds, str | bytes):
         raise InputError(f"seeds must be a list of whole numbers; got {checks.short_repr(seeds)}")
     return [checks.whole("seeds", seed, least=0, most=2**32 - 1) for seed in seeds]
