@@ -88,7 +88,7 @@ class IsotropicSurface:
     """The factor from measured lines to the isotropic surface they lie on."""
 
     name: ClassVar[str] = "isotropic_surface"
-    label: ClassVar[str] = "isotropic surface over its lines"
+    label: ClassVar[str] = "step from lines to a surface"
 
     upper_height: float
     """Of the lines, see `gripscale.half_space.line_to_map`."""

@@ -257,13 +257,13 @@ def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
         "the direct contact of the measured surface" if is_measured(data) else "the chain of waves"
     )
     for at, label in enumerate(data.factor_label.values):
-        values = [float(data[f"best_{name}_factor"][at]) for name in names]
-        if not all(map(math.isfinite, values)):
+        values = {name: float(data[f"best_{name}_factor"][at]) for name in names}
+        if not all(map(math.isfinite, values.values())):
             continue
         sigma = float(data[f"best_{names[0]}_factor_uncertainty"][at])
-        assumed = np.allclose(values, 1.0)
-        numbers = f"± {percent(sigma)}" if assumed else ", ".join(map(significant, values))
-        yield f"{label} ({numbers})"
+        numbers = ", ".join(f"{SYMBOLS[name]} × {significant(v)}" for name, v in values.items())
+        assumed = np.allclose(list(values.values()), 1.0)
+        yield f"{label} ({f'1 ± {percent(sigma)}' if assumed else numbers})"
 
 
 def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:

@@ -167,10 +167,10 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
         for name in reversed(SYMBOLS):
             values = data[f"best_{name}_factor"].isel(factor=at).values
             low, high = (significant(float(pick(values))) for pick in (np.nanmin, np.nanmax))
-            ranges.append(low if low == high else f"{low} to {high}")
+            ranges.append(f"{SYMBOLS[name]} × {low if low == high else f'{low} to {high}'}")
         error = data["best_friction_factor_uncertainty"].isel(factor=at)
-        same = set(ranges) == {significant(1.0)}
-        yield f"{label} ({f'± {percent(float(error.max()))}' if same else ', '.join(ranges)})"
+        same = all(text.endswith(f"× {significant(1.0)}") for text in ranges)
+        yield f"{label} ({f'1 ± {percent(float(error.max()))}' if same else ', '.join(ranges)})"
 
 
 def _rests_on(data: xr.Dataset) -> Iterator[str]:
