@@ -18,7 +18,6 @@ from gripscale.analysis.propagation import (
     LEVELS,
     QUANTITIES,
     of_same_inputs,
-    summary,
 )
 from gripscale.analysis.sampled_answer import NOT_ALONE, ROAD, RUN
 from gripscale.analysis.sources import LABELS, STATED
@@ -78,8 +77,6 @@ def uncertainty_parts(data: xr.Dataset) -> Iterator[str | Table]:
     yield from answer_parts(data)
     yield from part_tables(data)
     yield quantile_table(data)
-    if not axis_of(data):
-        yield f"{summary(data)}."
     yield from share_parts(data)
     yield from warning_sentences(data)
 
@@ -235,7 +232,7 @@ def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
             without_shares.append(title)
     if without_shares:
         where = "; ".join(without_shares)
-        yield f"Too few samples, or no friction, to find what matters most: {where}."
+        yield f"Too few samples, or no friction, to tell what single inputs add: {where}."
 
 
 def warning_sentences(data: xr.Dataset) -> Iterator[str]:
@@ -269,7 +266,9 @@ def quantile_table(data: xr.Dataset) -> Table:
         Column("samples", [part.sizes["sample"] for _, part, _ in rows], format="{:.0f}".format),
         Column("failed", [int(part.failed) for _, part, _ in rows], format="{:.0f}".format),
     ]
-    return Table("quantiles", columns, "Quantiles of the samples", keys=2)
+    return Table(
+        "quantiles", columns, "Quantiles of the samples, without the factors of the answer", keys=2
+    )
 
 
 def share_table(part: xr.Dataset, title: str) -> Table:
@@ -472,9 +471,12 @@ def page_sections(data: xr.Dataset) -> list[Section]:
     first, *others = map(image, uncertainty_pictures(data))
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
-    samples: list[str | Table] = [UNCERTAINTY, quantile_table(data)]
-    samples += [] if axis else [f"{summary(data)}."]
-    samples += [*grid_sentences(data), *left_out_sentences(data)]
+    samples: list[str | Table] = [
+        UNCERTAINTY,
+        quantile_table(data),
+        *grid_sentences(data),
+        *left_out_sentences(data),
+    ]
     return [
         Section(
             "answer",
