@@ -34,7 +34,7 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         answers.append(f"friction {_gain(same)} {_at_rolling(same)}")
     if math.isfinite(least):
         answers.append(f"rolling resistance {_percent(least - 1.0)} at the same friction")
-    elif float(data.gain[0]) >= 0.0:
+    elif float(data.gain[0]) >= 0.0 and (same is None or data.sizes["point"] > 1):
         lowest = data.isel(point=0)
         answers.append(
             f"rolling resistance {_percent(float(lowest.rolling_ratio) - 1.0)} still with "

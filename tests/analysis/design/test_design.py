@@ -162,6 +162,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
     assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
     lines = list(design_lines(worst))
     assert "with rolling resistance -20 %" in lines[0]
+    assert "still with friction" not in lines[0]  # the only point is not said twice
     assert "more rolling resistance than -20 % gives no more friction" in lines[1]
     monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
     again = design_compound(case, tmp_path, levels=LEVELS)
