@@ -23,7 +23,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.compound_gain import gain, series_derivatives, series_error
-from gripscale.analysis.compound_limits import CompoundLimits, changed
+from gripscale.analysis.compound_limits import CompoundLimits, changed, require_shift
 from gripscale.analysis.compound_search import (
     DesignProblem,
     best_change,
@@ -253,7 +253,12 @@ def _compounds(
         contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
         result = gain(friction, reference.contacts, contacts)
         low, high = result.interval
-        rolling = problem.rolling_ratio(rubber)
+        rolling = math.nan
+        try:
+            require_shift(rubber, problem.rolling.temperature, f"the rolling resistance of {name}")
+            rolling = problem.rolling_ratio(rubber)
+        except InputError as why:
+            notes = (*notes, f"not known: {why}")
         values = {
             "compound_gain": (math.expm1(result.log_ratio), "gain of friction over today's"),
             "compound_gain_low": (low, "lower end of its interval"),

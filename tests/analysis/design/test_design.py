@@ -37,6 +37,7 @@ from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.report import write_report
 from gripscale.report.design import design_cards, design_lines
+from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road
 
@@ -188,6 +189,13 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
     assert result.exit_code == 0, result.output
     written = " ".join((tmp_path / "out" / "design.txt").read_text(encoding="utf-8").split())
     assert "tan δ at 10 Hz and 40 °C (the shift ends there, not at 60 °C)" in written
+
+    short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
+    others = {"short": replace(SHIFTED_RUBBER, shift=short)}
+    data = design_compound(tmp_path / "case.toml", tmp_path, levels=[1.0], rubbers=others)
+    assert np.isfinite(data.compound_gain).all()
+    assert np.isnan(data.compound_rolling_ratio).all()
+    assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
 
 
 @pytest.mark.parametrize("which", [0, 1, 2], ids=["factor", "per decade", "E'"])
