@@ -9,10 +9,17 @@ import pytest
 
 import gripscale as gs
 from gripscale.analysis import Compounds, at_one_temperature, compare_compounds
+from gripscale.charts.side_by_side import compound_friction_figure
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
+from gripscale.io.table import significant
 from gripscale.report import write_report
-from gripscale.report.side_by_side import compounds_sentences, ratio_lines
+from gripscale.report.side_by_side import (
+    CHAIN_RANKS_NOTHING,
+    compounds_sentences,
+    ratio_lines,
+    totals_table,
+)
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 from tests.samples import HALF_PLANE, case_text, write_road
 
@@ -150,6 +157,17 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     first, basis = ratio_lines(data, "rubber")
     assert first.startswith("Answer: lossy grips more than one: friction × ")
     assert "direct contact of the measured surface, the same for all" in basis
+    *said, last = compounds_sentences(data)
+    assert [text.startswith("chain: μ of lossy is ") for text in said] == [True]
+    assert "leave open" not in said[0]
+    assert last == CHAIN_RANKS_NOTHING
+    headings = [column.heading for column in totals_table(data, "rubber", "compound").columns]
+    assert headings[-2] == "difference of μ from the first"
+    ranking, chain, _ = compound_friction_figure(data).axes
+    assert ranking.get_title() == "direct contact: the ranking"
+    assert chain.get_title() == "chain, less reliable"
+    best = [text.get_text() for text in ranking.get_xticklabels()]
+    assert best == [significant(mu, 2) for mu in data.best_friction.values]
     page = write_report(tmp_path / "out").read_text()
     assert page.index("μ of lossy") < page.index("Best estimates, from the direct contact")
 

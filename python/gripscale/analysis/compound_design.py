@@ -4,8 +4,9 @@ A point of the trade-off curve is the admissible compound with the most friction
 (`compound_search`) whose tan(delta) at the rolling condition is at most `level` times today's. The
 levels rise, and each is sought from today's compound and from the point before, which it admits
 too: ln mu need not be concave, and the better of the two ends counts. Friction and gain of a point
-are those of contacts solved anew, to the tolerance of a comparison (`compound_gain`). The result is
-written after each point.
+are those of contacts solved anew, to the tolerance of a comparison (`compound_gain`). A level
+without more friction than the one below is no point: the compound below is admissible there, too.
+The result is written after each point.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.compound_gain import gain, series_derivatives, series_error
-from gripscale.analysis.compound_limits import CompoundLimits, changed
+from gripscale.analysis.compound_limits import CompoundLimits, changed, require_shift
 from gripscale.analysis.compound_search import (
     DesignProblem,
     best_change,
@@ -48,6 +49,9 @@ from gripscale.io import netcdf
 RESULT = "design.nc"
 TOLERANCE = 0.05
 """Estimated relative error of the contacts whose friction is stated, as in comparisons."""
+
+FRUITLESS = "levels_without_more_friction"
+"""Attribute of a design: levels that are left out because a lower one has as much friction."""
 
 OnPoint = Callable[[xr.Dataset], object]
 
@@ -100,7 +104,7 @@ def design_compound(
     levels : sequence of float, optional
         Largest loss factors at the rolling condition over today's [-]; by default today's, four
         down to the least that the limits admit, and 1.15 and 1.3. Those below the least are left
-        out, and those above a level that no longer limits the friction.
+        out, and those that give no more friction than a lower one.
     rubbers : mapping, optional
         Other compounds by what they are called, as for `compare_compounds`.
     workers : int, optional
@@ -128,7 +132,7 @@ def design_compound(
     key = _key(file, problem, wanted, rubbers or {})
     target = Path(folder) / RESULT
     folders.make(target.parent)
-    stored = _stored_points(target, key)
+    stored, fruitless = _stored_points(target, key)
     reference = Reference.of(problem.friction)
     base = today(problem, reference.contacts, TOLERANCE).assign_attrs(
         file.attributes,
@@ -146,25 +150,25 @@ def design_compound(
     of_compounds = rubber_notes((rubbers or {}).values(), file)
     of_inputs = record.inputs(results, problem.roads.values(), goal_loads, of_compounds)
     points: list[xr.Dataset] = []
-    for level in _order(wanted, problem):
-        if _saturated(points, level):
+    rising = _order(wanted, problem)
+    for level in rising:
+        if level in fruitless:
             continue
         point = stored.get(level)
         if point is None:
             point = _solved_point(problem, reference, level, points[-1:])
-        points.append(point)
-        data = _joined(base, points)
+        rises = not points or float(point.gain) > float(points[-1].gain)
+        if rises:
+            points.append(point)
+        else:
+            fruitless.add(level)
+        if not bool(point.rolling_reached):
+            fruitless |= {higher for higher in rising if higher > level}
+        data = _joined(base, points).assign_attrs({FRUITLESS: json.dumps(sorted(fruitless))})
         netcdf.save(data, target, {"inputs": of_inputs})
-        if on_point is not None:
+        if rises and on_point is not None:
             on_point(point)
     return data
-
-
-def _saturated(points: Sequence[xr.Dataset], level: float) -> bool:
-    """Return whether a lower level does not limit the friction any more."""
-    return any(
-        float(point.rolling_level) < level and not bool(point.rolling_reached) for point in points
-    )
 
 
 def _solved_point(
@@ -249,7 +253,12 @@ def _compounds(
         contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
         result = gain(friction, reference.contacts, contacts)
         low, high = result.interval
-        rolling = problem.rolling_ratio(rubber)
+        rolling = math.nan
+        try:
+            require_shift(rubber, problem.rolling.temperature, f"the rolling resistance of {name}")
+            rolling = problem.rolling_ratio(rubber)
+        except InputError as why:
+            notes = (*notes, f"not known: {why}")
         values = {
             "compound_gain": (math.expm1(result.log_ratio), "gain of friction over today's"),
             "compound_gain_low": (low, "lower end of its interval"),
@@ -285,17 +294,18 @@ def _key(
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]
 
 
-def _stored_points(target: Path, key: str) -> dict[float, xr.Dataset]:
-    """Return the points of an earlier run of the same design, by their level."""
+def _stored_points(target: Path, key: str) -> tuple[dict[float, xr.Dataset], set[float]]:
+    """Return the points of an earlier run of the same design by level, and levels without one."""
     stored = load_stored(target)
     if stored is None or stored.attrs.get("design_key") != key:
-        return {}
+        return {}, set()
     names = [name for name, variable in stored.data_vars.items() if "point" in variable.dims]
     points = stored[names].drop_vars(list(stored.coords))
-    return {
+    by_level = {
         float(level): points.isel(point=at)
         for at, level in enumerate(stored.rolling_level.values.tolist())
     }
+    return by_level, set(json.loads(stored.attrs[FRUITLESS]))
 
 
 def _order(levels: Sequence[float], problem: DesignProblem) -> list[float]:

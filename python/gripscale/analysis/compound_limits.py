@@ -33,6 +33,7 @@ from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import loss_shape, storage_shape
+from gripscale.rubber.shift import EDGE
 
 QUANTITIES = ("storage_modulus", "loss_factor")
 HANDLING = ZERO_CELSIUS + 20.0
@@ -54,6 +55,8 @@ class PointLimit(Checked):
         Frequency [Hz].
     temperature : float, optional
         Temperature [K]; by default that of the measurement.
+    wanted : float, optional
+        Temperature in whose place `temperature` stands because the shift ends there [K].
     """
 
     quantity: str = checked(checks.one_of, choices=QUANTITIES)
@@ -61,6 +64,7 @@ class PointLimit(Checked):
     high: float = checked(checks.positive, infinite=True)
     frequency: float = checked(checks.positive, unit="Hz", default=10.0)
     temperature: float | None = checked(checks.positive, unit="K", default=None)
+    wanted: float | None = checked(checks.positive, unit="K", default=None)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -70,9 +74,27 @@ class PointLimit(Checked):
     @property
     def condition(self) -> str:
         """Frequency and temperature in words."""
-        kelvin = self.temperature
-        where = "the temperature measured" if kelvin is None else f"{kelvin - ZERO_CELSIUS:.3g} °C"
+        where = (
+            "the temperature measured" if self.temperature is None else celsius(self.temperature)
+        )
+        if self.wanted is not None:
+            where += f" (the shift ends there, not at {celsius(self.wanted)})"
         return f"{self.frequency:g} Hz and {where}"
+
+    def within_shift(self, rubber: Rubber) -> PointLimit:
+        """Return the limit at the nearest temperature to which the rubber can be shifted.
+
+        Raises `InputError` if it is at another temperature than that of a rubber without a shift.
+        """
+        kelvin = self.temperature
+        if kelvin is None or rubber.shift is None:
+            require_shift(rubber, kelvin, f"the limit on the {self.quantity}")
+            return self
+        low, high = rubber.shift.limits
+        reached = min(max(kelvin, low), high)
+        if abs(reached - kelvin) <= EDGE:
+            return self
+        return replace(self, temperature=reached, wanted=kelvin)
 
     def __str__(self) -> str:
         symbol = "E'" if self.quantity == "storage_modulus" else "tan δ"
@@ -105,9 +127,23 @@ class CompoundLimits(Checked):
     points: tuple[PointLimit, ...] | None = None
 
 
+def celsius(kelvin: float) -> str:
+    """Return a temperature [K] in degrees Celsius."""
+    return f"{kelvin - ZERO_CELSIUS:z.3g} °C"
+
+
 def require_shift(rubber: Rubber, kelvin: float | None, what: str) -> None:
     """Raise `InputError` if the rubber cannot be had at a temperature [K] for `what`."""
-    if kelvin is None or rubber.shift is not None:
+    if kelvin is None:
+        return
+    if rubber.shift is not None:
+        low, high = rubber.shift.limits
+        if not low - EDGE <= kelvin <= high + EDGE:
+            raise InputError(
+                f"{what} must be at {celsius(low)} to {celsius(high)}, between the ends of the "
+                f"shift of {rubber.name or 'this rubber'}; got {celsius(kelvin)}: measure sweeps "
+                'up to there, or state shift = { kind = "wlf", ... } in [rubber]'
+            )
         return
     measured = rubber.reference_temperature
     if measured is not None and math.isclose(measured, kelvin, abs_tol=0.5):
@@ -173,15 +209,16 @@ class AdmissibleChanges:
     ) -> AdmissibleChanges:
         """Return the changes within `limits` and `further` limits on moduli.
 
-        Raises `InputError` if one is at a temperature that the rubber has no shift to.
+        Each is at the nearest temperature that the shift reaches. Raises `InputError` if one is at
+        another temperature than that of a rubber without a shift.
         """
         points = limits.points
         if points is None:
             kelvin = None if rubber.shift is None else HANDLING
             points = (PointLimit("storage_modulus", 0.9, 1.1, temperature=kelvin),)
-        for point in (*points, *further):
-            require_shift(rubber, point.temperature, f"the limit on the {point.quantity}")
-        return cls(rubber, limits, (*points, *further))
+        return cls(
+            rubber, limits, tuple(point.within_shift(rubber) for point in (*points, *further))
+        )
 
     @property
     def bounds(self) -> tuple[float, float]:

@@ -14,7 +14,7 @@ quadratic programming goes on (scipy's SLSQP; D. Kraft, DFVLR-FB 88-28 (1988)).
 
 A corner also changes moduli that hardly matter on the road. The design is therefore the change
 nearest to today's compound, with the least sum of ln(r_i)^2, among those that give away 0.1 % of
-the friction of the optimum to first order.
+the friction of the optimum to first order; where it gives away more, it moves back.
 """
 
 from __future__ import annotations
@@ -53,6 +53,7 @@ ROUNDING = 1e-6
 PRECISION = 1e-5
 """Change of ln mu at which quadratic programming ends."""
 MOST_STEPS = 100
+MOST_HALVINGS = 6
 GIVEN_AWAY = 1e-3
 """Part of ln mu that a design gives away to stay near today's compound."""
 ROLLING = ZERO_CELSIUS + 60.0
@@ -91,9 +92,7 @@ class DesignProblem:
 
     def admissible(self, level: float = math.inf) -> AdmissibleChanges:
         """Return the changes with a rolling loss factor of at most `level` times today's."""
-        rolling = PointLimit(
-            "loss_factor", 0.0, level, self.rolling.frequency, self.rolling.temperature
-        )
+        rolling = replace(self.rolling, high=level)
         return AdmissibleChanges.of(self.rubber, self.limits, [rolling])
 
     def rolling_loss_factor(self, rubber: Rubber) -> float:
@@ -165,7 +164,8 @@ def best_change(friction: GoalFriction, admissible: AdmissibleChanges, start: Ar
     optimum = _corner_steps(friction, admissible, start)
     if optimum.gap > LEAST_GAP:
         inside = _quadratic_steps(friction, admissible, optimum.ratio)
-        optimum = _corner_steps(friction, admissible, inside)
+        further = _corner_steps(friction, admissible, inside)
+        optimum = max(optimum, further, key=lambda end: end.log_friction)
     return optimum
 
 
@@ -174,7 +174,8 @@ def nearest_design(
 ) -> Optimum:
     """Return the change nearest to today's with almost the friction of the optimum.
 
-    Its gap is what it gives away, and that of the optimum.
+    Friction falls faster than to first order away from the optimum: the step is halved until it
+    does not give away more than it may. The gap is what is given away, and that of the optimum.
     """
     from scipy.optimize import minimize
 
@@ -191,8 +192,12 @@ def nearest_design(
     ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
     if admissible.violation(ratio) > ROUNDING:
         return optimum
-    value, slope = friction.log_friction(ratio)
-    return Optimum(ratio, value, slope, optimum.log_friction - value + optimum.gap)
+    for _ in range(MOST_HALVINGS):
+        value, slope = friction.log_friction(ratio)
+        if value >= optimum.log_friction - GIVEN_AWAY - PRECISION:
+            return Optimum(ratio, value, slope, optimum.log_friction - value + optimum.gap)
+        ratio = 0.5 * (ratio + optimum.ratio)
+    return optimum
 
 
 def _programme(
@@ -275,4 +280,4 @@ def design_problem(
     rolling = PointLimit(
         "loss_factor", 0.0, 1.0, FREQUENCY, None if rubber.shift is None else ROLLING
     )
-    return DesignProblem(friction, limits or CompoundLimits(), rolling, roads)
+    return DesignProblem(friction, limits or CompoundLimits(), rolling.within_shift(rubber), roads)

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 PERCENT = 100.0
 SAME = 5e-3
 """Relative difference of rolling resistances that is none."""
-FREQUENCY = Axis("frequency [Hz]", log=True)
-POINT_COLOURS = (BLUE, GREEN, ORANGE)
-"""Of the drawn points, by rising rolling resistance."""
+FREQUENCY = Axis("frequency [Hz]", log=True, numbers=5)
+APART = 0.05
+"""Difference of rolling resistances over today's from which both curves can be told apart."""
 COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
 
 
@@ -55,14 +55,16 @@ def design_figure(data: xr.Dataset) -> Figure:
 
 
 def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:
-    """Return number, colour and label of the points drawn: today's rolling resistance and ends."""
+    """Return number, colour and label of the points drawn: the answer, and ends apart from it."""
     ratio = data.rolling_ratio.values
     last = data.sizes["point"] - 1
-    same = int(np.abs(ratio - 1.0).argmin())
-    chosen = sorted({0, same, last})
-    colours = POINT_COLOURS if len(chosen) == 3 else POINT_COLOURS[1:]
+    same = at_todays_rolling(data)
+    answer = last if same is None else int(np.abs(ratio - float(same.rolling_ratio)).argmin())
+    colours = {0: BLUE, last: ORANGE, answer: GREEN}
     return [
-        (at, colour, _label(float(ratio[at]))) for at, colour in zip(chosen, colours, strict=False)
+        (at, colours[at], _label(float(ratio[at])))
+        for at in sorted(colours)
+        if at == answer or abs(ratio[at] - ratio[answer]) > APART
     ]
 
 

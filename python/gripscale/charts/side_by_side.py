@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from gripscale.charts.rubber import compound_moduli_figure
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
+from gripscale.io.table import significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 
 LEAST_MODULUS_SHARE = 0.005
 """Of the largest difference: decades at either end with less are not drawn."""
+MOST_TICKS = 4
 CUBIC_MM = 1e-9
 LEAST_POWER_SHARE = 0.02
 """Share of the largest friction of an octave from which one is drawn."""
@@ -37,9 +40,12 @@ def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterat
         yield Picture(
             "compound_friction",
             compound_friction_figure(data),
-            "Friction of all waves down to each wavelength; bars are the ranges of the totals. "
-            "Other panel: difference to the first compound by relaxation time.",
-            "A curve for each compound, rising towards short waves, and bars of differences.",
+            "Where the road was measured, friction of the direct contact over that of the first "
+            "compound with its 90 % interval, which ranks the compounds, and μ below it. Of the "
+            "chain, less reliable: friction of all waves down to each wavelength, where bars are "
+            "the ranges of the totals, and the difference from the first by relaxation time.",
+            "A point with an interval and a curve for each compound, rising towards short waves, "
+            "and bars of differences.",
         )
     if rubbers:
         yield Picture(
@@ -68,25 +74,52 @@ def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 
 def compound_friction_figure(data: xr.Dataset) -> Figure:
-    """Draw the friction of all waves down to each, and the differences by relaxation time.
+    """Draw the ranking, friction of all waves down to each, and differences by relaxation time.
 
-    `data` is that of `gripscale.analysis.Compounds`.
+    `data` is that of `gripscale.analysis.Compounds`. Waves and relaxation times are of the chain.
     """
+    ranked = "best_friction" in data
+    chain = "chain, less reliable" if ranked else "chain"
     marks: list[Mark] = []
     for name, colour in zip(data.rubber.values.tolist(), COLOURS, strict=False):
         compound = data.sel(rubber=name)
         wavelength = compound.wavelength.values / MILLI
         marks += _running(wavelength, compound, colour, name, float(wavelength[-1]))
-    panels = [
+    panels = [_ranking_panel(data)] if ranked else []
+    panels.append(
         Panel(
             chart.wavelength_axis(data.wavelength.values / MILLI),
             Axis("$\\mu$ of this and larger waves [-]", low=0.0),
             marks,
+            title=chain,
         )
-    ]
+    )
     if "friction_by_decade_difference" in data:
-        panels.append(_decades_panel(data))
+        panels.append(replace(_decades_panel(data), title=chain))
     return draw.on_paper(Sheet(panels, len(panels)))
+
+
+def _ranking_panel(data: xr.Dataset) -> Panel:
+    """Return the best friction of each compound over that of the first, with its interval."""
+    marks: list[Mark] = [CrossLine(1.0, width=0.7)]
+    names = data.rubber.values.tolist()
+    for at, (name, colour) in enumerate(zip(names, COLOURS, strict=False)):
+        compound = data.isel(rubber=at)
+        ratio = float(compound.friction_ratio)
+        low, high = (
+            [float(compound.get(f"friction_ratio_{end}", math.nan))] for end in ("low", "high")
+        )
+        marks.append(
+            Series([at], [ratio], colour, name, "", marker="o", size=6.0, low=low, high=high,
+                   listed=False)
+        )  # fmt: skip
+    best = {float(at): significant(mu, 2) for at, mu in enumerate(data.best_friction.values)}
+    return Panel(
+        Axis("$\\mu$, best estimate [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
+        Axis("$\\mu$ over that of the first [-]", margin=0.1),
+        marks,
+        title="direct contact: the ranking",
+    )
 
 
 def _running(x: Array, data: xr.Dataset, colour: str, label: str, end: float) -> list[Mark]:
@@ -101,7 +134,7 @@ def _running(x: Array, data: xr.Dataset, colour: str, label: str, end: float) ->
 
 def _decades_panel(data: xr.Dataset) -> Panel:
     """Return the difference of each compound to the first by decade of relaxation time."""
-    first, *names = data.rubber.values.tolist()
+    names = data.rubber.values.tolist()[1:]
     differences = data.friction_by_decade_difference.transpose("rubber", "decade").fillna(0.0)
     largest = np.abs(differences.values).max(axis=0)
     seen = np.flatnonzero(largest >= LEAST_MODULUS_SHARE * largest.max(initial=0.0))
@@ -114,7 +147,7 @@ def _decades_panel(data: xr.Dataset) -> Panel:
              COLOURS[(i + 1) % len(COLOURS)])
         for i, name in enumerate(names)
     ]  # fmt: skip
-    step = max(1, math.ceil(start.size / 8))
+    step = max(1, math.ceil(start.size / MOST_TICKS))
     ticks = {
         float(i): power_of_ten(round(math.log10(time)))
         for i, time in enumerate(differences.decade.values)
@@ -122,7 +155,7 @@ def _decades_panel(data: xr.Dataset) -> Panel:
     }
     return Panel(
         Axis("relaxation time from [s]", ticks=ticks),
-        Axis(f"$\\mu$ less that of {first} [-]"),
+        Axis("difference of $\\mu$ from the first [-]"),
         [*marks, CrossLine(0.0, width=0.7)],
     )
 

@@ -305,7 +305,10 @@ def compare_rubbers(
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     file = read_case(chosen)
-    opening = "The compounds; then, for what their measurements leave open, half-planes."
+    opening = (
+        "Each compound is predicted first; then the range that the error of its measured moduli "
+        "leaves, on half-planes."
+    )
     console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
     compounds = compare_compounds(
         file,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
 
+from gripscale.analysis.compound_design import FRUITLESS
 from gripscale.analysis.compound_search import ROLLING_LEVEL
 from gripscale.analysis.design_text import (
     WORTH_SAYING,
@@ -15,6 +17,7 @@ from gripscale.analysis.design_text import (
     changed_frequencies,
     rolling_at_todays_friction,
 )
+from gripscale.charts.design import SAME
 from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.report.elements import Card
 
@@ -28,10 +31,10 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
     same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
     answers = []
     if same is not None:
-        answers.append(f"friction {_gain(same)} at the same rolling resistance")
+        answers.append(f"friction {_gain(same)} {_at_rolling(same)}")
     if math.isfinite(least):
         answers.append(f"rolling resistance {_percent(least - 1.0)} at the same friction")
-    elif float(data.gain[0]) >= 0.0:
+    elif float(data.gain[0]) >= 0.0 and (same is None or data.sizes["point"] > 1):
         lowest = data.isel(point=0)
         answers.append(
             f"rolling resistance {_percent(float(lowest.rolling_ratio) - 1.0)} still with "
@@ -41,6 +44,9 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
     decided = "the limits decide" if _decide(chosen) else "the limits do not decide"
     answer = "; or ".join(answers) or "no more friction for less rolling resistance"
     yield f"Answer: {answer}; {decided}"
+    if json.loads(data.attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
+        last = _percent(float(data.rolling_ratio[-1]) - 1.0)
+        yield f"  more rolling resistance than {last} gives no more friction"
     for goal in data.goal.values.tolist():
         today = float(data.today_friction.sel(goal=goal))
         design = float(chosen.friction.sel(goal=goal))
@@ -68,7 +74,7 @@ def design_cards(data: xr.Dataset) -> Iterator[Card]:
     same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
     if same is not None:
         low, high = _percent(float(same.gain_low)), _percent(float(same.gain_high))
-        detail = f"at the same rolling resistance; {low} to {high} (90 %)"
+        detail = f"{_at_rolling(same)}; {low} to {high} (90 %)"
         yield Card("Friction", _percent(float(same.gain)), detail)
     if math.isfinite(least):
         yield Card("Rolling resistance", _percent(least - 1.0), "at the same friction")
@@ -78,6 +84,14 @@ def _gain(point: xr.Dataset) -> str:
     low, high = float(point.gain_low), float(point.gain_high)
     interval = f" ({_percent(low)} to {_percent(high)})" if math.isfinite(low) else ""
     return f"{_percent(float(point.gain))}{interval}"
+
+
+def _at_rolling(point: xr.Dataset) -> str:
+    """Return the rolling resistance of a point in words."""
+    change = float(point.rolling_ratio) - 1.0
+    if abs(change) < SAME:
+        return "at the same rolling resistance"
+    return f"with rolling resistance {_percent(change)}"
 
 
 def _percent(value: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.analysis.rubber_comparison import TEMPERATURE
+from gripscale.chain.chain import Chain
 from gripscale.charts.style import power_of_ten
 from gripscale.charts.view import CONVERGED, SYMBOLS
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
@@ -21,6 +22,10 @@ from gripscale.report.inputs import texture_table
 from gripscale.report.notices import Failure
 
 RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
+CHAIN_RANKS_NOTHING = (
+    "The chain solves the sine waves of the road one by one and leaves out how they meet in the "
+    "contact: it says where a difference may come from, and the direct contact, above, ranks."
+)
 QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
 
 
@@ -84,7 +89,7 @@ def totals_table(data: xr.Dataset, dim: str, heading: str, model: str = "") -> T
     if 0 in asked:  # the first differs from nothing
         difference[0], span[0] = np.nan, np.nan
     columns += [
-        Column(name, difference, "μ less that of the first", format=fixed(3, "+")),
+        Column(name, difference, "difference of μ from the first", format=fixed(3, "+")),
         Column(f"{name}_range", span, "range", format=fixed(3, "+")),
     ]
     bad = [text != CONVERGED for text in status]
@@ -97,17 +102,17 @@ def totals_table(data: xr.Dataset, dim: str, heading: str, model: str = "") -> T
 def difference_words(data: xr.Dataset, name: str, first: str, measured: str) -> str:
     """Return by how much friction differs from the first, and whether beyond what is `measured`.
 
-    Nothing where one of both has no friction.
+    Not the latter without `measured`; nothing where either has no friction.
     """
     difference = float(data.total_friction_difference)
     if math.isnan(difference):
         return ""
-    word = "more" if difference > 0.0 else "less"
-    text = f"{name} has {significant(abs(difference))} {word} friction than {first}"
+    word = "higher" if difference > 0.0 else "lower"
+    text = f"μ of {name} is {significant(abs(difference))} {word} than that of {first}"
     low, high = (
         float(data.get(f"total_friction_difference_{end}", math.nan)) for end in ("low", "high")
     )
-    if math.isnan(low + high):
+    if not measured or math.isnan(low + high):
         return text
     beyond = low > 0.0 or high < 0.0
     return f"{text}, {'' if beyond else 'not '}beyond what {measured} leave open"
@@ -258,10 +263,12 @@ def failed_totals(data: xr.Dataset) -> list[Failure]:
 def roads_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield, for each road and model, whether it differs from the first and at which scale."""
     first, *others = data.surface.values.tolist()
+    ranked = "best_friction" in data
     for model in data.model.values.tolist():
         for name in others:
             part = data.sel(model=model, surface=name)
-            text = difference_words(part, name, first, "the stretches measured")
+            measured = "" if ranked and model == Chain.name else "the stretches measured"
+            text = difference_words(part, name, first, measured)
             if not text:
                 continue
             octaves = part.friction_difference.values
@@ -273,6 +280,8 @@ def roads_sentences(data: xr.Dataset) -> Iterator[str]:
                     f"{significant(2 * end)} mm"
                 )
             yield f"{model}: {text}."
+    if ranked:
+        yield CHAIN_RANKS_NOTHING
 
 
 def compounds_table(data: xr.Dataset) -> Table:
@@ -282,15 +291,20 @@ def compounds_table(data: xr.Dataset) -> Table:
 
 
 def compounds_sentences(data: xr.Dataset) -> Iterator[str]:
-    """Yield, for each compound, whether it differs from the first and what makes the difference."""
+    """Yield, for each compound, whether it differs from the first and what makes the difference.
+
+    Where the direct contact ranks them, the chain says only what makes the difference.
+    """
     first, *others = data.rubber.values.tolist()
-    model = "chain: " if "best_friction" in data else ""
+    ranked = "best_friction" in data
     for i, name in enumerate(others, start=1):
         part = data.isel(rubber=i)
-        text = difference_words(part, name, first, "the measured moduli")
+        text = difference_words(part, name, first, "" if ranked else "the measured moduli")
         if text:
             reasons = " and ".join(_reasons(part)) or "the model does not tell by which waves"
-            yield f"{model}{text}; {reasons}."
+            yield f"{'chain: ' if ranked else ''}{text}; {reasons}."
+    if ranked:
+        yield CHAIN_RANKS_NOTHING
 
 
 def _reasons(data: xr.Dataset) -> Sequence[str]:

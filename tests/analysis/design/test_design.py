@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,8 @@ from gripscale.analysis.design_text import (
 from gripscale.analysis.goal_friction import CompoundGoal
 from gripscale.case import read_case
 from gripscale.case.prepare import case_surface
+from gripscale.charts.design import design_figure
+from gripscale.charts.paper import png
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sampling_error import (
@@ -34,8 +37,9 @@ from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.report import write_report
 from gripscale.report.design import design_cards, design_lines
+from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
-from tests.samples import HALF_PLANE, Shell, case_text, write_road, write_short_road
+from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road
 
 CASE = case_text(
     'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"',
@@ -143,6 +147,57 @@ def test_stored_points_are_not_solved_again(case, data, monkeypatch):
         design_compound(case, case.parent / "stored", levels=LEVELS, limits=wider)
 
 
+def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
+    """A search that ends lower at a looser level makes no point: the one below is admissible."""
+    nearest = compound_design.nearest_design
+
+    def worse(friction, admissible, optimum):
+        design = nearest(friction, admissible, optimum)
+        if admissible.points[-1].high < 1.0:
+            return design
+        return replace(design, ratio=0.9 + 0.1 * design.ratio)
+
+    monkeypatch.setattr(compound_design, "nearest_design", worse)
+    worst = design_compound(case, tmp_path, levels=LEVELS)
+    assert worst.rolling_level.values.tolist() == [0.8]
+    assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
+    lines = list(design_lines(worst))
+    assert "with rolling resistance -20 %" in lines[0]
+    assert "still with friction" not in lines[0]  # the only point is not said twice
+    assert "more rolling resistance than -20 % gives no more friction" in lines[1]
+    monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
+    again = design_compound(case, tmp_path, levels=LEVELS)
+    np.testing.assert_array_equal(again.gain.values, worst.gain.values)
+
+
+def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_path, shell):
+    """The rolling resistance is taken where the sweeps end, and the answer says so."""
+    rows = ["Temperature [C],Frequency [Hz],E' [MPa],E'' [MPa]"]
+    for celsius in (-10, 0, 10, 20, 30, 40):
+        body = SHIFTED_RUBBER.at(273.15 + celsius)
+        frequency = np.geomspace(0.01, 100.0, 15)
+        moduli = body.complex_modulus(2.0 * np.pi * frequency) / 1e6
+        rows += [
+            f"{celsius},{hertz:.5g},{modulus.real:.6g},{modulus.imag:.6g}"
+            for hertz, modulus in zip(frequency, moduli, strict=True)
+        ]
+    (tmp_path / "sweeps.csv").write_text("\n".join(rows), encoding="utf-8")
+    text = CASE.replace("dma.txt", "sweeps.csv").replace("road.txt", str(case.parent / "road.txt"))
+    text = text.replace("[load]", 'reference_temperature = "20 C"\n[load]')
+    (tmp_path / "case.toml").write_text(text, encoding="utf-8")
+    result = shell("design", tmp_path / "case.toml", "--levels", "1", "--output", tmp_path / "out")
+    assert result.exit_code == 0, result.output
+    written = " ".join((tmp_path / "out" / "design.txt").read_text(encoding="utf-8").split())
+    assert "tan δ at 10 Hz and 40 °C (the shift ends there, not at 60 °C)" in written
+
+    short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
+    others = {"short": replace(SHIFTED_RUBBER, shift=short)}
+    data = design_compound(tmp_path / "case.toml", tmp_path, levels=[1.0], rubbers=others)
+    assert np.isfinite(data.compound_gain).all()
+    assert np.isnan(data.compound_rolling_ratio).all()
+    assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
+
+
 @pytest.mark.parametrize("which", [0, 1, 2], ids=["factor", "per decade", "E'"])
 def test_wider_limits_are_worth_what_is_said(case, data, tmp_path, which):
     """First order against an optimum with a tenth more room."""
@@ -177,6 +232,32 @@ def test_answer_first_and_the_limits_named(data):
     assert any(
         "a limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines
     )
+
+
+def test_the_figure_draws_the_answer_and_no_near_copy_of_it(data):
+    made = data.isel(point=[0, 1, 1]).assign(rolling_ratio=("point", [0.8, 1.0, 1.015]))
+    labels = {text.get_text() for text in design_figure(made).legends[0].get_texts()}
+    assert {"same rolling resistance", "rolling resistance -20 %"} < labels
+    assert "rolling resistance +1 %" not in labels
+    apart = made.assign(rolling_ratio=("point", [0.8, 1.0, 1.15]))
+    labels = {text.get_text() for text in design_figure(apart).legends[0].get_texts()}
+    assert "rolling resistance +15 %" in labels
+
+
+def test_frequencies_on_the_figure_keep_apart(data):
+    wide = data.assign_coords(frequency=np.geomspace(0.01, 2e6, data.sizes["frequency"]))
+    figure = design_figure(wide)
+    png(figure)
+    for axes in figure.axes[1:]:
+        low, high = axes.get_xlim()
+        places = [at for at in axes.get_xticks() if low <= at <= high]
+        boxes = [
+            label.get_window_extent()
+            for label, at in zip(axes.get_xticklabels(), axes.get_xticks(), strict=True)
+            if at in places
+        ]
+        assert len(boxes) > 2
+        assert all(a.x1 + 4.0 < b.x0 for a, b in pairwise(boxes))
 
 
 def test_no_level_within_the_limits_is_refused(case, tmp_path):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.analysis import compound_search
 from gripscale.analysis.compound_limits import (
     AdmissibleChanges,
     CompoundLimits,
@@ -18,6 +19,7 @@ from gripscale.analysis.compound_limits import (
 from gripscale.analysis.compound_search import best_change, nearest_design
 from gripscale.analysis.goal_friction import CompoundGoal, GoalFriction, MeasuredPart
 from gripscale.core.errors import InputError
+from gripscale.rubber import ShiftTable
 from gripscale.surface import Profile
 from tests.half_space.rough_cases import WAVELENGTH, sine
 from tests.half_space.test_sensitivity import line
@@ -137,6 +139,26 @@ def test_a_design_stays_near_today():
     assert np.abs(np.log(design.ratio[2:])).max() < 0.3
 
 
+def test_a_design_gives_away_no_more_than_it_may():
+    """Inside the limits friction falls with the square of the distance, which no slope tells."""
+    limits = admissible(MAXWELL, largest_factor=1.5)
+    bowl = Bowl(np.array([1.05, 0.95, 0.9, 0.92]))
+    optimum = best_change(bowl, limits, np.ones(4))
+    design = nearest_design(bowl, limits, optimum)
+    assert design.log_friction >= optimum.log_friction - 1.1e-3
+    assert limits.violation(design.ratio) < 1e-6
+
+
+def test_quadratic_steps_that_end_lower_do_not_count(monkeypatch):
+    limits = admissible(MAXWELL, largest_factor=1.5)
+    bowl = Bowl(np.array([1.05, 0.95, 0.9, 0.92]))
+    monkeypatch.setattr(compound_search, "MOST_CORNERS", 2)
+    corners = compound_search._corner_steps(bowl, limits, np.ones(4))
+    worst = limits.best(-corners.slope)
+    monkeypatch.setattr(compound_search, "_quadratic_steps", lambda *_: worst)
+    assert best_change(bowl, limits, np.ones(4)).log_friction >= corners.log_friction
+
+
 def mixtures(limits: AdmissibleChanges, count: int, slope) -> list:
     """Random admissible changes: corners, some along the gradient, and mixtures of three."""
     random = np.random.default_rng(0)
@@ -223,3 +245,31 @@ def test_other_temperatures_need_a_shift():
     roads = {"case": gs.surface.Surface(None, "none")}
     with pytest.raises(InputError, match=r"a goal at 0 C needs a rubber with a temperature shift"):
         GoalFriction.of(MAXWELL, [CompoundGoal(1.0, 3e5, 273.15)], roads)
+
+
+SWEPT = replace(SHIFTED_RUBBER, shift=ShiftTable([243.15, 293.15, 313.15], [5.1, 0.0, -1.5]))
+"""Sweeps from -30 to 40 C."""
+
+
+def test_a_limit_beyond_the_sweeps_is_taken_where_they_end():
+    wanted = PointLimit("loss_factor", 0.0, 1.0, temperature=333.15)
+    taken = admissible(SWEPT, wanted).points[0]
+    assert taken.temperature == pytest.approx(313.15)
+    assert str(taken) == (
+        "tan δ at 10 Hz and 40 °C (the shift ends there, not at 60 °C), 0 to 1 times today's"
+    )
+    assert taken.within_shift(SWEPT) == taken
+    inside = PointLimit("loss_factor", 0.0, 1.0, temperature=293.15)
+    assert admissible(SWEPT, inside).points == (inside,)
+    ends = ShiftTable([298.15, 313.15], [0.0, -1.0])
+    warm = replace(SWEPT, shift=ends, reference_temperature=298.15)
+    handling = AdmissibleChanges.of(warm, CompoundLimits()).points[0]
+    assert handling.temperature == pytest.approx(298.15)
+
+
+def test_a_goal_beyond_the_sweeps_is_refused_in_celsius_with_its_cure():
+    roads = {"case": gs.surface.Surface(None, "none")}
+    with pytest.raises(InputError, match=r"a goal must be at -30 °C to 40 °C.*got 60 °C") as caught:
+        GoalFriction.of(SWEPT, [CompoundGoal(1.0, 3e5, 333.15)], roads)
+    assert "shift = { kind" in str(caught.value)
+    assert " K" not in str(caught.value)
