@@ -91,7 +91,7 @@ def test_table_is_met_at_its_rows_and_refuses_beyond():
     assert (np.diff(between) < 0.0).all()
     assert TABLE.range == (253.15, 313.15)
     assert TABLE.horizontal_error_at(263.15) == pytest.approx(0.15)
-    with pytest.raises(InputError, match=r"within 253\.15 to 313\.15 K.*\(table\).*got 250"):
+    with pytest.raises(InputError, match=r"within -20 to 40 °C.*got -23.15 °C \(250 K\)"):
         TABLE.log_a(250.0, ROOM)
 
 
@@ -100,7 +100,7 @@ def test_table_is_met_at_its_rows_and_refuses_beyond():
     [
         (lambda: WLF(-1.0, 50.0), "c1 must be greater than zero"),
         (lambda: WLF(8.0, 50.0, valid_range=(300.0, 200.0)), "a lower and a higher value"),
-        (lambda: WLF(8.0, 50.0).log_a(240.0, ROOM), r"within 243\.20 to 10000\.00 K"),
+        (lambda: WLF(8.0, 50.0).log_a(240.0, ROOM), r"within -29\.95 to 9727 °C"),
         (lambda: WLF(8.0, 50.0).a(243.5, ROOM), "log10 a_T of the shift .* at most 100; got 1.1"),
         (lambda: WLFArrhenius(8.0, 50.0, 1e5, 200.0, ROOM), "glass_temperature must lie above"),
         (lambda: ShiftTable([300.0, 300.0], [0.0, 1.0]), "temperature .* must not repeat"),
@@ -242,3 +242,16 @@ def test_beyond_the_range_of_the_shift_is_said():
     assert "unknown" in said[1]
     assert said[2].endswith("hot")
     assert temperature_doubts({"a": here, "b": here, "c": here}) == ()
+
+
+def test_a_temperature_beyond_the_sweeps_is_refused_in_celsius_with_its_cure() -> None:
+    swept = ShiftTable([243.15, 293.15, 313.15], [5.0, 0.0, -1.5])
+    with pytest.raises(InputError) as caught:
+        swept.a(333.15, 293.15)
+    assert str(caught.value) == (
+        "temperature must lie within -30 to 40 °C, where the sweeps of the shift lie; got 60 °C "
+        '(333.15 K): measure sweeps up to there, or state shift = { kind = "wlf", ... } in [rubber]'
+    )
+    with pytest.raises(InputError, match=r"where the shift \(wlf\) has values; got -150 °C") as far:
+        WLF(8.86, 101.6).a(123.15, 293.15)
+    assert "sweeps" not in str(far.value)

@@ -305,7 +305,7 @@ def _stored_points(target: Path, key: str) -> tuple[dict[float, xr.Dataset], set
         float(level): points.isel(point=at)
         for at, level in enumerate(stored.rolling_level.values.tolist())
     }
-    return by_level, set(json.loads(stored.attrs[FRUITLESS]))
+    return by_level, set(json.loads(stored.attrs.get(FRUITLESS, "[]")))
 
 
 def _order(levels: Sequence[float], problem: DesignProblem) -> list[float]:

@@ -30,8 +30,8 @@ from gripscale.experiment.design import attributes
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
-WET = ZERO_CELSIUS
-"""Temperature of the loss factor that is the rule of thumb for wet grip [K]."""
+WET = PointLimit("loss_factor", 0.0, 1.0, FREQUENCY, ZERO_CELSIUS)
+"""The loss factor that is the rule of thumb for wet grip."""
 FREQUENCIES_PER_DECADE = 8
 """Frequencies of a stored master curve in a decade."""
 
@@ -79,7 +79,8 @@ def of_compound(
     )
     wet = math.nan
     if rubber.shift is not None:
-        wet = float(rubber.at(WET).loss_factor(2.0 * math.pi * FREQUENCY))
+        body = rubber_at(rubber, WET.within_shift(rubber).temperature)
+        wet = float(body.loss_factor(2.0 * math.pi * WET.frequency))
     rolling = problem.rolling_loss_factor(rubber)
     return {
         "friction": ("goal", lost, attributes("friction coefficient from the energy lost")),
@@ -89,7 +90,7 @@ def of_compound(
         "storage": ("frequency", storage, attributes("storage modulus", "Pa")),
         "loss": ("frequency", loss, attributes("loss modulus", "Pa")),
         "rolling_loss_factor": ((), rolling, attributes("tan(delta) at the rolling condition")),
-        "wet_loss_factor": ((), wet, attributes("tan(delta) at 0 C and 10 Hz")),
+        "wet_loss_factor": ((), wet, attributes("tan(delta) of the rule for wet grip")),
     }
 
 
@@ -129,6 +130,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
         "title": "Design of a compound: friction against rolling resistance",
         "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
         "rolling_condition": problem.rolling.condition,
+        "wet_condition": "" if rubber.shift is None else WET.within_shift(rubber).condition,
         "reference_temperature": math.nan if kelvin is None else kelvin,
         "largest_factor": problem.limits.largest_factor,
         "factor_per_decade": problem.limits.factor_per_decade,

@@ -167,7 +167,8 @@ def design_table(data: xr.Dataset) -> Table:
         columns.append(Column(f"limit_{at + 1}", values, f"{name} / today", format=fixed(2)))
     if bool(np.isfinite(data.wet_loss_factor.values).all()):
         columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
-        notes.append("tan δ wet: at 10 Hz and 0 °C, the rule of thumb for wet grip")
+        wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
+        notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
     columns.append(Column("limited_share", data.limited_share.values, "at a limit", format=_share))
     columns.append(Column("gap", data.gap.values, "left to gain", format=change))
     return Table("design", columns, TITLE, notes)

@@ -33,6 +33,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS
 
 _MOST = 100.0
 """Largest log10 a_T that is a factor and no mistake: WLF has a pole."""
@@ -56,6 +57,13 @@ class Shift(Checked, ABC, eq=False):
 
     kind: ClassVar[str]
     """What files call the law."""
+    cure: ClassVar[str] = ""
+    """What to do about a temperature beyond `limits`, the end of a sentence."""
+
+    @property
+    def ends(self) -> str:
+        """What ends at `limits`, as a clause."""
+        return f"the shift ({self.kind}) has values"
 
     @abstractmethod
     def _log_a(self, temperature: Array) -> Array:
@@ -127,9 +135,11 @@ class Shift(Checked, ABC, eq=False):
         low, high = self.limits
         bad = ~((kelvin >= low - EDGE) & (kelvin <= high + EDGE))
         if bad.any():
+            got = float(kelvin[bad].flat[0])
             raise InputError(
-                f"temperature must lie within {low:.2f} to {high:.2f} K, where the shift "
-                f"({self.kind}) has values; got {float(kelvin[bad].flat[0]):g}"
+                f"temperature must lie within {low - ZERO_CELSIUS:z.4g} to "
+                f"{high - ZERO_CELSIUS:z.4g} °C, where {self.ends}; got "
+                f"{got - ZERO_CELSIUS:z.4g} °C ({got:g} K){self.cure}"
             )
         return np.asarray(np.clip(kelvin, low, high))
 
@@ -313,6 +323,14 @@ class ShiftTable(Shift, eq=False):
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
 
     kind: ClassVar[str] = "table"
+    cure: ClassVar[str] = (
+        ': measure sweeps up to there, or state shift = { kind = "wlf", ... } in [rubber]'
+    )
+
+    @property
+    def ends(self) -> str:
+        """What ends at `limits`, as a clause."""
+        return "the sweeps of the shift lie"
 
     def __post_init__(self) -> None:
         super().__post_init__()
