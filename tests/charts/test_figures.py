@@ -296,8 +296,12 @@ def test_profile_shows_what_cleaning_removed() -> None:
     shown = figure.axes[2].lines[0].get_ydata() * 1e-3
     assert np.nanmin(shown) == pytest.approx(np.nanmin(cleaned.z), rel=1e-12)
     assert np.nanmax(shown) == pytest.approx(np.nanmax(cleaned.z), rel=1e-12)
-    removed = figure.axes[0].lines[1]
+    kept_curve, removed = figure.axes[0].lines
     assert len(removed.get_xdata()) == (~kept & np.isfinite(raw.z)).sum()
+    # seen: above the curve, some pixels wide
+    assert removed.get_zorder() > kept_curve.get_zorder()
+    assert removed.get_markersize() > 2.0
+    assert labels(figure) == ["read and kept", "cleaned", "read and removed"]
 
 
 def test_saving_gives_both_kinds_and_leaves_matplotlib_alone(
@@ -330,6 +334,17 @@ def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
     low, high = sorted(figure.axes[0].get_xlim())
     expected = [m * 10.0**n for n in (-1, 0, 1) for m in range(2, 10)]
     np.testing.assert_allclose(wavelength, [x for x in expected if low <= x <= high])
+
+
+@pytest.mark.parametrize("low", np.geomspace(0.1, 1.0, 7))
+@pytest.mark.parametrize("ratio", [1.8, 3.2, 5.0, 7.9])
+def test_a_short_logarithmic_axis_has_three_numbers(low: float, ratio: float) -> None:
+    panel = Panel(
+        Axis("x"), Axis("y", True, low, ratio * low), [Series([0, 1], [low, ratio * low])]
+    )
+    axes = draw_sheet(Sheet([panel])).axes[0]
+    ticks = np.asarray(axes.get_yticks())
+    assert ((ticks >= low) & (ticks <= ratio * low)).sum() >= 3
 
 
 @pytest.mark.parametrize(

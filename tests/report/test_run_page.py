@@ -73,6 +73,12 @@ def test_cleaning_is_told_for_each_profile(page: Page) -> None:
         assert rows[0][2] != "0"
 
 
+def test_the_direct_contact_is_called_as_its_profiles(page: Page) -> None:
+    for name in ("road", "lane"):
+        assert f"{name}: rubber on the surface" in page.source
+        assert f"{name}, to scale: the stretch with most friction" in page.source
+
+
 def test_texture_of_each_profile_and_of_all(page: Page) -> None:
     rows = page.body("texture")
     assert [row[0] for row in rows] == ["profile 1", "profile 2", "all profiles"]
