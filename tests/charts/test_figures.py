@@ -20,12 +20,15 @@ from gripscale.charts import (
     blocks_figure,
     contact_figure,
     correlation_figure,
+    ladder,
     master_curve_figure,
     profile_figure,
     save_figure,
 )
 from gripscale.charts.chart import Axis, Outline, Panel, Series, Sheet
-from gripscale.charts.paper import draw_sheet
+from gripscale.charts.comparison import comparison_figure
+from gripscale.charts.ladder import Row
+from gripscale.charts.paper import draw_sheet, png
 from gripscale.charts.style import short_number, stretches
 from gripscale.charts.surface import kept_points
 from gripscale.charts.view import JUDGE
@@ -430,3 +433,19 @@ def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
     box, whole = figure.legends[0].get_window_extent(), figure.bbox
     assert box.x0 >= whole.x0
     assert box.x1 <= whole.x1
+
+
+def test_numbers_of_a_comparison_end_before_its_factors(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = [
+        Row("chain of the upper half, pressure in classes", 0.0066),
+        Row("sines", 0.0091, 0.0, 0.0066, 1.37, samples=(0.0043, 0.0118)),
+    ]
+    monkeypatch.setattr(ladder, "rows_of", lambda comparison, name: rows)
+    names = {"rung": ["chain", "sines"], "label": ("rung", ["chain", "sines"])}
+    data = xr.Dataset({"nominal_speed": 0.3, "group": ("rung", ["measured"] * 2)}, names)
+    figure = comparison_figure(data)
+    png(figure)
+    for axes in figure.axes:
+        right = axes.get_window_extent().x1
+        texts = {text.get_text(): text.get_window_extent() for text in axes.texts}
+        assert texts["0.0091"].x1 < right < texts["×1.37"].x0

@@ -119,8 +119,8 @@ def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
     names: dict[float, list[str]] = {}
     for name, at in zip(data.rule.values, data.rule_cut_off.values, strict=True):
         if last <= at <= first:
-            place = next((other for other in names if abs(at / other - 1.0) < SAME), float(at))
-            names.setdefault(place, []).append(str(name))
+            length = next((other for other in names if abs(at / other - 1.0) < SAME), float(at))
+            names.setdefault(length, []).append(str(name))
     for i, (at, alike) in enumerate(names.items()):
         colour = COLOURS[(i + 2) % len(COLOURS)]
         label = f"{', '.join(alike)}: {at / MILLI:.2g} mm"

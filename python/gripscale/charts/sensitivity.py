@@ -110,7 +110,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         panels.append(
             Panel(
                 axis,
-                Axis(f"d ln $\\mu$ / d ln {symbol} a decade"),
+                Axis(f"d ln $\\mu$ / d ln {symbol} per decade"),
                 [*curves, *rules, CrossLine(0.0)],
                 name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
                 caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
 DISTANCE, HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
+MANY = 500
+"""Removed points whose dots are small, or they would hide the profile."""
 
 
 def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
@@ -80,7 +82,8 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     rows: dict[str, list[Mark]] = {
         "as read": [
             _outline(raw.x, [np.where(kept, raw.z, np.nan)] * 2, "read and kept", GREY),
-            Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, size=2.5, order=3.0, **dots),
+            Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, order=3.0,
+                   size=2.5 if np.count_nonzero(removed) < MANY else 1.4, **dots),
         ],
         "cleaned": [_outline(cleaned.x, [cleaned.z] * 2, "", BLUE)],
         "close up": [

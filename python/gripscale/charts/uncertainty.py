@@ -96,8 +96,8 @@ def parts_figure(data: xr.Dataset) -> Figure:
             Panel(Axis(f"standard error of {SYMBOL_TEXTS[name]} [%]", low=0.0), rows, bars)
         )
     keys = [
-        Bars(0, 0, 0, 0, BLUE, "drawn of the inputs"),
-        Bars(0, 0, 0, 0, ORANGE, "of the model"),
+        Bars(0, 0, 0, 0, BLUE, "from the inputs, sampled"),
+        Bars(0, 0, 0, 0, ORANGE, "from the model"),
     ]
     height = 1.2 + 0.3 * len(ranked)
     return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
@@ -268,6 +268,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
     One panel for each temperature and pressure; points where the model has no answer are left out
     of its lines.
     """
+    level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
 
     def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
         rows = series.rows[np.isfinite(data.friction.values[series.rows])]
@@ -276,7 +277,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
             data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
         )
         return [
-            Band(speed, total - band, total + band, ORANGE, alpha=0.25),
+            Band(speed, total - band, total + band, ORANGE, level, alpha=0.25),
             Series(speed, total, ORANGE, "hysteresis and area term"),
             Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
         ]
