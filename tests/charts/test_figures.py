@@ -20,12 +20,15 @@ from gripscale.charts import (
     blocks_figure,
     contact_figure,
     correlation_figure,
+    ladder,
     master_curve_figure,
     profile_figure,
     save_figure,
 )
 from gripscale.charts.chart import Axis, Outline, Panel, Series, Sheet
-from gripscale.charts.paper import draw_sheet
+from gripscale.charts.comparison import comparison_figure
+from gripscale.charts.ladder import Row
+from gripscale.charts.paper import draw_sheet, png
 from gripscale.charts.style import short_number, stretches
 from gripscale.charts.surface import kept_points
 from gripscale.charts.view import JUDGE
@@ -296,8 +299,12 @@ def test_profile_shows_what_cleaning_removed() -> None:
     shown = figure.axes[2].lines[0].get_ydata() * 1e-3
     assert np.nanmin(shown) == pytest.approx(np.nanmin(cleaned.z), rel=1e-12)
     assert np.nanmax(shown) == pytest.approx(np.nanmax(cleaned.z), rel=1e-12)
-    removed = figure.axes[0].lines[1]
+    kept_curve, removed = figure.axes[0].lines
     assert len(removed.get_xdata()) == (~kept & np.isfinite(raw.z)).sum()
+    # seen: above the curve, some pixels wide
+    assert removed.get_zorder() > kept_curve.get_zorder()
+    assert removed.get_markersize() > 2.0
+    assert labels(figure) == ["read and kept", "cleaned", "read and removed"]
 
 
 def test_saving_gives_both_kinds_and_leaves_matplotlib_alone(
@@ -330,6 +337,17 @@ def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
     low, high = sorted(figure.axes[0].get_xlim())
     expected = [m * 10.0**n for n in (-1, 0, 1) for m in range(2, 10)]
     np.testing.assert_allclose(wavelength, [x for x in expected if low <= x <= high])
+
+
+@pytest.mark.parametrize("low", np.geomspace(0.1, 1.0, 7))
+@pytest.mark.parametrize("ratio", [1.8, 3.2, 5.0, 7.9])
+def test_a_short_logarithmic_axis_has_three_numbers(low: float, ratio: float) -> None:
+    panel = Panel(
+        Axis("x"), Axis("y", True, low, ratio * low), [Series([0, 1], [low, ratio * low])]
+    )
+    axes = draw_sheet(Sheet([panel])).axes[0]
+    ticks = np.asarray(axes.get_yticks())
+    assert ((ticks >= low) & (ticks <= ratio * low)).sum() >= 3
 
 
 @pytest.mark.parametrize(
@@ -415,3 +433,19 @@ def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
     box, whole = figure.legends[0].get_window_extent(), figure.bbox
     assert box.x0 >= whole.x0
     assert box.x1 <= whole.x1
+
+
+def test_numbers_of_a_comparison_end_before_its_factors(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = [
+        Row("chain of the upper half, pressure in classes", 0.0066),
+        Row("sines", 0.0091, 0.0, 0.0066, 1.37, samples=(0.0043, 0.0118)),
+    ]
+    monkeypatch.setattr(ladder, "rows_of", lambda comparison, name: rows)
+    names = {"rung": ["chain", "sines"], "label": ("rung", ["chain", "sines"])}
+    data = xr.Dataset({"nominal_speed": 0.3, "group": ("rung", ["measured"] * 2)}, names)
+    figure = comparison_figure(data)
+    png(figure)
+    for axes in figure.axes:
+        right = axes.get_window_extent().x1
+        texts = {text.get_text(): text.get_window_extent() for text in axes.texts}
+        assert texts["0.0091"].x1 < right < texts["×1.37"].x0

@@ -63,6 +63,7 @@ def test_shift_factors_with_formula_and_residual():
     assert values[known] == pytest.approx(expected + table.horizontal[3], abs=1e-9)
     assert above.get_ylim()[1] < table.horizontal.max() + 2.0
     assert below.lines[-1].get_ydata() == pytest.approx(-fit.residual)
+    assert below.get_ylabel() == "formula minus\nsweeps [-]"
     lifted = ShiftTable(kelvin, table.horizontal, vertical=np.linspace(-0.02, 0.02, 7))
     assert len(shift_figure(lifted).axes) == 3
 

@@ -61,6 +61,8 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
         assert all(axes.lines or axes.collections for axes in figure.axes)
     panels = fitted_figure(data).axes
     assert [axes.get_title() for axes in panels] == ["5 °C", "20 °C", "40 °C"]
+    band = panels[1].collections[0]
+    assert band.get_label() == "90 % interval of the fit"
     line = next(line for line in panels[1].lines if line.get_label() == "hysteresis alone")
     chosen = abs(data.measured_temperature - 293.15) < 0.5
     assert line.get_ydata() == pytest.approx(data.hysteresis.values[chosen.values])

@@ -14,14 +14,20 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import gripscale as gs
+from gripscale.charts.page_elements import Chart
 from gripscale.charts.wave_and_chain import contact_charts
 from gripscale.core.errors import FileError, InputError
+from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, Load, answer
 from gripscale.report import write_report
 from gripscale.report.inputs import rubber_facts
 from gripscale.report.notices import cards, notices
+from gripscale.report.pages import run_page
 from gripscale.report.source import Run, read_result
+from gripscale.surface import self_affine_profile
+from tests.samples import ZENER
 
 from .conftest import CASE, WAVES, read
 from .reading import Page
@@ -71,6 +77,21 @@ def test_cleaning_is_told_for_each_profile(page: Page) -> None:
         rows = page.body(name)
         assert [row[0] for row in rows] == ["crop", "dropouts", "spikes", "trend"]
         assert rows[0][2] != "0"
+
+
+def test_the_direct_contact_is_called_as_its_profiles(run_folder: Path) -> None:
+    profile = self_affine_profile(0.8, 5e-3, 5e-4, 0.05, 5e-5, seed=1)
+    contact = gs.solve_rough_contact(
+        ZENER, profile, pressure=3e5, speed=0.3, smallest_wavelength=4e-4, tolerance=None
+    )
+    run = read_result(run_folder)
+    assert isinstance(run, Run)
+    direct = with_traces(run.predictions[0].data.drop_dims("scale"), [contact_trace(contact)] * 2)
+    section = next(s for s in run_page(replace(run, direct=direct)).sections if s.name == "contact")
+    captions = [element.caption for element in section.elements if isinstance(element, Chart)]
+    assert [caption.split(":")[0].split(",")[0] for caption in captions] == [
+        "road", "road", "lane", "lane",
+    ]  # fmt: skip
 
 
 def test_texture_of_each_profile_and_of_all(page: Page) -> None:

@@ -113,7 +113,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
                        for end in ("", STAR)}  # fmt: skip
     words, capital = _words(name)
     return Panel(
-        Axis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**2),
+        Axis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
         Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,

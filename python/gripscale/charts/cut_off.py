@@ -27,6 +27,8 @@ CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
     AREA: ("$A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
 }
+SAME = 0.01
+"""Relative distance of two rules that lie on each other in a figure."""
 
 
 def cut_off_charts(data: xr.Dataset) -> list[Chart]:
@@ -112,10 +114,14 @@ def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Itera
 
 
 def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
-    """Yield the rules of cut-off that lie on the axis."""
+    """Yield the rules of cut-off that lie on the axis; those at the same place are one line."""
     first, last = data.cut_off.values[[0, -1]]
-    for i, (name, at) in enumerate(zip(data.rule.values, data.rule_cut_off.values, strict=True)):
+    names: dict[float, list[str]] = {}
+    for name, at in zip(data.rule.values, data.rule_cut_off.values, strict=True):
         if last <= at <= first:
-            colour = COLOURS[(i + 2) % len(COLOURS)]
-            label = f"{name}: {at / MILLI:.2g} mm"
-            yield CrossLine(float(at / MILLI), colour, label, "dashed", 0.9, upright=True)
+            length = next((other for other in names if abs(at / other - 1.0) < SAME), float(at))
+            names.setdefault(length, []).append(str(name))
+    for i, (at, alike) in enumerate(names.items()):
+        colour = COLOURS[(i + 2) % len(COLOURS)]
+        label = f"{', '.join(alike)}: {at / MILLI:.2g} mm"
+        yield CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)

@@ -5,6 +5,9 @@ All are drawn from a trace (`gripscale.half_space.location.contact_trace`), whic
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,17 +39,20 @@ if TYPE_CHECKING:
 
 MOST_DRAWN = 2
 """Profiles of a result that are drawn, of each of which a page holds 1.6 MB."""
+AROUND, LEAST_AROUND, LEAST_SHARE = 8.0, 1.2, 0.125
+"""Length of the drawn stretch over that of its contact: as long as the stretch with most friction
+allows, and the least; and its least share of that stretch."""
 DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST, LOWEST = 0.15, 0.2
 """Least height of the stretch to scale and what it shows below its contact, over its length."""
 PAGE = 420
 """Width of half a page [px]."""
-ROW, FIELD_ROW, BELOW, HEAD = 1.15, 2.9, 0.32, 0.7
+ROW, FIELD_ROW, BELOW, HEAD = 1.15, 2.9, 0.32, 1.1
 """Heights of a frame over the whole line, of the field of a map, of the numbers below a frame, and
 of the legend [inch]."""
-INSIDE = 0.92
-"""Width of a frame over that of the figure."""
+INSIDE = 0.94
+"""Width of a frame over that of the figure, at most: a panel to scale is as wide as the others."""
 
 
 def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None) -> Figure:
@@ -57,40 +63,55 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
     contact : RoughContact
         Of a line; of a map, the pressure field and its section with the strongest stretch.
     stretch : float, optional
-        Length of the stretch that is drawn to scale [m], the one of this length with most friction;
-        by default 4 mm, see `gripscale.half_space.contact_trace`.
+        Length of the stretch that is drawn to scale [m], around the contact of the one of this
+        length with most friction. By default that is sought with 4 mm, see
+        `gripscale.half_space.contact_trace`, and drawn as short as its contact allows.
 
     Raises
     ------
     InputError
         If the stretch is not positive.
     """
-    return draw.on_paper(trace_sheet(contact_trace(contact, stretch=stretch)))
+    return draw.on_paper(trace_sheet(contact_trace(contact, stretch=stretch), length=stretch))
 
 
-def named_traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    """Return the first few traces of a result with their names."""
-    traces = traces_of(data)[:MOST_DRAWN]
+def named_traces(data: xr.Dataset, profiles: Sequence[str] = ()) -> list[tuple[str, xr.Dataset]]:
+    """Return the first few traces of a result with the names of their profiles.
+
+    Profiles are numbered where `profiles` does not tell them apart.
+    """
+    traces = traces_of(data)
+    names = [name for name in profiles if name]
+    if len({_word(name) for name in names}) != len(traces):
+        names = [f"profile {number}" for number in range(1, len(traces) + 1)]
     return [
-        ("map" if "section" in trace else f"profile {number}", trace)
-        for number, trace in enumerate(traces, start=1)
+        ("map" if "section" in trace else name, trace)
+        for name, trace in zip(names[:MOST_DRAWN], traces, strict=False)
     ]
 
 
-def trace_sheet(trace: xr.Dataset, title: str = "") -> Sheet:
-    """Describe a trace on paper."""
+def profile_names(inputs: xr.Dataset) -> list[str]:
+    """Return the names of the profiles of recorded inputs; empty without any."""
+    return [str(name) for name in inputs["profile_name"].values] if "profile_name" in inputs else []
+
+
+def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None) -> Sheet:
+    """Describe a trace on paper, its stretch of a length [m] or as short as the contact allows."""
+    trace = _around_contact(trace, length)
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
     heights = [FIELD_ROW] * len(fields) + [ROW] * len(lines) + [_drawn_height(close)]
     return _sheet([*fields, *lines, close], heights, title)
 
 
-def contact_pictures(data: xr.Dataset) -> list[Chart]:
-    """Return the traces of a result on the page; nothing without any."""
-    return [chart for name, trace in named_traces(data) for chart in trace_charts(trace, name)]
+def contact_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
+    """Return the traces of a result with its recorded inputs on the page; nothing without any."""
+    traces = named_traces(data, profile_names(inputs))
+    return [chart for name, trace in traces for chart in trace_charts(trace, name)]
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
     """Return a trace on the page: along the whole line, to be zoomed, and a stretch to scale."""
+    trace = _around_contact(trace)
     lines = draw.linked_on_page(
         _line_panels(trace),
         f"contact-{_word(name)}",
@@ -104,14 +125,18 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
 
 def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
     """Return the stretch with most friction, and what its heights are worth for the friction."""
+    trace = _around_contact(trace)
     part = _stretch(trace)
     x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI
     return [
         _stretch_panel(trace, name),
         Panel(
             _along(trace, x),
-            Axis("d ln $\\mu$ / d $z$\n[% for 1 µm on 1 mm]"),
-            [Series(x, 100.0 * values, GREEN, width=0.9), CrossLine(0.0)],
+            Axis("d ln $\\mu$ / d $z$\n[% / (µm mm)]"),
+            [
+                Series(x, 100.0 * values, GREEN, "change of $\\mu$ by the height", width=0.9),
+                CrossLine(0.0),
+            ],
             name=f"height-{_word(name)}",
             caption=f"{name}: per cent of its friction for a micrometre of height on a millimetre "
             "of the surface. Heights out of contact have no effect.",
@@ -124,7 +149,8 @@ def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
 def height_figure(trace: xr.Dataset, name: str) -> Figure:
     """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
     close, worth = height_panels(trace, name)
-    return draw.on_paper(_sheet([worth, close], [ROW, _drawn_height(close)], name))
+    sheet = _sheet([worth, close], [ROW, _drawn_height(close)], name)
+    return draw.on_paper(replace(sheet, layout={**sheet.layout, "sharex": True}))
 
 
 def _sheet(panels: list[Panel], heights: list[float], title: str) -> Sheet:
@@ -142,7 +168,7 @@ def _drawn_height(close: Panel) -> float:
 
 
 def _word(name: str) -> str:
-    return name.replace(" ", "-")
+    return re.sub(r"\W+", "-", name)
 
 
 def _unit(trace: xr.Dataset) -> tuple[float, str]:
@@ -157,6 +183,31 @@ def _lengths(values: xr.DataArray, trace: xr.Dataset) -> Array:
 def _along(trace: xr.Dataset, x: Array) -> Axis:
     label = f"distance $x$ [{_unit(trace)[1]}]"
     return Axis(label, low=float(x[0]), high=float(x[-1]))
+
+
+def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Dataset:
+    """Return a trace whose stretch has its contact in the middle, and its shares there.
+
+    It ends before pieces of several points that are in contact: their contact is longer than it is.
+    """
+    x, inside = trace.x.values, trace.pressure_high.values > 0.0
+    start, end = (float(trace[f"stretch_{end}"]) for end in ("start", "end"))
+    contact = x[inside & (x >= start) & (x <= end)]
+    first, last = contact[[0, -1]] if contact.size else (start, end)
+    if length is None:
+        extent, most = last - first, end - start
+        length = max(min(AROUND * extent, most), LEAST_AROUND * extent, LEAST_SHARE * most)
+    coarse = x[inside & (np.gradient(x) > 1.01 * np.diff(x).min())]
+    lowest = x[np.searchsorted(x, coarse[coarse < first].max(initial=x[0]), "right")]
+    highest = x[np.searchsorted(x, coarse[coarse > last].min(initial=x[-1])) - 1]
+    half = 0.5 * min(length, highest - lowest)
+    middle = np.clip(0.5 * (first + last), lowest + half, highest - half)
+    drawn = {"stretch_start": middle - half, "stretch_end": middle + half}
+    before, after = np.searchsorted(x, [middle - half, middle + half])
+    for name in ("friction", "load"):
+        running = np.insert(trace[f"running_{name}"].values, 0, 0.0)
+        drawn[f"stretch_{name}"] = running[after] - running[before]
+    return trace.assign(drawn)
 
 
 def _stretch(trace: xr.Dataset) -> xr.Dataset:
@@ -221,7 +272,7 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
     x, surface, rubber = (_lengths(part[name], trace) for name in ("x", "height_low", "rubber_low"))
     unit = _unit(trace)[1]
     length, highest = x[-1] - x[0], float(rubber.max())
-    contact = _touching(part)[1]
+    contact = np.where(part.pressure_high > 0.0, _lengths(part.height_high, trace), np.nan)
     # of a pit beside the contact only the edge
     lowest = max(float(surface.min()), float(np.nanmin(contact)) - LOWEST * length)
     lowest = min(lowest, highest - FLATTEST * length)
@@ -229,7 +280,8 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
     top = highest + 1.1 * room
     pressure = part.pressure_high.values / MEGA
     scale = _round_down(room / float(pressure.max()))
-    text = f"pressure, {1.0 / scale:.3g} MPa a {unit}"
+    mark = _round_down(float(pressure.max()))
+    text = f"pressure, {mark:g} MPa is {scale * mark:.2g} {unit} high"
     makes = "a stretch"
     if np.isfinite(part.stretch_friction):
         shares = (percent(float(part[f"stretch_{what}"])) for what in ("friction", "load"))

@@ -92,7 +92,14 @@ DASHES: dict[str, Any] = {
 HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
 """Look of a band beyond the measured band."""
 
-STEPS = {"x": ((60.0, (1, 2, 5)), (1e3, (1, 3))), "y": ((500.0, (1, 2, 5)),)}
+STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
+    "x": ((8.0, (1, 2, 3, 5, 7)), (60.0, (1, 2, 5)), (1e3, (1, 3))),
+    "y": (
+        (3.0, (1, 1.2, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9)),
+        (8.0, (1, 1.5, 2, 3, 4, 5, 7)),
+        (500.0, (1, 2, 5)),
+    ),
+}
 """Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value."""
 
 ROUND = (1, 2, 5, 10)
@@ -398,6 +405,8 @@ def _solve_layout(figure: Figure) -> None:
     if isinstance(layout, ConstrainedLayoutEngine):
         _mark_between(figure)
         layout.execute(figure)
+        if any(axes.get_aspect() != "auto" for axes in figure.axes):
+            layout.execute(figure)  # the labels of a panel to scale moved with its frame
         figure.set_layout_engine("none")
 
 

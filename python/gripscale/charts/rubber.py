@@ -337,7 +337,7 @@ def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
     ends = float(table.horizontal.min()) - margin, float(table.horizontal.max()) + margin
     panels = [
         Panel(CELSIUS, Axis("$\\log_{10} a_T$ [-]", False, *ends), shifts, legend="best"),
-        Panel(CELSIUS, Axis("formula less\nsweeps [-]"), rest),
+        Panel(CELSIUS, Axis("formula minus\nsweeps [-]"), rest),
     ]
     if (table.vertical != 0.0).any():
         lifted = [factors(table.vertical, table.vertical_error)]

@@ -11,7 +11,12 @@ import xarray as xr
 from gripscale.analysis.friction_sensitivity import LOSS, STORAGE
 from gripscale.charts import draw, style
 from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
-from gripscale.charts.direct_contact import height_figure, height_panels, named_traces
+from gripscale.charts.direct_contact import (
+    height_figure,
+    height_panels,
+    named_traces,
+    profile_names,
+)
 from gripscale.charts.page_elements import Chart, Picture
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
@@ -33,23 +38,24 @@ def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
     return draw.on_page(_panels(data))
 
 
-def height_charts(data: xr.Dataset) -> list[Chart]:
+def height_charts(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
     """Return what heights of the surface are worth; nothing where something is varied."""
     return draw.on_page(
-        panel for name, trace in _traces(data) for panel in height_panels(trace, name)
+        panel for name, trace in _traces(data, inputs) for panel in height_panels(trace, name)
     )
 
 
-def height_pictures(data: xr.Dataset) -> list[Picture]:
+def height_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Picture]:
     """Return the same for the figures of a folder."""
     return [
         Picture(f"height_{number}", height_figure(trace, name), "", "")
-        for number, (name, trace) in enumerate(_traces(data), start=1)
+        for number, (name, trace) in enumerate(_traces(data, inputs), start=1)
     ]
 
 
-def _traces(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)))
+def _traces(data: xr.Dataset, inputs: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
+    """Return the traces at the first point, with the names of the profiles of the inputs."""
+    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)), profile_names(inputs))
 
 
 def sensitivity_figure(data: xr.Dataset) -> Figure:
@@ -104,7 +110,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         panels.append(
             Panel(
                 axis,
-                Axis(f"d ln $\\mu$ / d ln {symbol} a decade"),
+                Axis(f"d ln $\\mu$ / d ln {symbol} per decade"),
                 [*curves, *rules, CrossLine(0.0)],
                 name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
                 caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
 DISTANCE, HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
+MANY = 500
+"""Removed points whose dots are small, or they would hide the profile."""
 
 
 def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
@@ -60,7 +62,7 @@ def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
         width=WIDE if len(pairs) > 1 else 0.7 * WIDE,
         height=5.2,
         legend_columns=4,
-        keys=[Series([], [], ORANGE, "removed", dash="", marker=".")],
+        keys=[Series([], [], ORANGE, "read and removed", dash="", marker=".")],
         gap=0.02,
         layout={"sharey": "row"},
     )
@@ -79,9 +81,9 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     dots: dict[str, Any] = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
     rows: dict[str, list[Mark]] = {
         "as read": [
-            _outline(raw.x, [np.where(kept, raw.z, np.nan)] * 2, "kept", GREY),
-            Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, size=1.0, order=1.5,
-                   **dots),
+            _outline(raw.x, [np.where(kept, raw.z, np.nan)] * 2, "read and kept", GREY),
+            Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, order=3.0,
+                   size=2.5 if np.count_nonzero(removed) < MANY else 1.4, **dots),
         ],
         "cleaned": [_outline(cleaned.x, [cleaned.z] * 2, "", BLUE)],
         "close up": [

@@ -16,9 +16,10 @@ from gripscale.charts.comparison import measured_sheet
 from gripscale.charts.ladder import MARKERS, MeasuredSeries, measured
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.study import varied_axis
-from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE
-from gripscale.charts.view import AXIS_TITLES
+from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE, WIDE
+from gripscale.charts.view import ANSWER, AXIS_TITLES, PredictionView
 from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
+from gripscale.experiment.axis import MODELS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
 """Titles of axes."""
 SYMBOL_TEXTS = {"friction": "$\\mu$", "contact_fraction": "$A_r/A_0$"}
+AS_STATED = "model, inputs as stated"
+"""What figures call the case itself, without anything drawn."""
 MOST_BINS = 24
 MEDIAN, END = 1.6, 0.9
 """Widths of the lines at median and ends."""
@@ -59,7 +62,8 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
     yield Picture(
         "distributions",
         distribution_figure(data),
-        "How friction and contact area are distributed: quantiles, and the case.",
+        "How friction and contact area are distributed: quantiles of the samples, the model with "
+        "the inputs as stated, and the answer.",
         "Histograms of the samples, a row for each model.",
     )
     for name in data.model.values:
@@ -92,8 +96,8 @@ def parts_figure(data: xr.Dataset) -> Figure:
             Panel(Axis(f"standard error of {SYMBOL_TEXTS[name]} [%]", low=0.0), rows, bars)
         )
     keys = [
-        Bars(0, 0, 0, 0, BLUE, "drawn of the inputs"),
-        Bars(0, 0, 0, 0, ORANGE, "of the model"),
+        Bars(0, 0, 0, 0, BLUE, "from the inputs, sampled"),
+        Bars(0, 0, 0, 0, ORANGE, "from the model"),
     ]
     height = 1.2 + 0.3 * len(ranked)
     return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
@@ -102,7 +106,8 @@ def parts_figure(data: xr.Dataset) -> Figure:
 def distribution_figure(data: xr.Dataset) -> Figure:
     """Draw how friction and contact fraction are distributed, a row for each model.
 
-    Lines are the median and the ends of the 90 % interval, the triangle is the case itself.
+    Lines are the median and the ends of the 90 % interval, the triangle is the model with the
+    inputs as stated, the star is the answer with its interval.
     """
     panels = []
     for model, colour in zip(data.model.values, COLOURS, strict=False):
@@ -111,25 +116,32 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            marks = list(_distribution(samples, name, values[np.isfinite(values)], colour))
+            answer = PredictionView(data).answer(name)
+            marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
                 Axis(label, numbers=6),
                 Axis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
-                     high=None if top is None else 1.25 * top),
+                     high=None if top is None else 1.45 * top),
                 marks,
-                title=str(model) if first else "",
+                title=MODELS.get(str(model), str(model)),
             ))  # fmt: skip
     keys: list[Mark] = [
-        CrossLine(0.0, INK, "median", width=MEDIAN),
+        CrossLine(0.0, INK, "median of the samples", width=MEDIAN),
         CrossLine(0.0, INK, "5 and 95 %", width=END),
-        Series([], [], INK, "the case itself", dash="", marker="v"),
+        Series([], [], INK, AS_STATED, dash="", marker="v"),
     ]
-    return draw.on_paper(Sheet(panels, height=1.2 + 1.7 * data.sizes["model"], keys=keys))
+    return draw.on_paper(
+        Sheet(panels, height=1.2 + 1.8 * data.sizes["model"], legend_columns=4, keys=keys)
+    )
 
 
 def _distribution(
-    samples: xr.Dataset, name: str, values: np.ndarray, colour: str
+    samples: xr.Dataset,
+    name: str,
+    values: np.ndarray,
+    colour: str,
+    answer: tuple[float, float, float],
 ) -> Iterator[Mark]:
     if values.size < FEWEST_SAMPLES:
         return
@@ -138,8 +150,14 @@ def _distribution(
     low, middle, high = samples[f"{name}_quantile"].values[[0, 2, 4]]
     for at, width in ((low, END), (middle, MEDIAN), (high, END)):
         yield CrossLine(at, INK, width=width, upright=True)
-    top = 1.12 * float(np.max(counts))
-    yield Series([float(samples[f"{name}_case"])], [top], INK, dash="", marker="v", clip=False)
+    top = float(np.max(counts))
+    case = float(samples[f"{name}_case"])
+    yield Series([case], [1.12 * top], INK, dash="", marker="v", clip=False)
+    best, low, high = answer
+    if np.isfinite(best):
+        label = ANSWER if np.isfinite(low) else "answer"
+        yield Series([best], [1.29 * top], INK, label, "", marker="*", size=8.0, low=[low],
+                     high=[high], level_bars=True, clip=False)  # fmt: skip
 
 
 def tornado_figure(data: xr.Dataset) -> Figure:
@@ -199,10 +217,10 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
         low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
         marks += [
             Band(x, low, high, INK, alpha=0.12),
-            Series(x, best, INK, "answer, 90 %"),
+            Series(x, best, INK, ANSWER),
         ]
         panels.append(Panel(abscissa, Axis(label, low=0.0), marks))
-    case = Series([], [], INK, "the case itself", dash="", marker="o", size=3.5, filled=False)
+    case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return draw.on_paper(Sheet(panels, keys=[case]))
 
 
@@ -233,7 +251,7 @@ def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
     yield Picture(
         "residuals",
         residual_figure(data),
-        "Fitted less measured friction over the speed.",
+        "Fit minus measured friction over the speed.",
         "Points around zero over the speed, a marker for each temperature.",
     )
     yield Picture(
@@ -250,6 +268,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
     One panel for each temperature and pressure; points where the model has no answer are left out
     of its lines.
     """
+    level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
 
     def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
         rows = series.rows[np.isfinite(data.friction.values[series.rows])]
@@ -258,7 +277,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
             data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
         )
         return [
-            Band(speed, total - band, total + band, ORANGE, alpha=0.25),
+            Band(speed, total - band, total + band, ORANGE, level, alpha=0.25),
             Series(speed, total, ORANGE, "hysteresis and area term"),
             Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
         ]
@@ -267,20 +286,23 @@ def fitted_figure(data: xr.Dataset) -> Figure:
 
 
 def residual_figure(data: xr.Dataset) -> Figure:
-    """Draw predicted less measured friction over speed, over the spread where it is known."""
+    """Draw fitted minus measured friction over speed, over the spread where it is known."""
     spread = bool(np.isfinite(data.difference_in_spread).any())
     values = data["difference_in_spread" if spread else "difference"].values
     scale = 1.0 if spread else float(data.attrs["scatter"])
     speed_unit = display_unit_of(data.attrs, "speed")
-    marks: list[Mark] = [CrossLine(-scale, FAINT, to=scale), CrossLine(0.0)]
+    width = "spread of the measurement" if spread else "scatter of the residuals"
+    marks: list[Mark] = [CrossLine(-scale, FAINT, f"± {width}", to=scale), CrossLine(0.0)]
     for number, series in enumerate(measured(data)):
         marks.append(Series(
             speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
-            series.label.removeprefix("measured, "), "", marker=MARKERS[number % len(MARKERS)],
+            series.label.removeprefix("measured").removeprefix(", "), "",
+            marker=MARKERS[number % len(MARKERS)],
         ))  # fmt: skip
-    label = f"fitted less measured $\\mu$ [{'spread' if spread else '-'}]"
+    label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"
     panel = Panel(Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), Axis(label), marks)
-    return draw.on_paper(Sheet([panel], 1, height=2.8, legend="beside", gap=0.02))
+    height = 2.6 + 0.2 * -(-len(marks) // 4)
+    return draw.on_paper(Sheet([panel], 1, height=height, legend_columns=4, gap=0.02))
 
 
 def profiles_figure(data: xr.Dataset) -> Figure:
@@ -289,11 +311,11 @@ def profiles_figure(data: xr.Dataset) -> Figure:
     The interval is where the curve is below the line; an end that is not determined has none.
     """
     count = data.sizes["parameter"]
-    columns = min(count, 2)
+    columns = 2 if count == 4 else min(count, 3)
     panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
     height = 0.4 + 2.1 * -(-count // columns)
-    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05}
-    return draw.on_paper(Sheet(panels, columns, 3.5 * columns, height, **look))
+    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
+    return draw.on_paper(Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look))
 
 
 def _profile_panel(data: xr.Dataset) -> Panel:

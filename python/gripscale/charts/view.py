@@ -43,6 +43,8 @@ def believed(data: xr.Dataset, name: str) -> str:
 
 JUDGE = "direct contact of the profiles"
 """What a figure of a chain calls the model that judges it."""
+ANSWER = "answer (90 %)"
+"""What figures call the best estimate with its interval."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,19 @@ class PredictionView:
     def total(self, name: str) -> float:
         """Return one of `gripscale.model.TOTALS`."""
         return float(self.data[f"total_{name}"])
+
+    def answer(self, name: str) -> tuple[float, float, float]:
+        """Return the best estimate of `contact_fraction` or `friction`, and the ends of its 90 %.
+
+        NaN where there is none.
+        """
+        from gripscale.analysis.intervals import interval_ends
+
+        if f"best_{name}" not in self.data:
+            return math.nan, math.nan, math.nan
+        best, width = (self.data[f"best_{name}{end}"] for end in ("", "_half_width"))
+        low, high = interval_ends(best, width)
+        return float(best), float(low), float(high)
 
     def has(self, name: str) -> bool:
         """Return whether there is a column `name` over the waves."""

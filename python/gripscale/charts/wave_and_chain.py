@@ -14,11 +14,22 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Note, Panel, Series, Sheet, ValueMap
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    Bars,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    Series,
+    Sheet,
+    ValueMap,
+)
 from gripscale.charts.ladder import measured_points
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
-from gripscale.charts.view import AXIS_TITLES, HEADINGS, JUDGE, PredictionView
+from gripscale.charts.view import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, PredictionView
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
@@ -38,7 +49,8 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     """Draw real contact area and friction of each named prediction, such as dynamic and static.
 
     Filled symbols are the running values, open symbols and thin lines those of each wave; a model
-    without waves is a level line at its total. Friction leaves out what is at rest, which has none;
+    without waves is a level line at its total, with its best estimate as a band if it has one.
+    Friction leaves out what is at rest, which has none;
     of a prediction without a single converged wave the legend says that there is nothing to draw.
     Lines are dashed beyond the measured band of the rubber.
     """
@@ -101,12 +113,13 @@ def _total_panel(views: Views, name: str) -> Panel:
         words, sum_of, title = HEADINGS[name], "sum", name
         least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
         axis = Axis(f"{words} [-]", low=min(0.0, *least, 0.0))
+    abscissa = _wavelengths(views)
     return Panel(
-        _wavelengths(views),
+        abscissa,
         axis,
         [mark for view, colour in zip(views, COLOURS, strict=False)
          if view.moving or name != "friction"
-         for mark in _running_and_each(view, name, colour)],
+         for mark in (*_running_and_each(view, name, colour), *_answer(view, name, abscissa))],
         name=title,
         caption=f"{words.capitalize()}: {sum_of} down to each wave (filled), and of each wave "
         "(open); dashed beyond the measured band.",
@@ -138,6 +151,18 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
     )
     yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond, width=0.8,
                  filled=False)  # fmt: skip
+
+
+def _answer(view: PredictionView, quantity: str, along: Axis) -> Iterator[Mark]:
+    """Yield the best estimate with its interval, if there is one."""
+    best, low, high = view.answer(quantity)
+    if not np.isfinite(best):
+        return
+    measured = np.isfinite(low)
+    yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)
+    if measured:
+        ends = (0.0, 1.0) if along.low is None or along.high is None else (along.low, along.high)
+        yield Band(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
 def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:

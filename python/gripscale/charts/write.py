@@ -89,7 +89,9 @@ def draw_direct(results: CaseResults, figures: Figures) -> None:
 
     The page shows the others.
     """
-    traces = [] if results.direct is None else named_traces(results.direct)
+    measured = results.surface.measured
+    profiles = [] if measured is None else [raw.name for raw, _ in measured.profiles]
+    traces = [] if results.direct is None else named_traces(results.direct, profiles)
     for name, trace in traces[:1]:
         figures.save(trace_sheet(trace, name), "direct_contact")
 

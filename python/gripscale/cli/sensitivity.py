@@ -81,12 +81,14 @@ def sensitivity(
         on_task=terminal.progress_printer(console),
     )
 
+    record = InputRecord.of_file(target / FILE)
+
     def draw() -> None:
         if STORAGE in data:
             folder.make(target / "figures")
             figures = FigureFolder(target / "figures", file.case.output.figures)
             figures.save(sensitivity_figure(data), "sensitivity")
-            write_pictures(height_pictures(data), figures)
+            write_pictures(height_pictures(data, record.data), figures)
 
     failed = failures(data)
     terminal.conclude(
@@ -95,7 +97,7 @@ def sensitivity(
         list(sensitivity_parts(data)),
         results=[data],
         lead=list(answer_lines(data)),
-        warnings=case_notices(None, InputRecord.of_file(target / FILE)),
+        warnings=case_notices(None, record),
         text="sensitivity.txt",
         closing=f"Result ({FILE}), tables and figure are in",
         draw=draw,

@@ -184,7 +184,7 @@ def run_page(run: Run) -> Page:
 
 def _direct_contact(run: Run) -> list[Element]:
     """Return the direct contact of the measured surface as pictures and by slope."""
-    if run.direct is None or not (pictures := contact_pictures(run.direct)):
+    if run.direct is None or not (pictures := contact_pictures(run.direct, run.record.data)):
         return []
     first, *others = pictures
     return [Text(PICTURE), first, *comparison.slopes_table(run.direct), *others]
@@ -527,7 +527,7 @@ def sensitivity_page(source: Study) -> Page:
             Section(
                 "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
             ),
-            Section("heights", "Which heights count", height_charts(data)),
+            Section("heights", "Which heights count", height_charts(data, source.record.data)),
             rerun_section(data.attrs),
         ],
     )

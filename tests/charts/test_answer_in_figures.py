@@ -1,0 +1,140 @@
+"""The answer with its interval in figures of models and samples, and marks on each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+from gripscale.analysis.cut_off_curve import AREA, FRICTION, SLOPE_IN_CONTACT
+from gripscale.charts import contact_figure
+from gripscale.charts.cut_off import cut_off_sheet
+from gripscale.charts.draw import on_paper
+from gripscale.charts.uncertainty import distribution_figure, profiles_figure, residual_figure
+from gripscale.charts.view import ANSWER, JUDGE
+
+BEST = {"friction": 0.461, "contact_fraction": 0.0047}
+
+
+def legend(figure: Figure) -> list[str]:
+    return [text.get_text() for part in figure.legends for text in part.get_texts()]
+
+
+def with_answer(data: xr.Dataset, half_width: float = 0.26) -> xr.Dataset:
+    numbers = {f"best_{name}": ((), value) for name, value in BEST.items()}
+    return data.assign(numbers | {f"best_{name}_half_width": ((), half_width) for name in BEST})
+
+
+@pytest.mark.parametrize("half_width", [0.26, math.nan])
+def test_the_answer_stands_beside_the_chain(
+    make_prediction: Callable[..., xr.Dataset], half_width: float
+) -> None:
+    judge = with_answer(make_prediction().drop_dims("scale"), half_width)
+    figure = contact_figure({"dynamic": make_prediction(), JUDGE: judge})
+    label = ANSWER if math.isfinite(half_width) else "answer"
+    assert legend(figure).count(label) == 1
+    for axes, name in zip(figure.axes, ("contact_fraction", "friction"), strict=True):
+        line = next(line for line in axes.lines if line.get_label() == label)
+        assert list(line.get_ydata()) == [BEST[name]] * 2
+        if math.isnan(half_width):
+            assert not axes.collections
+            continue
+        (band,) = axes.collections
+        heights = band.get_paths()[0].vertices[:, 1]
+        ends = BEST[name] * np.exp(np.arcsinh(half_width) * np.array([-1.0, 1.0]))
+        assert (heights.min(), heights.max()) == pytest.approx(tuple(ends))
+        assert axes.get_ylim()[0] < ends[0]
+
+
+def samples() -> xr.Dataset:
+    """Return samples of two models, with an answer beside them."""
+    rng = np.random.default_rng(1)
+    data = xr.Dataset({"failed": ("model", [0, 0])}, {"model": ["chain", "direct"]})
+    for name, value in BEST.items():
+        values = 0.8 * value * np.exp(0.1 * rng.normal(size=(2, 60)))
+        data[name] = (("model", "sample"), values)
+        ends = np.quantile(values, [0.05, 0.25, 0.5, 0.75, 0.95], axis=1).T
+        data[f"{name}_quantile"] = (("model", "quantile"), ends)
+        data[f"{name}_case"] = ("model", [0.82 * value] * 2)
+    return with_answer(data)
+
+
+def test_distributions_show_the_answer_and_name_every_mark() -> None:
+    figure = distribution_figure(samples())
+    assert legend(figure) == [
+        ANSWER, "median of the samples", "5 and 95 %", "model, inputs as stated",
+    ]  # fmt: skip
+    titles = [axes.get_title() for axes in figure.axes]
+    assert titles == ["chain", "chain", "direct contact", "direct contact"]
+    for at, axes in enumerate(figure.axes):
+        best = list(BEST.values())[at % 2]
+        star = next(line for line in axes.lines if line.get_marker() == "*")
+        assert list(star.get_xdata()) == [best]
+        left, right = axes.get_xlim()
+        width = math.exp(math.asinh(0.26))
+        assert left < best / width
+        assert right > best * width
+
+
+def calibration(series: int, parameters: int) -> xr.Dataset:
+    """Return residuals of several temperatures and profiles of several parameters."""
+    points, value = 4 * series, np.linspace(1.0, 2.0, 9)
+    kelvin = np.repeat(300.0 + 20.0 * np.arange(series), 4) if series > 1 else [math.nan] * 4
+    measured = {
+        "friction": np.full(points, 0.5), "spread": [math.nan] * points, "temperature": kelvin,
+        "speed": np.tile([0.01, 0.1, 1.0, 10.0], series),
+    }  # fmt: skip
+    data = xr.Dataset({f"measured_{name}": ("point", v) for name, v in measured.items()})
+    data["difference"] = ("point", np.linspace(-0.05, 0.05, points))
+    data["difference_in_spread"] = ("point", [math.nan] * points)
+    data["profile_value"] = (("parameter", "at"), np.tile(value, (parameters, 1)))
+    data["profile_excess"] = (("parameter", "at"), np.tile((value - 1.5) ** 2, (parameters, 1)))
+    for name, number in (("low", 1.2), ("high", 1.8), ("estimate", 1.5)):
+        data[name] = ("parameter", [number] * parameters)
+    data["unit"] = ("parameter", ["1"] * parameters)
+    data["parameter"] = ("parameter", [f"p{i}" for i in range(parameters)])
+    return data.assign_attrs(scatter=0.03, threshold=0.1, level=0.9)
+
+
+@pytest.mark.parametrize("series", [1, 3])
+def test_residuals_name_their_band_and_only_several_series(series: int) -> None:
+    figure = residual_figure(calibration(series, 1))
+    names = ["27 °C", "47 °C", "67 °C"] if series == 3 else []
+    assert sorted(legend(figure)) == sorted(["± scatter of the residuals", *names])
+    (axes,) = figure.axes
+    assert axes.get_ylabel().startswith("fit minus measurement")
+    figure.draw_without_rendering()
+    assert axes.get_position().width > 0.85  # the legend takes nothing of it
+
+
+@pytest.mark.parametrize("parameters", [1, 2, 3, 4])
+def test_profiles_leave_no_panel_empty(parameters: int) -> None:
+    figure = profiles_figure(calibration(1, parameters))
+    assert len(figure.axes) == parameters
+    assert all(axes.get_visible() for axes in figure.axes)
+
+
+def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names() -> None:
+    lengths = np.geomspace(1e-2, 1e-5, 7)
+    numbers = {name: ("cut_off", np.linspace(0.1, 1.0, 7)) for name in (
+        FRICTION, AREA, SLOPE_IN_CONTACT, *(f"{name}_{end}" for name in (FRICTION, AREA)
+                                            for end in ("lower", "upper")))}  # fmt: skip
+    rules = {"shortest wavelength measured": 2e-4, "cut-off of the case": 2.001e-4, "slope": 3e-4}
+    data = xr.Dataset(
+        {
+            **numbers,
+            "curve_measured": ("cut_off", lengths > 1e-4),
+            "rule_cut_off": ("rule", list(rules.values())),
+        },
+        {"cut_off": lengths, "rule": list(rules)},
+    )
+    figure = on_paper(cut_off_sheet(data))
+    names = [name for name in legend(figure) if name.endswith("mm")]
+    assert names == ["shortest wavelength measured, cut-off of the case: 0.2 mm", "slope: 0.3 mm"]
+    for axes in figure.axes:
+        upright = [line for line in axes.lines if len(set(line.get_xdata())) == 1]
+        assert [line.get_xdata()[0] for line in upright] == pytest.approx([0.2, 0.3])
