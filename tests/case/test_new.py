@@ -276,3 +276,29 @@ def test_the_name_of_a_file_is_no_refusal(tmp_path: Path, shell: Shell) -> None:
     assert outcome.exit_code == 2
     assert "give x_unit.csv" in outcome.output
     assert "here with" not in outcome.output
+
+
+def test_a_title_that_says_depth_is_a_doubt_of_weight(tmp_path: Path) -> None:
+    path = road(tmp_path / "road.csv", "x [mm];Tiefe [mm]")
+    files = [path, sweeps(tmp_path / "dma.csv")]
+    case = new_case(files, tmp_path / "case.toml")
+    assert case.doubts[0].weight == Weight.ANOTHER
+    assert "titled 'Tiefe', is taken as height, up" in case.doubts[0].text
+    results = prepare_case(read_case(case.path))
+    assert any("titled 'Tiefe'" in doubt for doubt in results.doubts())
+    stated = case.path.read_text(encoding="utf-8").replace(
+        "[surface]", '[surface]\nz_axis = "down"'
+    )
+    case.path.write_text(stated, encoding="utf-8")
+    turned = prepare_case(read_case(case.path))
+    assert not any("Tiefe" in doubt for doubt in turned.doubts())
+    before, after = (each.surface.measured.profiles[0][0].z for each in (results, turned))
+    assert np.array_equal(after, -before)
+
+
+def test_a_wrong_unit_of_heights_is_named_first(tmp_path: Path) -> None:
+    rows = (f"{1e3 * a:.7g},{1e6 * b:.7g}" for a, b in zip(ROUGH.x, ROUGH.z, strict=True))
+    path = tmp_path / "road.csv"
+    path.write_text("\n".join(["x [mm],z [mm]", *rows]))
+    with pytest.raises(InputError, match=r"csv: the unit of heights or of distances looks wrong"):
+        new_case([path, sweeps(tmp_path / "dma.csv")], tmp_path / "case.toml")

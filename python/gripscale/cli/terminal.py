@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import textwrap
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
@@ -250,6 +252,25 @@ def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
     """Return the options of a command that are keys of a table of the case, those that are set."""
     values = {key: context.params.get(key) for key in table.model_fields}
     return {key: value for key, value in values.items() if value is not None and value is not False}
+
+
+def as_options(text: str, context: typer.Context) -> str:
+    """Return a text with keys of a case as options of a command, such as --z-unit for z_unit."""
+    for key in context.params:
+        name = f"--{key.replace('_', '-')}"
+        text = re.sub(rf'\b{key} = "(\w+)"', rf"{name} \1", text)
+        text = re.sub(rf"(\bgive |\bor |^|: ){key}(?=,| must\b|;|:|$)", rf"\1{name}", text)
+    return text
+
+
+@contextmanager
+def keys_as_options(context: typer.Context) -> Iterator[None]:
+    """Let errors name the options of a command in place of the keys of a case."""
+    try:
+        yield
+    except GripscaleError as error:
+        error.args = (as_options(str(error), context),)
+        raise
 
 
 def lengths_of(text: str) -> str | list[str]:
