@@ -98,8 +98,16 @@ def _with_new_names(data: xr.Dataset) -> xr.Dataset:
 def _reading(path: str | Path) -> Iterator[Path]:
     """Yield the path of an undamaged file; raise `FileError` if it is missing or unreadable."""
     path = Path(path)
+    if path.is_dir():
+        names = ", ".join(sorted(file.name for file in path.glob("[!.]*.nc"))) or "none is there"
+        raise FileError(f"{path} is a folder; expected one of its result files: {names}")
     if not path.is_file():
         raise FileError(f"result file {path} does not exist")
+    if path.suffix.lower() == ".toml":
+        raise FileError(
+            f"{path} is a case, not a result: `gripscale run` solves it; then name its results "
+            "folder, or a .nc file in it"
+        )
     try:
         with path.open("rb") as file:
             whole = _is_whole(file)
@@ -111,9 +119,12 @@ def _reading(path: str | Path) -> Iterator[Path]:
         with held_back():
             yield path
     except (OSError, ValueError, KeyError, RuntimeError) as error:
-        raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
+        reason = "it is of another format" if getattr(error, "errno", 0) == _UNKNOWN else error
+        raise FileError(f"{path} cannot be read as a netCDF result: {reason}") from error
 
 
+_UNKNOWN = -51
+"""Error of the netCDF library about a file that is none (NC_ENOTNC)."""
 _FULL = 2**16
 """Free bytes below which a disk counts as full: a file system keeps some for itself."""
 
