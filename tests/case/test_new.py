@@ -302,3 +302,20 @@ def test_a_wrong_unit_of_heights_is_named_first(tmp_path: Path) -> None:
     path.write_text("\n".join(["x [mm],z [mm]", *rows]))
     with pytest.raises(InputError, match=r"csv: the unit of heights or of distances looks wrong"):
         new_case([path, sweeps(tmp_path / "dma.csv")], tmp_path / "case.toml")
+
+
+def test_a_folder_of_a_rubber_names_what_is_not_moduli(tmp_path: Path) -> None:
+    path, laboratory = road(tmp_path / "road.csv"), tmp_path / "laboratory"
+    laboratory.mkdir()
+    sweeps(laboratory / "raw.csv")
+    (laboratory / "shifts.csv").write_text("T [C],log_aT\n0,2.0\n20,0\n40,-1.6\n")
+    case = new_case([path, laboratory], tmp_path / "case.toml")
+    assert keys(case)["rubber"]["file"] == "laboratory/raw.csv"
+    assert [Path(name).name for name in keys(case)["surface"]["files"]] == ["road.csv"]
+    words = 'laboratory/shifts.csv holds shift factors and is not used: shift = "laboratory/shifts'
+    assert words in doubted(case, Weight.FACTOR)
+    (laboratory / "master.csv").write_text(
+        "f [Hz],E' [MPa],E'' [MPa]\n" + "\n".join(f"{10.0**n},{5 + n},0.5" for n in range(8))
+    )
+    with pytest.raises(InputError, match=r"^master\.csv cannot be joined with .* of raw\.csv; name"):
+        new_case([path, laboratory], tmp_path / "other.toml")
