@@ -84,9 +84,10 @@ def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path: Path) ->
     files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
     load = {"pressure": "2 bar", "speed": "0.5 m/s", "footprint": "50 mm"}
     texts = []
-    for name, order in (("a.toml", files), ("b.toml", files[::-1])):
-        case = new_case(order, tmp_path / name, load=load, temperature="25 C")
+    for order in (files, files[::-1]):
+        case = new_case(order, tmp_path / "case.toml", load=load, temperature="25 C")
         texts.append(case.path.read_text(encoding="utf-8"))
+        case.path.unlink()
     assert texts[0] == texts[1]
     found = tomllib.loads(texts[0])
     assert found["surface"]["crop"][0] == "19 mm"  # 15 mm and a guard of a fortieth of 150 mm
@@ -317,5 +318,13 @@ def test_a_folder_of_a_rubber_names_what_is_not_moduli(tmp_path: Path) -> None:
     (laboratory / "master.csv").write_text(
         "f [Hz],E' [MPa],E'' [MPa]\n" + "\n".join(f"{10.0**n},{5 + n},0.5" for n in range(8))
     )
-    with pytest.raises(InputError, match=r"^master\.csv cannot be joined with .* of raw\.csv; name"):
+    with pytest.raises(
+        InputError, match=r"^master\.csv cannot be joined with .* of raw\.csv; name"
+    ):
         new_case([path, laboratory], tmp_path / "other.toml")
+
+
+def test_cases_in_one_folder_have_results_of_their_own(tmp_path: Path) -> None:
+    files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
+    for name, results in (("case", "results"), ("wet", "results-wet")):
+        assert keys(new_case(files, tmp_path / f"{name}.toml"))["output"]["folder"] == results

@@ -77,7 +77,8 @@ def new_case(
     files : sequence of path-like
         Profiles or a map, and a master curve or sweeps, in any order; folders of them.
     path : path-like
-        The case file, which must not be there.
+        The case file, which must not be there. Its results go to the folder `results`, or to
+        `results-NAME` of a case with another name than case.toml.
     load : mapping, optional
         `pressure`, `speed` and `footprint` as in a case; 3 bar, 1 m/s and 100 mm by default.
     temperature : str, optional
@@ -99,13 +100,14 @@ def new_case(
         files, target.parent, load=load, temperature=temperature, step=step, shift=shift
     )
     folder.make(target.parent)
-    folder.write_text(target, case_text(tables))
+    results = "results" if target.stem == "case" else f"results-{target.stem}"
+    folder.write_text(target, case_text(tables, results=results))
     try:
         of_inputs = doubts_of_inputs(read_case(target))
     except GripscaleError:
         target.unlink()
         raise
-    folder.write_text(target, case_text(tables, of_inputs))
+    folder.write_text(target, case_text(tables, of_inputs, results))
     return NewCase(target, ranked(tables, of_inputs), skipped)
 
 
@@ -233,10 +235,12 @@ def _load_proposal(load: Mapping[str, str]) -> Proposal:
     return proposal
 
 
-def case_text(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> str:
+def case_text(
+    tables: Mapping[str, Proposal], further: Sequence[Doubt] = (), results: str = "results"
+) -> str:
     """Return the text of a case: its doubts, and each key with why it has its value or its meaning.
 
-    The doubts are those of the proposals and `further` ones.
+    The doubts are those of the proposals and `further` ones; `results` is the folder of results.
     """
     parts = [HEAD]
     doubts = ranked(tables, further)
@@ -256,7 +260,7 @@ def case_text(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> 
             reason = proposal.reasons.get(key) or meanings[name, key].rstrip(".")
             parts += [*textwrap.wrap(reason, WIDTH, **COMMENT), f"{key} = {_toml(value)}"]
         parts.append("")
-    return "\n".join([*parts, "[output]", 'folder = "results"', ""])
+    return "\n".join([*parts, "[output]", f"folder = {_toml(results)}", ""])
 
 
 def _toml(value: Any) -> str:

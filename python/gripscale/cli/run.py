@@ -78,6 +78,7 @@ def run(
             _print_finished(console, target)
         else:
             folder.require_writable(target)
+            terminal.RESULTS.set(target)
             kinds = file.case.output.figures
             with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
                 _run(console, emit, file, target, figures, fresh)
@@ -121,7 +122,7 @@ def _run(
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.case import prepare_case
     from gripscale.case.events import FileWritten
-    from gripscale.case.finished import note_finished
+    from gripscale.case.finished import case_replaced, note_finished
     from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
@@ -131,6 +132,10 @@ def _run(
     friction = friction_of_case(file)
     results = prepare_case(file)
     require_feasible(results)
+    other = case_replaced(file, target)
+    if other:
+        words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
+        terminal.print_wrapped(console, words)
     with background_figures(results, figures) as draw:
         opening = _print_answer(console, results, friction, target)
         effects = _solve(console, emit, results, target, draw, fresh)

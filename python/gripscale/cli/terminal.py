@@ -9,6 +9,7 @@ import textwrap
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
@@ -55,11 +56,18 @@ def print_error(message: str) -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
+RESULTS: ContextVar[Path | None] = ContextVar("results", default=None)
+"""Folder that the running command writes its results into."""
+
+
 def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     """Return the sentence and the exit code a command ends with after `error`."""
     if isinstance(error, KeyboardInterrupt):
+        target = RESULTS.get()
+        if target is None or not any(target.rglob("[!.]*.nc")):
+            return "stopped; nothing was finished", STOPPED
         stopped = (
-            "stopped; finished results are kept in the output folder, "
+            f"stopped; finished results are kept in {target}, "
             "and the same command continues from them"
         )
         return stopped, STOPPED
@@ -165,6 +173,7 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
 
     @wraps(body)
     def inside(*args: P.args, **kwargs: P.kwargs) -> None:
+        RESULTS.set(None)
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
@@ -287,6 +296,7 @@ def open_folder(
 
     target = output or file.resolve(file.case.output.folder) / name
     folder.require_writable(target)
+    RESULTS.set(target)
     console = screen()
     for line in opening:
         print_wrapped(console, line)
