@@ -82,7 +82,7 @@ MISTAKES: list[tuple[Callable[[Place], list[str]], str]] = [
     (lambda at: at.say('file = "dma.txt"', 'file = "road.txt"'), "at least 3 columns (frequency,"),
     (folder_for_a_file, "rubbers: expected a file or a list of files; got a folder"),
     (lambda at: ["run", str(at.folder)], "cannot be read: Is a directory"),
-    (lambda at: ["run", str(at.folder / "dma.txt")], "dma.txt is no case file (TOML); `gripscale n"),
+    (lambda at: ["run", str(at.folder / "dma.txt")], "dma.txt is no case file (TOML); `gripscale"),
     (lambda at: ["report", str(at.case)], "case.toml is a case, not a result: `gripscale run` sol"),
     (lambda at: ["report", str(at.folder / "dma.txt")], "netCDF result: it is of another format"),
     (old_excel, "expected a text file; got an old Office file (.xls), to be saved as .xlsx"),
