@@ -39,18 +39,14 @@ PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-
 
 
 def input_doubts(
-    surfaces: Iterable[Surface],
-    loads: Iterable[Load],
-    units: Mapping[str, str],
-    further: Iterable[str] = (),
+    surfaces: Iterable[Surface], loads: Iterable[Load], units: Mapping[str, str]
 ) -> dict[str, str]:
     """Return the attribute `INPUT_DOUBTS` of an answer; nothing without a doubt.
 
     It is on surfaces and under loads, which are shown in the stated `units` of their quantities.
-    Doubts of other inputs are `further` sentences, which come first.
     """
     of_surfaces = [text for surface in surfaces for text in doubt_sentences(surface)]
-    texts = dict.fromkeys([*further, *of_surfaces, *load_doubts(loads, units)])
+    texts = dict.fromkeys([*of_surfaces, *load_doubts(loads, units)])
     return {INPUT_DOUBTS: " ".join(texts)} if texts else {}
 
 

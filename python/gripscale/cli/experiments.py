@@ -271,7 +271,7 @@ def calibrate(
         speed_doubts,
     )
     from gripscale.io import netcdf
-    from gripscale.model import input_doubts
+    from gripscale.model import INPUT_DOUBTS
     from gripscale.report.calibration import calibration_lines, calibration_parts, failures
     from gripscale.report.notices import case_notices
     from gripscale.report.record import InputRecord
@@ -301,9 +301,10 @@ def calibrate(
     speed = results.load.speed
     # its speeds have a doubt of their own
     loads = [replace(results.load, pressure=float(p)) for p in fitted.predicted.pressure]
-    data.attrs |= input_doubts([results.surface], loads, file.units, speed_doubts(friction, speed))
-    notes_of_friction = friction_doubts(friction, speed)
-    inputs = record.inputs(results, loads=loads, friction_notes=notes_of_friction)
+    if far := speed_doubts(friction, speed):
+        data.attrs[INPUT_DOUBTS] = " ".join(far)
+    of_friction = friction_doubts(friction, speed)
+    inputs = record.inputs(results, loads=loads, friction_notes=of_friction)
     netcdf.save(data, target / "calibration.nc", {"inputs": inputs})
     figures = FigureFolder(target, file.case.output.figures)
     terminal.conclude(
