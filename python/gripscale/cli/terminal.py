@@ -268,7 +268,8 @@ def as_options(text: str, context: typer.Context) -> str:
     for key in context.params:
         name = f"--{key.replace('_', '-')}"
         text = re.sub(rf'\b{key} = "(\w+)"', rf"{name} \1", text)
-        text = re.sub(rf"(\bgive |\bor |^|: ){key}(?=,| must\b|;|:|$)", rf"\1{name}", text)
+        text = re.sub(rf"(\bgive |\bor ){key}(?=[,;:]|$)", rf"\1{name}", text)
+        text = re.sub(rf"(^|: ){key}(?= must\b)", rf"\1{name}", text)
     return text
 
 

@@ -158,7 +158,7 @@ def _uneven(table: TextTable, column: int, distances: Array, lines: list[int] | 
             rows = "this row" if again == 1 else f"the {again} rows that repeat the one above"
             return FileError(
                 f"{where}: expected each distance in column {column + 1} once; got {first} "
-                f"again: take {rows} out"
+                f"again: take out {rows}"
             )
     return FileError(
         f"{where}: expected distances in column {column + 1} that increase in equal steps; "
