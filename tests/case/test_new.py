@@ -84,9 +84,10 @@ def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path: Path) ->
     files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
     load = {"pressure": "2 bar", "speed": "0.5 m/s", "footprint": "50 mm"}
     texts = []
-    for name, order in (("a.toml", files), ("b.toml", files[::-1])):
-        case = new_case(order, tmp_path / name, load=load, temperature="25 C")
+    for order in (files, files[::-1]):
+        case = new_case(order, tmp_path / "case.toml", load=load, temperature="25 C")
         texts.append(case.path.read_text(encoding="utf-8"))
+        case.path.unlink()
     assert texts[0] == texts[1]
     found = tomllib.loads(texts[0])
     assert found["surface"]["crop"][0] == "19 mm"  # 15 mm and a guard of a fortieth of 150 mm
@@ -276,3 +277,54 @@ def test_the_name_of_a_file_is_no_refusal(tmp_path: Path, shell: Shell) -> None:
     assert outcome.exit_code == 2
     assert "give x_unit.csv" in outcome.output
     assert "here with" not in outcome.output
+
+
+def test_a_title_that_says_depth_is_a_doubt_of_weight(tmp_path: Path) -> None:
+    path = road(tmp_path / "road.csv", "x [mm];Tiefe [mm]")
+    files = [path, sweeps(tmp_path / "dma.csv")]
+    case = new_case(files, tmp_path / "case.toml")
+    assert case.doubts[0].weight == Weight.ANOTHER
+    assert "titled 'Tiefe', is taken as height, up" in case.doubts[0].text
+    results = prepare_case(read_case(case.path))
+    assert any("titled 'Tiefe'" in doubt for doubt in results.doubts())
+    stated = case.path.read_text(encoding="utf-8").replace(
+        "[surface]", '[surface]\nz_axis = "down"'
+    )
+    case.path.write_text(stated, encoding="utf-8")
+    turned = prepare_case(read_case(case.path))
+    assert not any("Tiefe" in doubt for doubt in turned.doubts())
+    before, after = (each.surface.measured.profiles[0][0].z for each in (results, turned))
+    assert np.array_equal(after, -before)
+
+
+def test_a_wrong_unit_of_heights_is_named_first(tmp_path: Path) -> None:
+    rows = (f"{1e3 * a:.7g},{1e6 * b:.7g}" for a, b in zip(ROUGH.x, ROUGH.z, strict=True))
+    path = tmp_path / "road.csv"
+    path.write_text("\n".join(["x [mm],z [mm]", *rows]))
+    with pytest.raises(InputError, match=r"csv: the unit of heights or of distances looks wrong"):
+        new_case([path, sweeps(tmp_path / "dma.csv")], tmp_path / "case.toml")
+
+
+def test_a_folder_of_a_rubber_names_what_is_not_moduli(tmp_path: Path) -> None:
+    path, laboratory = road(tmp_path / "road.csv"), tmp_path / "laboratory"
+    laboratory.mkdir()
+    sweeps(laboratory / "raw.csv")
+    (laboratory / "shifts.csv").write_text("T [C],log_aT\n0,2.0\n20,0\n40,-1.6\n")
+    case = new_case([path, laboratory], tmp_path / "case.toml")
+    assert keys(case)["rubber"]["file"] == "laboratory/raw.csv"
+    assert [Path(name).name for name in keys(case)["surface"]["files"]] == ["road.csv"]
+    words = 'laboratory/shifts.csv holds shift factors and is not used: shift = "laboratory/shifts'
+    assert words in doubted(case, Weight.FACTOR)
+    (laboratory / "master.csv").write_text(
+        "f [Hz],E' [MPa],E'' [MPa]\n" + "\n".join(f"{10.0**n},{5 + n},0.5" for n in range(8))
+    )
+    with pytest.raises(
+        InputError, match=r"^master\.csv cannot be joined with .* of raw\.csv; name"
+    ):
+        new_case([path, laboratory], tmp_path / "other.toml")
+
+
+def test_cases_in_one_folder_have_results_of_their_own(tmp_path: Path) -> None:
+    files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
+    for name, results in (("case", "results"), ("wet", "results-wet")):
+        assert keys(new_case(files, tmp_path / f"{name}.toml"))["output"]["folder"] == results

@@ -138,6 +138,28 @@ def test_the_page_names_the_command_that_makes_it_again(
     assert len(set(answers)) == 1
 
 
+def test_speeds_without_a_unit_are_the_first_doubt_and_far_ones_leave_no_answer(
+    shell: Shell, case: Path, tmp_path: Path
+) -> None:
+    speed = read_case(case).case.load.speed
+    options = ["calibrate", case, "--model", "chain", "--law", "constant"]
+    for factor, relied_on in ((1.0, True), (100.0, False)):
+        measured, target = tmp_path / f"mu{factor:g}.csv", tmp_path / f"{factor:g}"
+        rows = (f"{factor * part * speed:g},0.9" for part in (0.5, 1.0, 2.0))
+        measured.write_text("\n".join(["speed,mu", *rows]))
+        result = shell(*options, "--measured", measured, "--output", target)
+        assert result.exit_code == 0, result.output
+        said = " ".join(result.stdout.split())
+        first = said.partition("Warnings, by what they change: ")[2]
+        assert first.startswith(f"The unit of speed in {measured.name} is not stated and m/s is")
+        assert relied_on != ("Answer: none to rely on. The measured speeds, " in said)
+        page = tmp_path / "page.html"
+        assert shell("report", target, "--output", page).exit_code == 0
+        text = Page(page).text
+        assert f"The unit of speed in {measured.name} is not stated" in text
+        assert relied_on != ("none to rely on. The measured speeds" in text)
+
+
 def test_what_needs_no_prediction_is_refused_before_any(case: Path, tmp_path: Path) -> None:
     few = tmp_path / "few.csv"
     few.write_text("speed [m/s],friction\n0.1,0.9\n1,0.9\n")

@@ -368,3 +368,21 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     assert second in words
     assert f"{chain.friction / float(direct.friction.mean()):.2g} times this friction" in second
     assert second in " ".join((tmp_path / "report.txt").read_text().split())
+
+
+def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(
+    shell: Shell, changed: Callable[..., Path]
+) -> None:
+    case = changed("[output]", '[measured]\nfriction = "mu.csv"\n[output]')
+    (case.parent / "mu.csv").write_text(MEASURED.replace("speed [mm/s]", "speed"))
+    compare = ["compare", case, "--rungs", "chain_half_plane"]
+    for command in (["run", case], compare, [*compare, "--vary", "speed=0.03,0.3"]):
+        result = shell(*command)
+        assert result.exit_code == 0, result.output
+        first = " ".join(result.stdout.split()).partition("Warnings, by what they change: ")[2]
+        assert first.startswith("The unit of speed in mu.csv is not stated and m/s is assumed")
+    results = case.parent / "results"
+    for folder in (results, results / "comparison" / "comparison.nc"):
+        page = case.parent / "page.html"
+        assert shell("report", folder, "--output", page).exit_code == 0
+        assert "The unit of speed in mu.csv is not stated" in page.read_text(encoding="utf-8")

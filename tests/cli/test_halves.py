@@ -55,9 +55,34 @@ def test_surface_half_takes_units_that_no_file_states(shell: Shell, tmp_path: Pa
     for file, options in ((line, ["--x-unit", "um"]), (table, ["--step", "1 um, 2 um"])):
         refused = shell("fit-surface", file, *options)
         assert refused.exit_code == 2
-        assert "give z_unit; see `gripscale keys surface`" in refused.output
+        assert "give --z-unit; see `gripscale keys surface`" in refused.output
         result = shell("fit-surface", file, *options, *unit, "--scales", 2)
         assert result.exit_code == 0, result.output
+
+
+def test_surface_half_names_its_own_option_for_a_column_of_heights(
+    shell: Shell, tmp_path: Path
+) -> None:
+    path = tmp_path / "heights.txt"
+    np.savetxt(path, np.random.default_rng(1).normal(size=400), "%.4f")
+    refused = shell("fit-surface", path, "--step", "0.05 mm")
+    assert "title, such as 'z [mm]', or give --z-unit;" in refused.output
+    assert "give --step," in shell("fit-surface", path).output
+
+
+def test_surface_half_doubts_depths_first_and_turns_them_over(
+    shell: Shell, inputs: Path, tmp_path: Path
+) -> None:
+    road = tmp_path / "depths.txt"
+    road.write_text((inputs / "road.txt").read_text().replace("z [mm]", "depth [mm]"))
+    options = ["--scales", 2, "--crop", "10 mm", "390 mm"]
+    doubted = " ".join(shell("fit-surface", road, *options).stdout.split())
+    assert doubted.startswith("doubt: depths: column 2, titled 'depth', is taken as height, up:")
+    assert "--z-axis down turns it over" in doubted
+    for axis in ("up", "down"):
+        stated = shell("fit-surface", road, *options, "--z-axis", axis)
+        assert stated.exit_code == 0, stated.output
+        assert "doubt:" not in stated.stdout
 
 
 def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path) -> None:

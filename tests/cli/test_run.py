@@ -261,3 +261,38 @@ def test_waves_by_hand_and_a_named_rubber_need_no_files(
 )
 def test_a_line_says_how_long_the_others_may_take(seconds: float, words: str) -> None:
     assert time_left(seconds) == words
+
+
+def test_ctrl_c_says_that_results_are_kept_only_where_there_are_some(
+    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = changed("static = true", "static = false")
+
+    def stop(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("gripscale.case.prepare_surface", stop)
+    monkeypatch.setattr("gripscale.case.prepare_case", stop)
+    for command in (["fit-surface", case.with_name("road.txt")], ["run", case]):
+        stopped = shell(*command)
+        assert stopped.exit_code == 130
+        assert stopped.stderr.split() == ["error:", "stopped;", "nothing", "was", "finished"]
+    monkeypatch.undo()
+    assert shell("run", case).exit_code == 0
+    monkeypatch.setattr("gripscale.case.prepare_case", stop)
+    kept = shell("run", case, "--fresh")
+    assert f"finished results are kept in {case.parent / 'results'}" in kept.stderr
+
+
+def test_results_of_another_case_are_named_before_they_are_replaced(
+    shell: Shell, changed: Callable[..., Path]
+) -> None:
+    case = changed("static = true", "static = false")
+    other = case.with_name("fast.toml")
+    other.write_text(case.read_text().replace('"0.3 m/s"', '"3 m/s"'))
+    first = shell("run", case)
+    assert "Replaces" not in first.stdout
+    second = shell("run", other)
+    words = f"Replaces the results of case.toml in {case.parent / 'results'}; --output DIR keeps"
+    assert " ".join(second.stdout.split()).startswith(words)
+    assert "Replaces the results of" not in shell("run", other, "--fresh").stdout

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.core.units import UNITS, in_si, listed, parse_quantity, spelled
+from gripscale.core.units import UNITS, DisplayUnit, in_mm, in_si, listed, parse_quantity, spelled
 
 
 @pytest.mark.parametrize(
@@ -66,3 +66,14 @@ def test_spellings(written: object, kind: str, usual: str | None) -> None:
 def test_an_unknown_unit_is_named_with_all_that_are_known() -> None:
     with pytest.raises(InputError, match=r"z_unit must be one of m, cm, .*; got 'furlong'"):
         in_si(1.0, "furlong", "length", "z_unit")
+
+
+@pytest.mark.parametrize(
+    ("metres", "digits", "text"),
+    [(1.0, 3, "1000 mm"), (12.3456, 3, "12300 mm"), (1e-7, 3, "0.0001 mm"), (4e4, 3, "4e+07 mm")],
+)
+def test_numbers_in_display_units_are_shown_without_an_exponent(
+    metres: float, digits: int, text: str
+) -> None:
+    assert DisplayUnit("mm", 1e-3).text(metres, digits) == text
+    assert in_mm(metres, digits) == text

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
@@ -45,6 +47,7 @@ def inputs(tmp_path_factory) -> Path:
     write_maxwell(folder / "dma.txt")
     (folder / "case.toml").write_text(CASE)
     (folder / "rubber.json").write_text(json.dumps(MAXWELL.to_dict()))
+    (folder / "bad.json").write_text("{")
     return folder
 
 
@@ -91,7 +94,8 @@ def test_a_rubber_at_another_temperature_and_in_other_units(inputs, tmp_path):
         ),
         ("case.toml", ["--to", "febio", "--temperature", "warm"], "expected a temperature such as"),
         ("dma.txt", ["--to", "ansys", "--name", "a"], "unknown option of ansys name"),
-        ("none.json", ["--to", "ansys"], "cannot be read as a rubber"),
+        ("none.json", ["--to", "ansys"], "none.json: cannot be read (no such file)"),
+        ("bad.json", ["--to", "ansys"], "bad.json cannot be read as a rubber"),
         ("none.toml", ["--to", "ansys"], "does not exist"),
         ("none.txt", ["--to", "ansys"], "none.txt"),
     ],
@@ -141,3 +145,17 @@ def test_the_mesh_of_a_wave(result, tmp_path):
     done = run("mesh", result, "--wave", 3, "--output", tmp_path / "wave3.vtu")
     assert done.exit_code == 2
     assert "wave must be a whole number from 1 to 2; got 3" in done.stderr
+
+
+def test_a_folder_or_a_result_without_meshes_names_the_file_that_serves(result, tmp_path):
+    direct = xr.Dataset({"total_friction": 0.3}).assign_attrs(model="direct")
+    other = netcdf.save(direct, tmp_path / "direct.nc")
+    shutil.copy(result, tmp_path)
+    done = run("tables", tmp_path, "--output", tmp_path / "out")
+    assert done.exit_code == 2
+    said = " ".join(done.stderr.split())
+    assert "is a folder; expected one of its result files: direct.nc, dynamic.nc" in said
+    done = run("mesh", other, "--wave", 1, "--output", tmp_path / "wave.vtu")
+    assert done.exit_code == 2
+    assert "direct.nc has no meshes" in done.stderr
+    assert "; dynamic.nc beside it has" in " ".join(done.stderr.split())

@@ -128,7 +128,7 @@ def test_measured_road_counts(path, expected):
         ({"crop": (float("nan"), 1.0)}, r"crop\[0\] must be a finite number"),
         ({"valid_range": (1.0, 2.0)}, "all missing"),
         ({"spike_slope": 0.0}, "spike_slope must be greater than zero"),
-        ({"spike_slope": 1e-12}, "spike_slope must leave some heights"),
+        ({"spike_slope": 1e-12}, "unit of heights or of distances looks wrong.*makes all of them"),
         ({"detrend": "cubic"}, "detrend must be one of linear, mean, none"),
     ],
 )

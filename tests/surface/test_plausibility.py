@@ -160,7 +160,7 @@ def test_more_waves_than_the_curve_holds_are_said():
     given = prepared({"scales": 2, "s_wavelength": 1.5}).notes
     assert not any("s_wavelength" in note for note in given)  # given, not found
     [longest] = prepared({"scales": 24, "smallest_wavelength": 0.4e-3}).notes
-    assert longest.startswith("the largest wave, 6.06e+03 mm, is longer than 4 times")
+    assert longest.startswith("the largest wave, 6060 mm, is longer than 4 times")
 
 
 def test_notes_name_the_profile_and_what_the_reader_changed():

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.surface import read_profile, read_profiles
+from gripscale.surface import read_map, read_profile, read_profiles
 
 from .surface_cases import ROAD
 
@@ -141,7 +141,15 @@ BAD_FILES = {
     "backwards": (table([*ROWS[:18], (3.0, 1.0)]), "line 20: .* increase in equal steps"),
     "uneven": (
         table([*ROWS[:12], (5.71, 1.0), *ROWS[12:]]),
-        r"line 14: .* got 5.5 \(line 13\) then 5.71, where 0.5 is usual; .*resample",
+        r"line 14: .* got 5.5 \(line 13\) then 5.71, where 0.5 is usual",
+    ),
+    "twice": (
+        table([*ROWS[:12], ROWS[11], *ROWS[12:]]),
+        r"line 14: expected each distance in column 1 once; got 5.5 \(line 13\) again: take",
+    ),
+    "exchanged": (
+        table([(z, x) for x, z in ROWS]),
+        "columns 1 and 2 look exchanged: .* column 2 goes in equal steps; exchange their titles",
     ),
     "mostly left out": (table([*ROWS, (99.0, 1.0)]), "half the points .* got 21 of 199"),
     "all missing": (table([(x, "nan") for x, _ in ROWS]), "all missing|found none"),
@@ -179,3 +187,36 @@ def test_no_content_breaks_the_reader(tmp_path_factory, junk):
     path = written(tmp_path_factory.mktemp("junk"), junk)
     with pytest.raises((FileError, InputError)):
         read_profile(path)
+
+
+def test_columns_that_look_exchanged_may_have_no_titles(tmp_path):
+    path = written(tmp_path, table([(z, x) for x, z in ROWS], header=""))
+    with pytest.raises(FileError, match=r"columns 1 and 2 look exchanged: .* titles above them"):
+        read_profile(path, x_unit="mm", z_unit="mm")
+
+
+@pytest.mark.parametrize(
+    "title", ["depth [mm]", "Tiefe (mm)", "Profiltiefe [mm]", "Profondeur [mm]", "z_depth [mm]"]
+)
+def test_depths_are_doubted_until_the_way_they_count_is_stated(tmp_path, title):
+    path = written(tmp_path, table(header=f"x [mm];{title}\n", separator=";"))
+    taken, up, down = (read_profile(path, z_axis=axis) for axis in (None, "up", "down"))
+    assert 'is taken as height, up: z_axis = "down" turns it over' in taken.doubts[0]
+    assert up.doubts == down.doubts == ()
+    assert np.array_equal(taken.z, up.z)
+    assert np.array_equal(down.z, -up.z)
+    with pytest.raises(InputError, match="z_axis must be"):
+        read_profile(path, z_axis="left")
+
+
+def test_heights_are_not_doubted(tmp_path):
+    assert read_profile(written(tmp_path, table())).doubts == ()
+
+
+def test_depths_of_a_map_are_doubted_and_turned_over(tmp_path):
+    rows = "\n".join(f"{x},{y},{x * y % 7}" for x in range(16) for y in range(16))
+    path = written(tmp_path, f"x [mm],y [mm],depth [mm]\n{rows}")
+    taken, down = read_map(path), read_map(path, z_axis="down")
+    assert "titled 'depth'" in taken.turned().lines()[0].doubts[0]
+    assert down.doubts == ()
+    assert np.array_equal(down.z, -taken.z)

@@ -16,7 +16,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, about_keys
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import ZERO_CELSIUS, plain
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.measured_friction import (
     MeasuredFriction,
@@ -238,7 +238,7 @@ def points_of(
             met = rubber.at(temperature) if other and temperature else rubber
             task = Task(met, surface, point_load, model)
         celsius = "" if temperature is None else f", {t - ZERO_CELSIUS:.4g} C"
-        words = f"speed {v:.4g} m/s{celsius}, pressure {p / 1e5:.4g} bar"
+        words = f"speed {plain(v, 4)} m/s{celsius}, pressure {p / 1e5:.4g} bar"
         points.append(Point((at - 1,), f"{label}point {at}, {words}", task))
     coords = {
         "nominal_pressure": ("measurement", pressure, {"units": "Pa"}),

@@ -17,8 +17,8 @@ from gripscale.charts.surface import raw_chart
 from gripscale.core.errors import GripscaleError
 
 READ_BY = (
-    *("files", "map", "x_unit", "z_unit", "direction", "reader", "channel", "sheet", "step"),
-    "crop",
+    *("files", "map", "x_unit", "z_unit", "z_axis", "direction", "reader", "channel", "sheet"),
+    *("step", "crop"),
 )
 """Keys of [surface] that this figure depends on."""
 HINT = "Drag along the road to keep only that part; an empty crop keeps everything."

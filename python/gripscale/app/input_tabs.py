@@ -54,6 +54,7 @@ ROAD_FIELDS = (
     "crop",
     "x_unit",
     "z_unit",
+    "z_axis",
 )
 RUBBER_FIELDS = ("name", "reference_temperature", "bulk_modulus", "terms", "extrapolate", "source")
 LOAD_TABLES = {

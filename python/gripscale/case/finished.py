@@ -27,11 +27,21 @@ def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> 
         return False
 
 
+def case_replaced(file: CaseFile, folder: Path) -> str:
+    """Return the name of the case whose finished results are in `folder`, if it is another."""
+    try:
+        name = str(json.loads((folder / NOTE).read_text(encoding="utf-8"))["case"])
+    except (OSError, ValueError, TypeError, KeyError):
+        return ""
+    return "" if name == file.path.name else name
+
+
 def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
     """Note that `folder` holds all results of a case."""
     present = [name for name in RESULTS if name != NOTE and (folder / name).is_file()]
     present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
-    noted = {"key": _key(file, others), "files": _files(folder, present)}
+    files = _files(folder, present)
+    noted = {"key": _key(file, others), "files": files, "case": file.path.name}
     write_whole(folder / NOTE, lambda path: path.write_text(json.dumps(noted), encoding="utf-8"))
 
 

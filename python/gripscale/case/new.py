@@ -31,8 +31,9 @@ from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.units import temperature_in_kelvin
-from gripscale.rubber import read_master_curve
+from gripscale.rubber import read_master_curve, read_shift_table
 from gripscale.rubber.extrapolation import require_measured
+from gripscale.rubber.sweeps import holds_sweeps
 
 LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
 """What is taken where the caller states nothing."""
@@ -76,7 +77,8 @@ def new_case(
     files : sequence of path-like
         Profiles or a map, and a master curve or sweeps, in any order; folders of them.
     path : path-like
-        The case file, which must not be there.
+        The case file, which must not be there. Its results go to the folder `results`, or to
+        `results-NAME` of a case with another name than case.toml.
     load : mapping, optional
         `pressure`, `speed` and `footprint` as in a case; 3 bar, 1 m/s and 100 mm by default.
     temperature : str, optional
@@ -98,13 +100,14 @@ def new_case(
         files, target.parent, load=load, temperature=temperature, step=step, shift=shift
     )
     folder.make(target.parent)
-    folder.write_text(target, case_text(tables))
+    results = "results" if target.stem == "case" else f"results-{target.stem}"
+    folder.write_text(target, case_text(tables, results=results))
     try:
         of_inputs = doubts_of_inputs(read_case(target))
     except GripscaleError:
         target.unlink()
         raise
-    folder.write_text(target, case_text(tables, of_inputs))
+    folder.write_text(target, case_text(tables, of_inputs, results))
     return NewCase(target, ranked(tables, of_inputs), skipped)
 
 
@@ -122,15 +125,24 @@ def propose(
     Arguments and errors are those of `new_case`.
     """
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
-    surfaces, rubbers, skipped = _sorted(files, step)
-    names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers)}
+    surfaces, rubbers, shifts, skipped = _sorted(files, step)
+    names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers, *shifts)}
     tables = {
         "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
-        "rubber": rubber_proposal(
+        "rubber": _one_rubber(
             rubbers, [names[file] for file in rubbers], temperature=kelvin, shift=shift
         ),
         "load": _load_proposal(load or {}),
     }
+    if shift is None:
+        tables["rubber"].doubts += [
+            Doubt(
+                Weight.FACTOR,
+                f'{names[file]} holds shift factors and is not used: shift = "{names[file]}" in '
+                "[rubber] takes them",
+            )
+            for file in shifts
+        ]
     tables["conditions"] = conditions_proposal(tables["rubber"], rubbers, kelvin)
     return tables, skipped
 
@@ -143,16 +155,20 @@ def ranked(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> tup
 
 def _sorted(
     files: Sequence[str | Path], step: str | list[str] | None
-) -> tuple[list[Path], list[Path], tuple[Path, ...]]:
-    """Return the files of surfaces, those of moduli, and those of folders that hold neither."""
+) -> tuple[list[Path], list[Path], list[Path], tuple[Path, ...]]:
+    """Return the files of surfaces, of moduli and of shifts, and those of folders without use."""
     surfaces: list[Path] = []
     rubbers: list[Path] = []
+    shifts: list[Path] = []
     skipped: list[Path] = []
     refused: list[tuple[Path, GripscaleError]] = []
     for file in map(Path, files):
         for path in sorted(file.iterdir()) if file.is_dir() else [file]:
             if holds_moduli(path):
                 rubbers.append(path)
+                continue
+            if _holds_shift(path):
+                shifts.append(path)
                 continue
             try:
                 open_surface(path, step, UNITS_OF_SURFACE)
@@ -170,9 +186,34 @@ def _sorted(
         raise refusal
     if not surfaces or not rubbers:
         what = "moduli (frequency, storage and loss)" if surfaces else "a surface"
-        got = ", ".join(path.name for path in (*surfaces, *rubbers, *skipped)) or "no file"
+        every = (*surfaces, *rubbers, *shifts, *skipped)
+        got = ", ".join(path.name for path in every) or "no file"
         raise InputError(f"expected a file with {what}, too; got {got}")
-    return surfaces, rubbers, tuple(skipped)
+    return surfaces, rubbers, shifts, tuple(skipped)
+
+
+def _one_rubber(files: list[Path], names: list[str], **options: Any) -> Proposal:
+    """Return the proposal for files of one rubber; name those of a folder that do not fit."""
+    try:
+        return rubber_proposal(files, names, **options)
+    except GripscaleError as error:
+        sweeps = [file.name for file in files if holds_sweeps(file)]
+        others = [file.name for file in files if file.name not in sweeps]
+        if not sweeps or not others:
+            raise
+        raise InputError(
+            f"{' and '.join(others)} cannot be joined with the sweeps of {' and '.join(sweeps)}; "
+            "name the file of one of them in place of the folder"
+        ) from error
+
+
+def _holds_shift(path: Path) -> bool:
+    """Return whether a file is a table of shift factors, by its titles."""
+    try:
+        read_shift_table(path)
+    except GripscaleError:
+        return False
+    return True
 
 
 def _name_in(directory: Path, file: Path) -> str:
@@ -194,10 +235,12 @@ def _load_proposal(load: Mapping[str, str]) -> Proposal:
     return proposal
 
 
-def case_text(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> str:
+def case_text(
+    tables: Mapping[str, Proposal], further: Sequence[Doubt] = (), results: str = "results"
+) -> str:
     """Return the text of a case: its doubts, and each key with why it has its value or its meaning.
 
-    The doubts are those of the proposals and `further` ones.
+    The doubts are those of the proposals and `further` ones; `results` is the folder of results.
     """
     parts = [HEAD]
     doubts = ranked(tables, further)
@@ -217,7 +260,7 @@ def case_text(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> 
             reason = proposal.reasons.get(key) or meanings[name, key].rstrip(".")
             parts += [*textwrap.wrap(reason, WIDTH, **COMMENT), f"{key} = {_toml(value)}"]
         parts.append("")
-    return "\n".join([*parts, "[output]", 'folder = "results"', ""])
+    return "\n".join([*parts, "[output]", f"folder = {_toml(results)}", ""])
 
 
 def _toml(value: Any) -> str:

@@ -62,6 +62,11 @@ def read_case(path: str | Path) -> CaseFile:
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
+        if path.suffix.lower() != ".toml":
+            raise FileError(
+                f"{path} is no case file (TOML); `gripscale new ROAD RUBBER` makes one of measured "
+                "files"
+            ) from error
         raise FileError(
             f"case file {path} is not valid TOML: {error}{_hint(text, error)}"
         ) from error

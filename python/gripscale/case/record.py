@@ -105,11 +105,13 @@ def inputs(
     surfaces: Iterable[Surface] | None = None,
     loads: Iterable[Load] | None = None,
     rubber_notes: Iterable[str] = (),
+    friction_notes: Iterable[str] = (),
 ) -> xr.Dataset:
     """Return everything a report says about the inputs of a case: the group `inputs` of a result.
 
     Its doubts are those of `surfaces` and `loads` where the answer is not of those of the case, and
-    `rubber_notes`, what is assumed of rubbers beside that of the case.
+    `rubber_notes`, what is assumed of rubbers beside that of the case; `friction_notes`, what is
+    doubtful of measured friction, come first.
     """
     surface = results.surface
     excitation = excited(results.file.case.load.speed, surface.sines)
@@ -118,7 +120,8 @@ def inputs(
     notes = {
         "conditions_notes": "\n".join(results.conditions_notes()) or None,
         "load_notes": "\n".join(results.load_notes()) or None,
-        "doubts": "\n".join([*results.doubts(surfaces, loads), *rubber_notes]) or None,
+        "doubts": "\n".join([*friction_notes, *results.doubts(surfaces, loads), *rubber_notes])
+        or None,
     }
     parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))

@@ -78,6 +78,8 @@ class SurfaceTable(Table):
     """Unit of distances where the file does not name it."""
     z_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of heights where the file does not name it."""
+    z_axis: Literal["up", "down"] | None = None
+    """Which way the numbers of heights count: down turns depths over; by default up."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
     reader: Literal["auto", "text", "instrument"] = "auto"

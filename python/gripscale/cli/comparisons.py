@@ -68,6 +68,7 @@ def compare(
     from gripscale.analysis.comparison import VARIED, at_measured, compare_case, compare_over
     from gripscale.analysis.effects import case_effects
     from gripscale.analysis.ladder import WINDOWS, chosen
+    from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.analysis.propagation import input_digests, stored_uncertainty
     from gripscale.case import prepare_case, read_case
     from gripscale.charts.comparison import at_measured_figure
@@ -75,7 +76,11 @@ def compare(
     from gripscale.charts.ladder import varied
     from gripscale.charts.write import draw_comparison, draw_effects
     from gripscale.experiment.axis import parse_vary
-    from gripscale.experiment.measured_friction import read_measured_friction
+    from gripscale.experiment.measured_friction import (
+        FRICTION_DOUBTS,
+        friction_doubts,
+        read_measured_friction,
+    )
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
@@ -83,12 +88,14 @@ def compare(
     from gripscale.report.comparison import best_line, comparison_parts, failures
     from gripscale.report.elements import ranked
     from gripscale.report.measured import residual_table
-    from gripscale.report.notices import warning_lines
+    from gripscale.report.notices import friction_notices, warning_lines
     from gripscale.report.side_by_side import effects_table
     from gripscale.report.uncertainty import uncertainty_lines
 
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
     file = read_case(case)
+    friction = friction_of_case(file) if measured is None else read_measured_friction(measured)
+    of_friction = friction_doubts(friction, file.case.load.speed)
     opening = f"Comparison of models for {file.path}"
     console, target = terminal.open_folder(file, output, "comparison", opening)
     on_task = terminal.progress_printer(console)
@@ -110,7 +117,7 @@ def compare(
         "accuracy": accuracy,
         "on_stage": print_stage,
         "rungs": names,
-        "measured": None if measured is None else read_measured_friction(measured),
+        "measured": friction,
         "folder": target,
     }
     worth: list[xr.Dataset] = []
@@ -129,11 +136,14 @@ def compare(
     else:
         data = compare_over(file, axes, **options).to_dataset()
         name = f"over_{varied(data)}"
+    if of_friction:
+        data.attrs[FRICTION_DOUBTS] = "\n".join(of_friction)
     netcdf.save(data, target / f"{name}.nc")
     parts = list(comparison_parts(data))
+    warnings = list(friction_notices(of_friction))
     above: list[str] = []
     if axes is None:
-        warnings = ranked(answer_notices(data))
+        warnings = ranked([*warnings, *answer_notices(data)])
         lead = list(answer_lines(data))
         console.print()
         terminal.print_parts(console, [*lead, *warning_lines(warnings, f"{name}.txt")])
@@ -167,6 +177,7 @@ def compare(
         parts,
         results=[data],
         opening=above,
+        warnings=() if above else warnings,
         text=f"{name}.txt",
         closing=f"Tables, figures and result ({name}.nc) are in",
         draw=draw_figures,

@@ -265,8 +265,13 @@ def calibrate(
     from gripscale.charts.uncertainty import calibration_pictures
     from gripscale.charts.write import draw
     from gripscale.experiment.inputs import default_model
-    from gripscale.experiment.measured_friction import read_measured_friction
+    from gripscale.experiment.measured_friction import (
+        friction_doubts,
+        read_measured_friction,
+        speed_doubts,
+    )
     from gripscale.io import netcdf
+    from gripscale.model import INPUT_DOUBTS
     from gripscale.report.calibration import calibration_lines, calibration_parts, failures
     from gripscale.report.notices import case_notices
     from gripscale.report.record import InputRecord
@@ -293,11 +298,13 @@ def calibrate(
     data = fitted.to_dataset().assign_attrs(
         file.attributes, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
     )
-    loads = [
-        replace(results.load, speed=float(speed), pressure=float(pressure))
-        for speed, pressure in zip(friction.speed, fitted.predicted.pressure, strict=True)
-    ]
-    inputs = record.inputs(results, loads=loads)
+    speed = results.load.speed
+    # its speeds have a doubt of their own
+    loads = [replace(results.load, pressure=float(p)) for p in fitted.predicted.pressure]
+    if far := speed_doubts(friction, speed):
+        data.attrs[INPUT_DOUBTS] = " ".join(far)
+    of_friction = friction_doubts(friction, speed)
+    inputs = record.inputs(results, loads=loads, friction_notes=of_friction)
     netcdf.save(data, target / "calibration.nc", {"inputs": inputs})
     figures = FigureFolder(target, file.case.output.figures)
     terminal.conclude(
@@ -306,7 +313,7 @@ def calibrate(
         list(calibration_parts(data)),
         results=[data],
         lead=list(calibration_lines(data)),
-        warnings=case_notices(None, InputRecord(inputs)),
+        warnings=case_notices(data, InputRecord(inputs)),
         text="calibration.txt",
         closing="Tables, figures, result and [conditions.shear_stress] are in",
         files={"shear_stress.toml": shear_stress_table(fitted)},

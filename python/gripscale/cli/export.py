@@ -110,7 +110,15 @@ def mesh(
     from gripscale.export import wave_of, write_mesh
     from gripscale.io import netcdf
 
-    chosen = wave_of(netcdf.load(result), wave)
+    data = netcdf.load(result)
+    if "mesh_x" not in data:
+        files = sorted(result.parent.glob("[!.]*.nc"))
+        names = [file.name for file in files if "mesh_x" in netcdf.load(file)]
+        others = f"; {' and '.join(names)} beside it has" if names else ""
+        raise InputError(
+            f"{result} has no meshes, which the finite-strain block gives to each wave{others}"
+        )
+    chosen = wave_of(data, wave)
     write_mesh(chosen, output)
     print_wrapped(
         screen(), f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}"
@@ -120,15 +128,17 @@ def mesh(
 def _rubber_of(source: Path) -> Rubber:
     """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
     from gripscale.case import RubberSource, prepare_rubber, read_case, validate
+    from gripscale.io.text_table import read_bytes
     from gripscale.rubber import Rubber
 
     if source.suffix == ".toml":
         file = read_case(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
     if source.suffix == ".json":
+        content = read_bytes(source)
         try:
-            values = json.loads(source.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
+            values = json.loads(content)
+        except ValueError as error:
             raise FileError(f"{source} cannot be read as a rubber: {error}") from error
         if not isinstance(values, dict):
             raise FileError(f"{source} cannot be read as a rubber: it is no JSON object")

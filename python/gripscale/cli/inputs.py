@@ -13,7 +13,9 @@ import typer
 
 from gripscale.cli.terminal import (
     argument,
+    as_options,
     command,
+    keys_as_options,
     keys_of,
     lengths_of,
     option,
@@ -21,7 +23,7 @@ from gripscale.cli.terminal import (
     print_wrapped,
     screen,
 )
-from gripscale.core.errors import InputError, about_keys
+from gripscale.core.errors import about_keys
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -132,6 +134,9 @@ def fit_surface(
     crop: Annotated[tuple[str, str] | None, option('Such as "120 mm" "1780 mm".')] = None,
     x_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
     z_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
+    z_axis: Annotated[
+        str | None, option("Which way the heights count: up, the default, or down, of depths.")
+    ] = None,
     step: Annotated[
         str | None, option('Distance between points, if not stated: "0.1 mm", or "1 um, 2 um".')
     ] = None,
@@ -156,21 +161,24 @@ def fit_surface(
     if len(files) == 1:
         # whether two steps are right depends on what the file holds
         validate(SurfaceTable, values | {"step": None}, "options")
-        units = {key: values[key] for key in ("x_unit", "z_unit") if key in values}
-        with about_keys("surface"):
-            measured, _ = open_surface(Path(files[0]), values.get("step"), **units)
+        read_by = {key: values[key] for key in ("x_unit", "z_unit", "z_axis") if key in values}
+        with keys_as_options(context), about_keys("surface"):
+            measured, _ = open_surface(Path(files[0]), values.get("step"), **read_by)
         raw = measured if isinstance(measured, HeightMap) else [measured]
     if isinstance(raw, HeightMap):
         values["map"] = values.pop("files")[0]
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
         folder.require_writable(output)
-    prepared = prepare_surface(surface, raw=raw)
+    with keys_as_options(context):
+        prepared = prepare_surface(surface, raw=raw)
     console = screen()
     sines = prepared.sines
+    doubts = [as_options(doubt, context) for doubt in prepared.doubts]
     parts: list[str | Table] = [
+        *(f"doubt: {doubt}" for doubt in doubts),
         *surface_lines(prepared),
-        *(f"note: {note}" for note in prepared.notes),
+        *(f"note: {note}" for note in prepared.notes if note not in prepared.doubts),
         waves_table(sines.wavelength, sines.amplitude),
         *_ambiguity(prepared),
     ]
@@ -257,14 +265,8 @@ def fit_rubber(
     if output is not None:
         folder.require_writable(output)
     console = screen()
-    try:
+    with keys_as_options(context):
         prepared = prepare_rubber(source)
-    except InputError as error:
-        words = str(error)
-        if error.missing:  # a key of a case, which is an option here
-            key = f"{error.missing} must"
-            words = words.replace(key, f"--{key.replace('_', '-')}")
-        raise InputError(words) from error
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     findings = () if prepared.fit is None else prepared.fit.findings

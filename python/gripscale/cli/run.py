@@ -78,6 +78,7 @@ def run(
             _print_finished(console, target)
         else:
             folder.require_writable(target)
+            terminal.RESULTS.set(target)
             kinds = file.case.output.figures
             with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
                 _run(console, emit, file, target, figures, fresh)
@@ -121,7 +122,7 @@ def _run(
     from gripscale.analysis.measured_comparison import friction_of_case
     from gripscale.case import prepare_case
     from gripscale.case.events import FileWritten
-    from gripscale.case.finished import note_finished
+    from gripscale.case.finished import case_replaced, note_finished
     from gripscale.case.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
@@ -131,8 +132,12 @@ def _run(
     friction = friction_of_case(file)
     results = prepare_case(file)
     require_feasible(results)
+    other = case_replaced(file, target)
+    if other:
+        words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
+        terminal.print_wrapped(console, words)
     with background_figures(results, figures) as draw:
-        opening = _print_answer(console, results, target)
+        opening = _print_answer(console, results, friction, target)
         effects = _solve(console, emit, results, target, draw, fresh)
         parts, heat = _parts(results, friction, effects, target)
         solved = [] if results.direct is None else [results.direct]
@@ -167,11 +172,14 @@ def _run(
     note_finished(file, target, _shown_too(target))
 
 
-def _print_answer(console: Console, results: CaseResults, target: Path) -> list[str]:
+def _print_answer(
+    console: Console, results: CaseResults, friction: MeasuredFriction | None, target: Path
+) -> list[str]:
     """Solve what the answer is of, print it above the inputs; return the lines of the report."""
     from gripscale.analysis.comparison import reference
     from gripscale.case import record
     from gripscale.core.provenance import version_of
+    from gripscale.experiment.measured_friction import friction_doubts
     from gripscale.report.answer import answer_lines
     from gripscale.report.notices import case_notices, warning_lines
     from gripscale.report.record import InputRecord
@@ -182,7 +190,9 @@ def _print_answer(console: Console, results: CaseResults, target: Path) -> list[
     if file.case.below_measurement.down_to is not None:
         terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
     direct = reference(results, target)
-    warnings = case_notices(direct, InputRecord(record.inputs(results)))
+    notes = friction_doubts(friction, results.load.speed)
+    inputs_record = InputRecord(record.inputs(results, friction_notes=notes))
+    warnings = case_notices(direct, inputs_record)
     answer, inputs = ["", *answer_lines(direct)], ["", *_inputs(results)]
     for line in (*answer, *warning_lines(warnings, REPORT), *inputs):
         terminal.print_wrapped(console, line)

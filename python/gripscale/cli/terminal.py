@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import textwrap
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
@@ -53,11 +56,18 @@ def print_error(message: str) -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
+RESULTS: ContextVar[Path | None] = ContextVar("results", default=None)
+"""Folder that the running command writes its results into."""
+
+
 def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     """Return the sentence and the exit code a command ends with after `error`."""
     if isinstance(error, KeyboardInterrupt):
+        target = RESULTS.get()
+        if target is None or not any(target.rglob("[!.]*.nc")):
+            return "stopped; nothing was finished", STOPPED
         stopped = (
-            "stopped; finished results are kept in the output folder, "
+            f"stopped; finished results are kept in {target}, "
             "and the same command continues from them"
         )
         return stopped, STOPPED
@@ -163,6 +173,7 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
 
     @wraps(body)
     def inside(*args: P.args, **kwargs: P.kwargs) -> None:
+        RESULTS.set(None)
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
@@ -252,6 +263,26 @@ def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None and value is not False}
 
 
+def as_options(text: str, context: typer.Context) -> str:
+    """Return a text with keys of a case as options of a command, such as --z-unit for z_unit."""
+    for key in context.params:
+        name = f"--{key.replace('_', '-')}"
+        text = re.sub(rf'\b{key} = "(\w+)"', rf"{name} \1", text)
+        text = re.sub(rf"(\bgive |\bor ){key}(?=[,;:]|$)", rf"\1{name}", text)
+        text = re.sub(rf"(^|: ){key}(?= must\b)", rf"\1{name}", text)
+    return text
+
+
+@contextmanager
+def keys_as_options(context: typer.Context) -> Iterator[None]:
+    """Let errors name the options of a command in place of the keys of a case."""
+    try:
+        yield
+    except GripscaleError as error:
+        error.args = (as_options(str(error), context),)
+        raise
+
+
 def lengths_of(text: str) -> str | list[str]:
     """Return a length typed as "1 um", or several as "1 um, 2 um"."""
     lengths = [length.strip() for length in text.split(",")]
@@ -266,6 +297,7 @@ def open_folder(
 
     target = output or file.resolve(file.case.output.folder) / name
     folder.require_writable(target)
+    RESULTS.set(target)
     console = screen()
     for line in opening:
         print_wrapped(console, line)

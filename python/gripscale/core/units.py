@@ -131,7 +131,13 @@ def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
 
 def in_mm(length: float, digits: int = 6) -> str:
     """Return a length [m] as text in mm."""
-    return f"{1e3 * length:.{digits}g} mm"
+    return f"{plain(1e3 * length, digits)} mm"
+
+
+def plain(value: float, digits: int) -> str:
+    """Return a number with so many significant digits, without an exponent up to a million."""
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
 
 
 def listed(kind: str) -> str:
@@ -231,7 +237,7 @@ class DisplayUnit:
 
     def text(self, value: float, digits: int = 6) -> str:
         """Return a value in SI units as text in this unit."""
-        return f"{float(self.of(value)):.{digits}g} {self.unit}"
+        return f"{plain(float(self.of(value)), digits)} {self.unit}"
 
 
 def display_unit(name: str, units: Mapping[str, str] | None = None) -> DisplayUnit:

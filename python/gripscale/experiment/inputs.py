@@ -27,7 +27,7 @@ from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
 SOURCES_OF_SURFACE = {"files", "map", "sines"}
-OF_ONE_ROAD = ("crop", "crop_across")
+OF_ONE_ROAD = ("crop", "crop_across", "z_axis")
 """Keys of the case's [surface] that belong to its own files."""
 OF_A_FILE = (
     "frequency_unit",

@@ -20,8 +20,9 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import in_si, listed, spelled
+from gripscale.core.units import UNITS, in_si, listed, plain, spelled
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
+from gripscale.model import PLAUSIBLE
 from gripscale.wave.result import labelled
 
 _WORDS = {
@@ -89,6 +90,8 @@ class MeasuredFriction(Checked, eq=False):
         Nominal pressures [Pa]; NaN where unknown, as by default.
     source : str
         Where they come from.
+    assumed : str
+        What was assumed of them because the source does not state it, in sentences.
 
     Raises
     ------
@@ -103,6 +106,7 @@ class MeasuredFriction(Checked, eq=False):
     source: str = ""
     _: KW_ONLY
     pressure: Vector = checked(_column, default=None, repr=False)
+    assumed: str = ""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -144,6 +148,7 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
         sheet=sheet,
     )
     columns: dict[str, Array] = {}
+    assumed: list[str] = []
     for at, column in enumerate(table.columns):
         word = _word(column.name)
         if word in columns:
@@ -151,12 +156,14 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
         if word is not None:
             values = table.numbers(at, f"a {word}", missing=word in _OPTIONAL)
             columns[word] = _in_si(path, word, column, values)
+            if word in _UNITS and column.unit is None:
+                assumed.append(_assumption(path, word))
     absent = [word for word in ("speed", "friction") if word not in columns]
     if absent:
         titles = table.titles or "no titles"
         raise FileError(f"{path}: expected a column named {absent[0]}; got {titles}")
     try:
-        return MeasuredFriction(**columns, source=str(path))
+        return MeasuredFriction(**columns, source=str(path), assumed=" ".join(assumed))
     except InputError as error:
         raise FileError(f"{path}: {error}") from error
 
@@ -165,6 +172,50 @@ def _word(title: str) -> str | None:
     """Return which of our columns a title names, or None."""
     plain = " ".join(title.lower().replace("_", " ").split())
     return next((word for word, names in _WORDS.items() if plain in names), None)
+
+
+def _assumption(path: Path, word: str) -> str:
+    """Return which unit is taken for a column whose title names none."""
+    kind, usual = _UNITS[word]
+    other = list(UNITS[kind])[1]
+    return (
+        f"The unit of {word} in {path.name} is not stated and {usual} is assumed: write it in the "
+        f"title, such as '{word} [{other}]'."
+    )
+
+
+FAR = 30.0
+"""Ratio of measured speeds to that of the case beyond which another unit is likely."""
+
+
+def speed_doubts(measured: MeasuredFriction, speed: float) -> list[str]:
+    """Return that the unit of measured speeds looks wrong beside a `speed` [m/s], as a sentence.
+
+    Empty if it does not; at rest any speeds up to the largest plausible one are right.
+    """
+    low, high = float(measured.speed.min()), float(measured.speed.max())
+    most = PLAUSIBLE["speed"][1]
+    where = f"The measured speeds, {plain(low, 3)} to {plain(high, 3)} m/s, are"
+    if high > most:
+        return [f"{where} not all below {most:g} m/s: is their unit right?"]
+    if speed > 0.0 and (low > FAR * speed or high < speed / FAR):
+        side = "above" if low > speed else "below"
+        return [
+            f"{where} all more than {FAR:g} times {side} that of the case, {plain(speed, 3)} m/s: "
+            "is their unit right?"
+        ]
+    return []
+
+
+FRICTION_DOUBTS = "friction_doubts"
+"""Attribute of a result that shows measured friction: its `friction_doubts`, a line each."""
+
+
+def friction_doubts(measured: MeasuredFriction | None, speed: float) -> list[str]:
+    """Return what was assumed of measured friction, and `speed_doubts`; nothing of none."""
+    if measured is None:
+        return []
+    return [*filter(None, [measured.assumed]), *speed_doubts(measured, speed)]
 
 
 def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:

@@ -98,8 +98,16 @@ def _with_new_names(data: xr.Dataset) -> xr.Dataset:
 def _reading(path: str | Path) -> Iterator[Path]:
     """Yield the path of an undamaged file; raise `FileError` if it is missing or unreadable."""
     path = Path(path)
+    if path.is_dir():
+        names = ", ".join(sorted(file.name for file in path.glob("[!.]*.nc"))) or "none is there"
+        raise FileError(f"{path} is a folder; expected one of its result files: {names}")
     if not path.is_file():
         raise FileError(f"result file {path} does not exist")
+    if path.suffix.lower() == ".toml":
+        raise FileError(
+            f"{path} is a case, not a result: `gripscale run` solves it; then name its results "
+            "folder, or a .nc file in it"
+        )
     try:
         with path.open("rb") as file:
             whole = _is_whole(file)
@@ -111,9 +119,14 @@ def _reading(path: str | Path) -> Iterator[Path]:
         with held_back():
             yield path
     except (OSError, ValueError, KeyError, RuntimeError) as error:
-        raise FileError(f"{path} cannot be read as a netCDF result: {error}") from error
+        with path.open("rb") as file:
+            understood = file.read(8).startswith((_HDF5, b"CDF"))
+        reason = error if understood else "it is of another format"
+        raise FileError(f"{path} cannot be read as a netCDF result: {reason}") from error
 
 
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+"""What a file of HDF5, and so of netCDF-4, begins with; one of netCDF-3 begins with CDF."""
 _FULL = 2**16
 """Free bytes below which a disk counts as full: a file system keeps some for itself."""
 
@@ -155,7 +168,7 @@ def _is_whole(file: BinaryIO) -> bool:
         return seal == _SEAL + _digest(file, length - _SEAL_LENGTH) + b"\n"
     file.seek(0)
     head = file.read(36)
-    if not head.startswith(b"\x89HDF\r\n\x1a\n") or head[8:9] not in (b"\x02", b"\x03"):
+    if not head.startswith(_HDF5) or head[8:9] not in (b"\x02", b"\x03"):
         return True
     return not 0 < int.from_bytes(head[28:36], "little") < length
 

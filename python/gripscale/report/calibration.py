@@ -16,7 +16,7 @@ from gripscale.analysis.calibration_text import HELD_UNITS, interval, written
 from gripscale.charts.view import CONVERGED
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.table import Column, Table, digits, percent, significant
-from gripscale.model import STATUS, status_words
+from gripscale.model import INPUT_DOUBTS, STATUS, status_words
 from gripscale.report.elements import Card, Facts
 from gripscale.report.measured import residual_table
 from gripscale.report.notices import Failure
@@ -42,7 +42,9 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
-    yield f"Answer: area term with {', '.join(values)} ({level} % intervals)."
+    doubts = data.attrs.get(INPUT_DOUBTS)
+    lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
+    yield f"Answer: {lead} with {', '.join(values)} ({level} % intervals)."
     if not bool(data["area_term"].notnull().any()):
         return
     term, hysteresis = (_range(data[name]) for name in ("area_term", "hysteresis"))

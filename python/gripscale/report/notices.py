@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.provenance import versions
 from gripscale.core.units import MILLI, in_mm
+from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import NONE, significant
 from gripscale.report.answer import (
     answer_cards,
@@ -183,7 +184,13 @@ def comparison_notices(comparison: xr.Dataset) -> Iterator[Notice]:
 def notices(run: Run) -> list[Notice]:
     """Return errors first, then warnings by what they change."""
     of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
-    return ranked([*failures(run), *of_case, *_of_predictions(run)])
+    of_friction = friction_notices(friction_doubts(run.measured, run.predictions[0].speed))
+    return ranked([*failures(run), *of_friction, *of_case, *_of_predictions(run)])
+
+
+def friction_notices(doubts: Iterable[str]) -> Iterator[Notice]:
+    """Yield a warning for each doubt of measured friction."""
+    yield from (Notice("warning", text, math.inf, math.inf) for text in doubts)
 
 
 def failures(run: Run) -> Iterator[Notice]:

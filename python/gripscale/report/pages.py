@@ -27,6 +27,7 @@ from gripscale.charts.uncertainty import calibration_pictures
 from gripscale.charts.view import SYMBOLS, PredictionView
 from gripscale.charts.wave_and_chain import contact_charts, measured_chart, verification_charts
 from gripscale.core.provenance import versions
+from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Table
 from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.report import (
@@ -375,6 +376,7 @@ def comparison_page(compared: Compared) -> Page:
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
         [
+            *notices.friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
             *_of_ladder(compared.ladder),
             *(element for element in elements if isinstance(element, Notice)),
             *([OF_ANOTHER] if stale else []),
@@ -500,7 +502,7 @@ def calibration_page(source: Study) -> Page:
         str(data.attrs.get("model", "")).replace("_", " "),
         [
             *([Notice("error", f"{notices.explained(failed)}.")] if failed else []),
-            *notices.case_notices(None, source.record),
+            *notices.case_notices(data, source.record),
         ],
         calibration.calibration_cards(data),
         [

@@ -377,9 +377,11 @@ def _without_spikes(
     measured: Measurement, z: Array, slope: float, note: str
 ) -> tuple[Measurement, StepReport]:
     if np.isnan(z).all():
+        step = in_mm(np.max(measured.step), 3)
         raise InputError(
-            f"spike_slope must leave some heights; {slope:g} makes all of them spikes (or are the "
-            "units of distance and height others?)"
+            "the unit of heights or of distances looks wrong: heights differ by up to "
+            f"{in_mm(np.nanmax(measured.z) - np.nanmin(measured.z), 3)} in steps of {step}, and "
+            f"spike_slope = {slope:g} makes all of them spikes"
         )
     return _report("spikes", measured, replace(measured, z=z), note)
 

@@ -11,7 +11,7 @@ slope times that part. Points were left out where k_i increases by more than one
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -138,7 +138,8 @@ class Profile(Checked, eq=False):
 
     Raises `InputError` if x or z is not a list of numbers, their lengths differ, there are fewer
     than 16 points, x does not go in equal steps (`gripscale.surface.resample` makes them equal),
-    all heights are missing, `reliable` is not above zero, or name, source or a note is no text.
+    all heights are missing, `reliable` is not above zero, or name, source, a note or a doubt is no
+    text.
 
     Parameters
     ----------
@@ -155,6 +156,8 @@ class Profile(Checked, eq=False):
         Shortest wavelength [m] the instrument measures reliably, if known.
     notes : tuple of str, optional
         Changes made by reading, such as rows added where some were left out.
+    doubts : tuple of str, optional
+        Why the file may mean other heights, such as a title that says depth.
     """
 
     x: Array = checked(checks.vector, unit="m")
@@ -163,6 +166,7 @@ class Profile(Checked, eq=False):
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
     notes: tuple[str, ...] = checked(_texts, default=())
+    doubts: tuple[str, ...] = checked(_texts, default=())
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -273,7 +277,7 @@ class HeightMap(Checked, eq=False):
     """Heights of a surface over a rectangle, at equidistant points each way.
 
     Raises `InputError` if x, y or z are not such numbers, their shapes differ, there are fewer than
-    16 points a way, all heights are missing, or name or source is no text.
+    16 points a way, all heights are missing, or name, source or a doubt is no text.
 
     Parameters
     ----------
@@ -290,6 +294,8 @@ class HeightMap(Checked, eq=False):
         Where it comes from, such as a file name.
     reliable : float, optional
         Shortest wavelength [m] the instrument measures reliably, if known.
+    doubts : tuple of str, optional
+        Why the file may mean other heights, such as a title that says depth.
     """
 
     x: Array = checked(_axis)
@@ -298,6 +304,7 @@ class HeightMap(Checked, eq=False):
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
+    doubts: tuple[str, ...] = checked(_texts, default=())
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -343,12 +350,12 @@ class HeightMap(Checked, eq=False):
         axis, heights = (self.x, self.z.T) if along_x else (self.y, self.z)
         row = checks.whole("number", number, least=0, most=len(heights) - 1)
         name, source = (line_label(text, row, direction) for text in (self.name, self.source))
-        return Profile(axis, heights[row], name, source, self.reliable)
+        return Profile(axis, heights[row], name, source, self.reliable, doubts=self.doubts)
 
     def turned(self) -> HeightMap:
         """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
         heights = self.z[::-1].T
-        return HeightMap(self.y, -self.x[::-1], heights, self.name, self.source, self.reliable)
+        return replace(self, x=self.y, y=-self.x[::-1], z=heights)
 
     def clean(self, **options: Any) -> tuple[HeightMap, gripscale.surface.CleaningReport]:
         """Return the cleaned map and a report; options as in `gripscale.clean_map`."""

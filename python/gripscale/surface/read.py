@@ -11,9 +11,9 @@ import math
 import os
 import warnings
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -182,6 +182,7 @@ def read_profile(
     sheet: str | int | None = None,
     step: float | None = None,
     reader: str = "auto",
+    z_axis: str | None = None,
 ) -> Profile:
     """Read one profile from a file.
 
@@ -210,13 +211,17 @@ def read_profile(
         Distance between points [m], of a file with one column of heights or an array.
     reader : {"auto", "text", "instrument"}, optional
         How to read the file; "auto" goes by the suffix.
+    z_axis : {"up", "down"}, optional
+        Which way the numbers of the height column count; "down" turns depths over. By default up,
+        with a doubt where the title says depth.
     """
     file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
     lines = 1 if isinstance(source, Profile) else source.lines(direction)
     number = lines // 2
     if line is not None:
         number = checks.whole(f"line of {file}", line, least=0, most=lines - 1)
-    return source if isinstance(source, Profile) else source.profile(file, direction, number)
+    chosen = source if isinstance(source, Profile) else source.profile(file, direction, number)
+    return upwards(chosen, z_axis)
 
 
 def read_profiles(
@@ -229,6 +234,7 @@ def read_profiles(
     sheet: str | int | None = None,
     step: float | None = None,
     reader: str = "auto",
+    z_axis: str | None = None,
 ) -> list[Profile]:
     """Read every profile of a file: all lines of a map along a direction, or the only one.
 
@@ -237,11 +243,23 @@ def read_profiles(
     """
     file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
     if isinstance(source, Profile):
-        return [source]
+        return [upwards(source, z_axis)]
     measured = np.isfinite(source.heights).any(axis=0 if direction == "x" else 1)
     if not measured.any():
         raise FileError(f"{file}: expected heights; got {measured.size} lines, all missing")
-    return [source.profile(file, direction, int(line)) for line in np.flatnonzero(measured)]
+    lines = np.flatnonzero(measured)
+    return [upwards(source.profile(file, direction, int(line)), z_axis) for line in lines]
+
+
+Heights = TypeVar("Heights", Profile, HeightMap)
+
+
+def upwards(surface: Heights, z_axis: str | None) -> Heights:
+    """Return a surface as read, turned over if its heights count "down"; None is not stated."""
+    if z_axis is None:
+        return surface
+    down = checks.one_of("z_axis", z_axis, ("up", "down")) == "down"
+    return replace(surface, z=-surface.z if down else surface.z, doubts=())
 
 
 def _open_lines(
@@ -315,6 +333,7 @@ def read_map(
     step: float | tuple[float, float] | None = None,
     channel: str | int | None = None,
     reader: str = "auto",
+    z_axis: str | None = None,
 ) -> HeightMap:
     """Read a map of heights from a file.
 
@@ -330,7 +349,7 @@ def read_map(
         table of heights whose rows run along y and whose columns along x; or a map in any format
         SurfaceTopography reads, such as .al3d, .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npy
         (needs `gripscale[formats]`).
-    x_unit, z_unit, channel, reader
+    x_unit, z_unit, channel, reader, z_axis
         As in `read_profile`.
     step : float or (float, float), optional
         Distance between points [m], along x and y if they differ, for a table or an array, whose
@@ -340,9 +359,11 @@ def read_map(
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
     if _is_text(file, reader, MAP_TEXT_SUFFIXES):
-        return read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+        text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+        return upwards(text_map, z_axis)
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
     if field.y is None:
         raise FileError(f"{file}: expected a map; got a line, which gripscale.read_profile reads")
     with about_file(file):
-        return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
+        read = HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
+    return upwards(read, z_axis)

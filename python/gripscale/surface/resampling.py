@@ -133,24 +133,37 @@ def printed_grid(
     Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
-    hint = "" if lines is None else "; gripscale.surface.resample makes steps equal"
     if grid is None:
-        at = uneven_step(distances)
-        first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
-        where = f"{table.path}"
-        if lines is not None:
-            where, first = f"{table.path}, line {lines[at + 1]}", f"{first} (line {lines[at]})"
-        raise FileError(
-            f"{where}: expected distances in column {column + 1} that increase in equal steps; "
-            f"got {first} then {second}, where {np.median(np.diff(distances)):.6g} is usual{hint}"
-        )
-    if grid.left_out > MOST_LEFT_OUT * grid.size:
-        raise FileError(
+        refusal = _uneven(table, column, distances, lines)
+    elif grid.left_out > MOST_LEFT_OUT * grid.size:
+        refusal = FileError(
             f"{table.path}: expected a distance in column {column + 1} at half the points of an "
-            f"even grid or more; got {grid.number.size} of {grid.size} in steps of "
-            f"{grid.step:.6g}{hint}"
+            f"even grid or more; got {grid.number.size} of {grid.size} in steps of {grid.step:.6g}"
         )
-    return grid
+    else:
+        return grid
+    refusal.see = "" if lines is None else "docs/inputs.md#a-measured-profile"
+    raise refusal
+
+
+def _uneven(table: TextTable, column: int, distances: Array, lines: list[int] | None) -> FileError:
+    """Return the refusal of distances in steps that are not equal."""
+    at = uneven_step(distances)
+    first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
+    where = f"{table.path}"
+    if lines is not None:
+        where, first = f"{table.path}, line {lines[at + 1]}", f"{first} (line {lines[at]})"
+        again = int((np.diff(distances) == 0.0).sum())
+        if distances[at] == distances[at + 1]:
+            rows = "this row" if again == 1 else f"the {again} rows that repeat the one above"
+            return FileError(
+                f"{where}: expected each distance in column {column + 1} once; got {first} "
+                f"again: take out {rows}"
+            )
+    return FileError(
+        f"{where}: expected distances in column {column + 1} that increase in equal steps; "
+        f"got {first} then {second}, where {np.median(np.diff(distances)):.6g} is usual"
+    )
 
 
 def without_line(rows: Array) -> Array:

@@ -97,18 +97,19 @@ class Measured:
         notes = []
         for raw, cleaned in self.profiles:
             warnings = profile_warnings(raw, cleaned, steep=self.map is None)
-            notes += [_about(raw, note) for note in (*raw.notes, *warnings)]
+            notes += [_about(raw, note) for note in (*raw.notes, *raw.doubts, *warnings)]
         return tuple(notes)
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
-        """Those of the notes that leave no answer to rely on: sentinels, plates and supports."""
-        if self.map is not None:
-            return ()
+        """Those of the notes that leave no answer to rely on: depths, sentinels, plates, units."""
         return tuple(
             _about(raw, doubt)
             for raw, cleaned in self.profiles
-            for doubt in doubt_warnings(raw, cleaned)
+            for doubt in (
+                *raw.doubts,
+                *(doubt_warnings(raw, cleaned) if self.map is None else ()),
+            )
         )
 
     def bare(self) -> Measured:

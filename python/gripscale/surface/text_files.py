@@ -20,6 +20,8 @@ Units are stated by the file or by the caller, never guessed.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +31,13 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si, spelled
 from gripscale.io.text_table import Line, TextTable, column_in, read_lines, table_in
-from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile
+from gripscale.surface.profile import (
+    FEWEST_POINTS,
+    TURNED_ROUND,
+    HeightMap,
+    Profile,
+    even_grid,
+)
 from gripscale.surface.resampling import printed_grid
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
@@ -85,13 +93,15 @@ def length_unit(
 def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> str:
     """Return the unit of a column: that of its title, or the one stated as argument `name`."""
     part, named = f"column {column + 1}", table.columns[column].unit
-    remedy = "write it in the title, such as 'x [mm]', or give"
+    remedy = f"write it in the title, such as '{name[0]} [mm]', or give"
     return length_unit(table.path, part, named, name, unit, remedy=remedy)
 
 
 DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
 ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
-HEIGHT_TITLE = re.compile(r"^\W*(z\b|z_|height|depth|elev|relative.height|profile)", re.IGNORECASE)
+HEIGHT_TITLE = re.compile(
+    r"^\W*(z\b|z_|height|depth|tiefe|profondeur|elev|relative.height|profile)", re.IGNORECASE
+)
 
 
 _MOST_TIMES = 100
@@ -158,7 +168,8 @@ def read_text_profile(
     if x[0] > x[-1]:
         x, z, numbers = x[::-1], z[::-1], numbers[::-1]
         notes.append(TURNED_ROUND)
-    grid = printed_grid(table, x_column, x, numbers)
+    with _unless_exchanged(table, x_column, z_column):
+        grid = printed_grid(table, x_column, x, numbers)
     if grid.left_out:
         rows = "1 row" if grid.left_out == 1 else f"{grid.left_out} rows"
         notes.append(
@@ -166,8 +177,40 @@ def read_text_profile(
         )
     x = in_si(grid.points(x), x_unit, "length")
     z = in_si(grid.spread(z), z_unit, "length")
+    doubts = depth_doubts(table, z_column)
     with about_file(path):
-        return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
+        return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
+
+
+DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
+"""What a title says of heights that may be counted downwards."""
+
+
+def depth_doubts(table: TextTable, column: int) -> tuple[str, ...]:
+    """Return the doubt that a column of heights holds depths, if its title says so."""
+    title = table.columns[column].name
+    if not DEPTH.search(title):
+        return ()
+    words = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up"
+    return (f'{words}: z_axis = "down" turns it over, z_axis = "up" confirms it',)
+
+
+@contextmanager
+def _unless_exchanged(table: TextTable, x_column: int, z_column: int) -> Iterator[None]:
+    """Let an error about distances say if those of the other column are in equal steps."""
+    try:
+        yield
+    except FileError as error:
+        z = table.numbers(z_column, "a height", missing=True)
+        grid = even_grid(z if z[0] < z[-1] else z[::-1], table.resolution(z_column))
+        if grid is None:
+            raise
+        titles = "exchange their titles" if table.titles else "write titles above them"
+        raise FileError(
+            f"{table.path}: columns {x_column + 1} and {z_column + 1} look exchanged: expected "
+            f"distances in column {x_column + 1}, but column {z_column + 1} goes in equal steps; "
+            f"{titles}, such as 'x [mm]' for distances and 'z [mm]' for heights"
+        ) from error
 
 
 def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]]:
@@ -194,7 +237,8 @@ def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str 
     z = in_si(printed, z_unit, "length")
     with about_file(path):
         x = np.asarray(step * np.arange(z.size), float)
-        return Profile(x, z, name=path.stem, source=str(path), notes=tuple(notes))
+        doubts = depth_doubts(column, 0)
+        return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
 def read_text_map(
@@ -213,8 +257,10 @@ def read_text_map(
         columns = [0, 1, 2]
     if columns is not None and step is not None:
         raise InputError(f"step must be left out; {path} states where its points are")
+    doubts: tuple[str, ...] = ()
     if columns is not None:
         x, y, z = _points(table, columns, x_unit, z_unit)
+        doubts = depth_doubts(table, columns[2])
     elif count < FEWEST_POINTS:
         line = "; a line of two columns is for gripscale.read_profile" if count == 2 else ""
         raise FileError(
@@ -236,7 +282,7 @@ def read_text_map(
         z = in_si(without_codes(np.array(heights))[0], z_unit, "length")
         x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
     with about_file(path):
-        return HeightMap(x, y, z, name=path.stem, source=str(path))
+        return HeightMap(x, y, z, path.stem, str(path), doubts=doubts)
 
 
 def _points(

@@ -9,6 +9,7 @@ import pytest
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.experiment import MeasuredFriction, read_measured_friction
+from gripscale.experiment.measured_friction import friction_doubts, speed_doubts
 
 
 def written(folder: Path, text: str) -> Path:
@@ -34,6 +35,36 @@ def test_plain_titles_are_si(tmp_path: Path) -> None:
     assert found.speed.tolist() == [0.1, 1.0]
     assert np.isnan(found.temperature).all()
     assert np.isnan(found.spread).all()
+
+
+def test_a_unit_that_is_not_stated_is_a_doubt_with_its_cure(tmp_path: Path) -> None:
+    stated = read_measured_friction(written(tmp_path, "speed [m/s],mu\n0.1,0.3\n1,0.5\n"))
+    assert stated.assumed == ""
+    bare = read_measured_friction(written(tmp_path, "speed,mu,p\n0.1,0.3,1e5\n1,0.5,1e5\n"))
+    assert friction_doubts(bare, 1.0) == [bare.assumed]
+    assert "m/s is assumed: write it in the title, such as 'speed [mm/s]'." in bare.assumed
+    assert "The unit of pressure in measured.csv is not stated and Pa is assumed" in bare.assumed
+    assert friction_doubts(None, 1.0) == []
+
+
+@pytest.mark.parametrize(
+    ("speeds", "words"),
+    [
+        ((0.01, 30.0), ""),
+        ((31.0, 60.0), "all more than 30 times above that of the case, 1 m/s"),
+        ((1e-3, 0.03), "all more than 30 times below"),
+        ((0.5, 1000.0), "0.5 to 1000 m/s, are not all below 100 m/s: is their unit right?"),
+    ],
+)
+def test_speeds_far_from_that_of_the_case_have_another_unit(
+    speeds: tuple[float, float], words: str
+) -> None:
+    said = " ".join(speed_doubts(MeasuredFriction(speeds, (0.3, 0.3)), 1.0))
+    assert words in said
+    assert bool(words) == bool(said)
+    assert ("not all below" in words) == bool(
+        speed_doubts(MeasuredFriction(speeds, (0.3, 0.3)), 0.0)
+    )
 
 
 @pytest.mark.parametrize(
