@@ -154,7 +154,7 @@ def test_a_phase_angle_without_its_unit_or_beyond_a_right_angle_is_refused(tmp_p
     rows = "\n1,2,91\n10,3,40\n"
     with pytest.raises(InputError, match=r"phase angle must state its unit .* delta \(deg\)"):
         read_master_curve(write(tmp_path, f"f [Hz],E' [MPa],delta{rows}"))
-    with pytest.raises(FileError, match="line 2: expected a phase angle below 90 degrees .* 91"):
+    with pytest.raises(FileError, match=r"line 2: expected a phase angle below 90 degrees .* 91"):
         read_master_curve(write(tmp_path, f"f [Hz],E' [MPa],delta (deg){rows}"))
 
 

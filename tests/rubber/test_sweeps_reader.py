@@ -218,7 +218,7 @@ def test_moduli_far_apart_at_one_frequency_and_temperature_are_refused(tmp_path)
     lines = [f"{t},{row}" for t in (0, 20) for s in (1.0, 3.0) for row in moduli_at(t, s)]
     path = write(tmp_path, "\n".join(["T [C],f [Hz],E' [MPa],E'' [MPa]", *lines]))
     assert holds_sweeps(path)
-    with pytest.raises(FileError, match="one measurement at each .* got moduli 3 times apart"):
+    with pytest.raises(FileError, match=r"one measurement at each .* got moduli 3 times apart"):
         gs.read_sweeps(path)
 
 

@@ -254,7 +254,8 @@ def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
         giga = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
         words = (
             f"for Poisson's ratio of 0.3 at the largest E', {stiffest / 1e9:.3g} GPa, which no "
-            "rubber has: is the unit of the moduli right?"
+            "rubber has: is the unit of the moduli right? Leave bulk_modulus out once it is mended "
+            "by modulus_unit"
         )
         proposal.add("bulk_modulus", f"{giga:g} GPa", words, Weight.ANOTHER)
     else:
