@@ -164,7 +164,10 @@ def test_measured_polymer():
         (PLAIN.replace("(MPa)", ""), "modulus_unit must be given"),
         (PLAIN.replace("E'", "").replace("'", ""), "modulus must be given"),
         (PLAIN.replace("loss modulus E''", "force"), "columns must give the modulus as two of"),
-        (PLAIN.replace("temperature (C)", "time (s)"), "columns or temperature must give the temp"),
+        (
+            PLAIN.replace("temperature (C)", "time (s)"),
+            "temperature of the rows must stand in a column",
+        ),
         (PLAIN.replace("frequency (Hz)", "log t (s)"), "columns must give the frequency"),
     ],
 )

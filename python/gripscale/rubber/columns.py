@@ -275,11 +275,11 @@ class FileLayout(Checked):
             )
         return hits[0] if hits else None
 
-    def needed_column(self, table: TextTable, wanted: str, argument: str = "columns") -> int:
-        """Return the column of a quantity; raise `InputError`, which names `argument`, for none."""
+    def needed_column(self, table: TextTable, wanted: str) -> int:
+        """Return the column of a quantity; raise `InputError` for none."""
         column = self.column(table, wanted)
         if column is None:
-            raise missing(table, wanted, argument)
+            raise missing(table, wanted)
         return column
 
     def read(self, table: TextTable, wanted: str, numbers: ReadColumn | None = None) -> Array:
@@ -331,11 +331,13 @@ def position_of(table: TextTable, column: str | int) -> int:
     return table.names.index(column)
 
 
-def missing(table: TextTable, what: str, argument: str) -> InputError:
+def missing(table: TextTable, what: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
-    return InputError(f"{table.path}: {argument} must give the {what}; {header}", missing="columns")
+    if what == "frequency":
+        header += "; where no column holds it, add one, such as Frequency [Hz] with 10 in every row"
+    return InputError(f"{table.path}: columns must give the {what}; {header}", missing="columns")
 
 
 _ROUNDING = 0.05
@@ -355,7 +357,7 @@ def young_moduli(
     at = {name: position for name, position in positions.items() if position is not None}
     pair = next((pair for pair in PAIRS if set(pair) <= set(at)), None)
     if pair is None:
-        raise missing(table, "modulus as two of storage, loss, loss_factor, magnitude", "columns")
+        raise missing(table, f"modulus as two of {', '.join(MODULI)}")
     moduli = [name for name in pair if name not in RATIOS]
     units = {name: layout.unit(table, at[name], "modulus") for name in moduli}
     size = 3.0 if layout.modulus_of(table, [at[name] for name in moduli]) == "G" else 1.0

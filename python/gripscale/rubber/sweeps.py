@@ -430,7 +430,13 @@ def row_temperatures(block: Block, layout: FileLayout, temperature: float | None
         temperature = block.temperature
     if temperature is not None:
         return np.full(len(table.rows), temperature)
-    column = layout.needed_column(table, "temperature", "columns or temperature")
+    column = layout.column(table, "temperature")
+    if column is None:
+        raise InputError(
+            f"{table.path}: the temperature of the rows must stand in a column, Temperature [°C], "
+            "in a line above the rows, T = 20 °C, or in the name of each of several files, "
+            f"sweep_20C.csv; the header has {table.titles or 'no names'}"
+        )
     degrees = table.numbers(column, "a temperature", missing=True)
     unit = layout.unit(table, column, "temperature")
     kelvin = np.asarray(in_si(degrees, unit, "temperature"))
