@@ -282,7 +282,7 @@ ROWS = [f"{t},{f:g},{100.0 - t + f:g},20" for t in (-20, 0, 20, 40) for f in (0.
         ),
         (
             "T [°C],E' [MPa],E'' [MPa]",
-            [",".join(row.split(",")[::2] + ["20"]) for row in ROWS],
+            [",".join([*row.split(",")[::2], "20"]) for row in ROWS],
             r"columns must give the frequency; .* add one, such as Frequency \[Hz\]",
         ),
         ("time [s],f [Hz],E' [MPa],E'' [MPa]", ROWS, "add a column with the temperature"),

@@ -228,17 +228,17 @@ def rubber_proposal(
     `names` are those of the files in the case, and the `layout` what is stated of them. Raises
     `FileError` and `InputError` as reading does.
     """
-    proposal, stated = Proposal(), dict(layout or {})
+    proposal, settings = Proposal(), dict(layout or {})
     proposal.add("file", names[0] if len(names) == 1 else names)
-    for key, value in stated.items():
+    for key, value in settings.items():
         proposal.add(key, value, "as stated")
-    measured, asked = open_rubber(paths, stated)
+    measured, asked = open_rubber(paths, settings)
     for key in asked:
-        stated[key], words = _likely(key, paths, stated | asked)
+        settings[key], words = _likely(key, paths, settings | asked)
         reason = f"{paths[0].name} does not state it; {words}"
-        proposal.add(key, stated[key], reason, Weight.ANOTHER)
+        proposal.add(key, settings[key], reason, Weight.ANOTHER)
     if asked:
-        measured, _ = open_rubber(paths, stated)
+        measured, _ = open_rubber(paths, settings)
     _add_reference(proposal, measured, temperature)
     if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
         words = "the temperatures have no gaps: moduli are interpolated at multiples of this step"
