@@ -247,6 +247,15 @@ def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path: Path) -> None:
     assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
 
 
+@pytest.mark.parametrize("vary", [{"speed": "0.1,1"}, {"rubber": ["case", "other.txt"]}])
+def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any]) -> None:
+    misread = dma_text(60.0, "0.2")
+    file = write(tmp_path, dma=misread if "speed" in vary else DMA)
+    (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
+    study = Study(file, vary=vary, model="chain").run(tmp_path / "study", workers=1)
+    assert study.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+
+
 def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
     data = xr.Dataset({"status": "contact too narrow"}, attrs={INPUT_DOUBTS: "Is the unit right?"})
     assert no_answer(data) == (

@@ -298,7 +298,7 @@ def fit_prony_report(
     )
     fit_report = report(master, rows, screening, candidates, rubber)
     doubts = tuple(moduli_doubts(master, swapped, screening.storage_scatter))
-    if swapped.likely and not doubts:
+    if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
     return rubber, replace(fit_report, doubts=doubts)
 
