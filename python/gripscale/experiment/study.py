@@ -179,7 +179,7 @@ class Study:
         values = self._values("surface") or (default,)
         return [inputs.surface_of(value, self.file) for value in values]
 
-    @property
+    @cached_property
     def rubbers(self) -> list[Rubber]:
         """The varied rubbers, or the one of the case, read and fitted."""
         return [prepared.rubber for prepared in self.prepared_rubbers]
