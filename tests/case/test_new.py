@@ -203,6 +203,13 @@ def test_moduli_of_no_rubber_get_a_bulk_modulus_and_a_doubt(tmp_path: Path) -> N
     shear, ratio = largest / 3.0, 0.3
     assert bulk == pytest.approx(2.0 * shear * (1.0 + ratio) / (3.0 - 6.0 * ratio), rel=0.02)
     assert "is the unit of the moduli right" in doubted(case, Weight.ANOTHER)
+    mended = new_case(
+        [road(tmp_path / "road.csv"), stiff],
+        tmp_path / "mended.toml",
+        layout={"modulus_unit": "kPa"},
+    )
+    assert keys(mended)["rubber"]["modulus_unit"] == "kPa"
+    assert keys(mended)["rubber"]["bulk_modulus"] == "2 GPa"
 
 
 def test_a_case_is_not_overwritten(tmp_path: Path) -> None:
