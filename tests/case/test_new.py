@@ -326,6 +326,8 @@ def test_sweeps_without_a_temperature_of_the_contact_are_doubted(tmp_path: Path)
     files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
     words = "no temperature of the contact stated: 20 °C assumed; --temperature states another"
     assert words in doubted(new_case(files, tmp_path / "a.toml"), Weight.FACTOR)
+    curve = new_case([*ROADS[:1], TREAD], tmp_path / "c.toml")
+    assert "as is the contact; --temperature states" in doubted(curve, Weight.ANOTHER)
     stated = new_case(files, tmp_path / "b.toml", temperature="20 C")
     assert "temperature" not in doubted(stated, Weight.FACTOR)
 

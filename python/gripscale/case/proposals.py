@@ -311,9 +311,10 @@ def _add_reference(
     if isinstance(measured, MasterCurve):
         if measured.reference_temperature is None:
             words = (
-                "the file states no temperature; the moduli are assumed to be measured at this "
-                "one; --temperature states another"
+                "the file states no temperature; the moduli are assumed to be measured at this one"
             )
+            if temperature is None:
+                words += ", as is the contact; --temperature states another"
             proposal.add("reference_temperature", celsius(target), words, Weight.ANOTHER)
         return
     kelvin = measured.temperature
