@@ -38,21 +38,31 @@ PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-
 """Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit."""
 
 
+class Doubtful(Protocol):
+    """A surface or a rubber as prepared, with what is doubtful of it."""
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why the answer may be that of another one, a sentence each."""
+        ...
+
+
 def input_doubts(
-    surfaces: Iterable[Surface], loads: Iterable[Load], units: Mapping[str, str]
+    inputs: Iterable[Doubtful], loads: Iterable[Load], units: Mapping[str, str]
 ) -> dict[str, str]:
     """Return the attribute `INPUT_DOUBTS` of an answer; nothing without a doubt.
 
-    It is on surfaces and under loads, which are shown in the stated `units` of their quantities.
+    It is on surfaces and of a rubber, the `inputs`, and under loads, which are shown in the stated
+    `units` of their quantities.
     """
-    of_surfaces = [text for surface in surfaces for text in doubt_sentences(surface)]
-    texts = dict.fromkeys([*of_surfaces, *load_doubts(loads, units)])
+    of_inputs = [text for each in inputs for text in doubt_sentences(each)]
+    texts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
     return {INPUT_DOUBTS: " ".join(texts)} if texts else {}
 
 
-def doubt_sentences(surface: Surface) -> list[str]:
-    """Return the doubts of a surface as sentences."""
-    return [text if text.endswith("?") else f"{text}." for text in surface.doubts]
+def doubt_sentences(measured: Doubtful) -> list[str]:
+    """Return the doubts of a surface or a rubber as sentences."""
+    return [text if text.endswith("?") else f"{text}." for text in measured.doubts]
 
 
 def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[str]:

@@ -95,7 +95,7 @@ def test_one_file_a_temperature_which_stands_in_its_name(tmp_path: Path) -> None
 def test_files_without_any_temperature_are_refused(tmp_path: Path) -> None:
     text = ("Frequency [Hz],E' [Pa],E'' [Pa]", "1,2e6,1e5", "10,3e6,2e5")
     files = [write(tmp_path / name, *text) for name in ("first.csv", "second.csv")]
-    with pytest.raises(InputError, match=r"columns or temperature must give the temperature"):
+    with pytest.raises(InputError, match=r"temperature of the rows must stand in a column"):
         prepared(file=files, reference_temperature="20 C")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -203,6 +204,13 @@ def test_moduli_of_no_rubber_get_a_bulk_modulus_and_a_doubt(tmp_path: Path) -> N
     shear, ratio = largest / 3.0, 0.3
     assert bulk == pytest.approx(2.0 * shear * (1.0 + ratio) / (3.0 - 6.0 * ratio), rel=0.02)
     assert "is the unit of the moduli right" in doubted(case, Weight.ANOTHER)
+    mended = new_case(
+        [road(tmp_path / "road.csv"), stiff],
+        tmp_path / "mended.toml",
+        layout={"modulus_unit": "kPa"},
+    )
+    assert keys(mended)["rubber"]["modulus_unit"] == "kPa"
+    assert keys(mended)["rubber"]["bulk_modulus"] == "2 GPa"
 
 
 def test_a_case_is_not_overwritten(tmp_path: Path) -> None:
@@ -266,6 +274,63 @@ def test_a_refusal_names_the_option_that_cures_it(
     options = ["--step", "0.1 mm"] if name == "line.txt" else ["--wlf", "8.86", "101.6 K"]
     outcome = shell("new", *files[name], "-o", tmp_path / "case.toml", *options)
     assert outcome.exit_code == 0, outcome.output
+
+
+ROWS = [f"{t},{f:g},{100.0 - t + f:g},20" for t in (-20, 0, 20, 40) for f in (0.1, 1.0, 10.0)]
+
+
+@pytest.mark.parametrize(
+    ("titles", "rows", "words"),
+    [
+        ("Temp,freq_Hz,E1_MPa,E2_MPa", ROWS, "modulus as two of storage, .* here with --columns"),
+        (
+            "T [°C],f [Hz],E' [MPa],E'' [MPa]",
+            [*ROWS[:4], ROWS[4][1:], *ROWS[5:]],
+            "line 6: expected a temperature in every row; got none in 1 of 12 rows",
+        ),
+        (
+            "T [°C],E' [MPa],E'' [MPa]",
+            [",".join([*row.split(",")[::2], "20"]) for row in ROWS],
+            r"columns must give the frequency; .* add one, such as Frequency \[Hz\]",
+        ),
+        ("time [s],f [Hz],E' [MPa],E'' [MPa]", ROWS, "add a column with the temperature"),
+    ],
+)
+def test_sweeps_that_cannot_be_read_say_why_and_what_cures_it(
+    tmp_path: Path, shell: Shell, titles: str, rows: list[str], words: str
+) -> None:
+    dma = tmp_path / "dma.csv"
+    dma.write_text("\n".join([titles, *rows]), encoding="utf-8")
+    outcome = shell("new", road(tmp_path / "r.csv"), dma, "-o", tmp_path / "case.toml")
+    assert outcome.exit_code == 2
+    assert re.search(words, " ".join(outcome.output.split()))
+    assert "read_sweeps" not in outcome.output
+
+
+def test_columns_and_units_of_the_rubber_can_be_stated(tmp_path: Path, shell: Shell) -> None:
+    dma = tmp_path / "dma.csv"
+    sweeps(dma, "Temp,freq_Hz,E1_MPa,E2_MPa")
+    rows = (row.split(",", 1) for row in dma.read_text().splitlines()[1:])
+    fahrenheit = [f"{32.0 + 1.8 * float(t)},{rest}" for t, rest in rows]
+    dma.write_text("\n".join(["Temp,freq_Hz,E1_MPa,E2_MPa", *fahrenheit]))
+    options = ("--columns", "frequency=freq,storage=E1,loss=E2", "--temperature-unit", "F")
+    files = (dma, road(tmp_path / "r.csv"))
+    outcome = shell("new", *files, "-o", tmp_path / "case.toml", *options)
+    assert outcome.exit_code == 0, outcome.output
+    case = read_case(tmp_path / "case.toml")
+    prepared = prepare_rubber(case.case.rubber, case.resolve)
+    assert prepared.sweeps is not None
+    assert prepared.sweeps.temperatures == pytest.approx(273.15 + np.arange(0, 50, 10))
+
+
+def test_sweeps_without_a_temperature_of_the_contact_are_doubted(tmp_path: Path) -> None:
+    files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
+    words = "no temperature of the contact stated: 20 °C assumed; --temperature states another"
+    assert words in doubted(new_case(files, tmp_path / "a.toml"), Weight.FACTOR)
+    curve = new_case([*ROADS[:1], TREAD], tmp_path / "c.toml")
+    assert "as is the contact; --temperature states" in doubted(curve, Weight.ANOTHER)
+    stated = new_case(files, tmp_path / "b.toml", temperature="20 C")
+    assert "temperature" not in doubted(stated, Weight.FACTOR)
 
 
 def test_the_name_of_a_file_is_no_refusal(tmp_path: Path, shell: Shell) -> None:

@@ -48,6 +48,15 @@ DMA = "f [Hz]\tE' [MPa]\tE'' [MPa]\n" + "\n".join(
 )
 
 
+def dma_text(storage: float, loss: str | float, titles: str = "E' [MPa],E'' [MPa]") -> str:
+    """A power law as in `DMA` with moduli of other sizes; E'' a number of its size or a text."""
+    rows = (
+        f"{f:.5g},{storage * f**0.1:.6g},{loss if isinstance(loss, str) else loss * f**0.1}"
+        for f in np.geomspace(1e-2, 1e6, 33)
+    )
+    return "\n".join([f"f [Hz],{titles}", *rows])
+
+
 def road_text(z: np.ndarray = ROUGH.z, titles: str = "x [mm]\tz [mm]") -> str:
     rows = (f"{1e3 * a:.2f}\t{1e3 * b:.5f}" for a, b in zip(ROUGH.x, z, strict=True))
     return "\n".join([titles, *rows])
@@ -118,6 +127,50 @@ TRAPS: dict[str, tuple[dict[str, Any], str]] = {
         },
         "look exchanged",
     ),
+    "tan delta as a loss modulus": (
+        {"dma": dma_text(60.0, "0.2")},
+        "E'' looks like the loss factor (tan delta)",
+    ),
+    "a loss modulus in another unit": (
+        {"dma": dma_text(5.0, 1e3)},
+        "E'' looks 1000 times too large",
+    ),
+    "a loss factor in % without its unit": (
+        {"dma": dma_text(5.0, "20", "E' [MPa],tan delta")},
+        "E'' looks like one of a loss factor in %",
+    ),
+    "an angle in degrees as a loss factor": (
+        {"dma": dma_text(5.0, "11.3", "E' [MPa],tan delta")},
+        "E'' looks like one of a phase angle in degrees",
+    ),
+    "a loss modulus above the storage modulus": (
+        {"dma": dma_text(5.0, 20.0)},
+        "storage and loss modulus look exchanged",
+    ),
+    "moduli in another unit, too large": (
+        {
+            "dma": dma_text(5e6, 1e6),
+            "case": CASE.replace("[load]", 'bulk_modulus = "1e8 GPa"\n[load]'),
+        },
+        "is that of no rubber: is the unit of the moduli right (modulus_unit)?",
+    ),
+    "moduli in another unit, too small": (
+        {"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
+        "is that of no rubber: is the unit of the moduli right (modulus_unit)?",
+    ),
+    "sweeps without their temperatures": (
+        {"dma": "\n".join([dma_text(5.0, 1.0), *dma_text(50.0, 10.0).split("\n")[1:]])},
+        "the same frequencies again with moduli 10 times apart",
+    ),
+    "moduli of temperatures that are not named": (
+        {
+            "dma": "\n".join(
+                ["f [Hz],E' [MPa],E'' [MPa]"]
+                + [f"{f * s**0.1:.5g},{5 * s:g},{s:g}" for f in (0.1, 1, 10) for s in range(1, 25)]
+            )
+        },
+        "rows of nearly one frequency differ",
+    ),
     "heights in another unit, too large": (
         {"road": road_text(1e3 * ROUGH.z)},
         "of the heights are spikes",
@@ -187,6 +240,28 @@ def test_an_answer_on_plates_is_none_to_rely_on() -> None:
     assert no_answer(data) == ""
     doubted = data.assign_attrs({INPUT_DOUBTS: "Plates lie in the profile."})
     assert no_answer(doubted) == "none to rely on. Plates lie in the profile."
+
+
+def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path: Path) -> None:
+    direct = reference(prepare_case(write(tmp_path, dma=dma_text(60.0, "0.2"))))
+    assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
+
+
+@pytest.mark.parametrize("vary", [{"speed": "0.1,1"}, {"rubber": ["case", "other.txt"]}])
+def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any]) -> None:
+    misread = dma_text(60.0, "0.2")
+    file = write(tmp_path, dma=misread if "speed" in vary else DMA)
+    (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
+    study = Study(file, vary=vary, model="chain").run(tmp_path / "study", workers=1)
+    assert study.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+
+
+def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
+    data = xr.Dataset({"status": "contact too narrow"}, attrs={INPUT_DOUBTS: "Is the unit right?"})
+    assert no_answer(data) == (
+        "none. Is the unit right? The direct contact of the measured surface has no result: "
+        "contact too narrow."
+    )
 
 
 @pytest.mark.parametrize(

@@ -108,7 +108,7 @@ MISTAKES: list[tuple[Callable[[Place], list[str]], str]] = [
      "dma.txt: storage and loss modulus look exchanged"),
     (lambda at: at.retitled("dma.txt", DMA, "# log f (Hz) E' (MPa) E'' (MPa)"),
      "line 32: expected a frequency between 1e-100 and 1e+100"),
-    (lambda at: at.retitled("dma.txt", DMA, "# f (Hz) E' (MPa) E'' (kPa)"), "states different uni"),
+    (lambda at: at.retitled("dma.txt", DMA, "f (Hz);E' (MPa);E''"), "no unit of E''"),
     (lambda at: at.retitled("dma.txt", DMA, "# f (Hz) E' (GPa) E'' (GPa)"), "is the unit of the m"),
     (lambda at: at.retitled("road.txt", ROAD, "x\tz"), "column 1 names no unit of length; write i"),
     (lambda at: at.retitled("road.txt", ROAD, "x [m]\tz [m]"), "leaves 3 of a profile from 0 mm"),

@@ -129,10 +129,13 @@ def test_units_of_a_curve(read: Any) -> None:
     assert turned[0] == pytest.approx(frequency / (2.0 * np.pi), rel=1e-14)
     shear = read("curve", CURVE.replace("E'", "G'").replace("[MPa]", "[kPa]"))
     assert shear[1:] == pytest.approx(3e-3 * np.array([storage, loss]), rel=1e-14)
-    for one in ("E' [MPa]", "E'' [MPa]"):
-        for other in (one.replace("E", "G"), one.replace("M", "k")):
-            with pytest.raises(InputError):
-                read("curve", CURVE.replace(f"\t{one}", f"\t{other}"))
+    for at, title in enumerate(("E' [MPa]", "E'' [MPa]")):
+        with pytest.raises(InputError):
+            read("curve", CURVE.replace(f"\t{title}", f"\t{title.replace('E', 'G')}"))
+        scaled = np.array([storage, loss])
+        scaled[at] *= 1e-3
+        kilo = read("curve", CURVE.replace(f"\t{title}", f"\t{title.replace('M', 'k')}"))
+        assert kilo[1:] == pytest.approx(scaled, rel=1e-14)
     lines = CURVE.strip().split("\n")
     assert (read("curve", "\n".join([lines[0], *lines[:0:-1]])) == [frequency, storage, loss]).all()
 

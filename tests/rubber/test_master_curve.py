@@ -1,6 +1,7 @@
 """Master curves: sorting, checks, and reading files of many shapes without guessing."""
 
 import contextlib
+import math
 from pathlib import Path
 
 import numpy as np
@@ -115,7 +116,7 @@ ROWS = "1,2,0.2\n10,3,0.3\n"
         (ROWS, {"frequency_unit": "Hz"}, "modulus_unit must be given"),
         (ROWS, {"frequency_unit": "Hz", "modulus_unit": "MPa"}, "modulus must be given"),
         (ROWS, {"frequency_unit": "rpm"}, "frequency_unit must be one of Hz.* got 'rpm'"),
-        ("f [Hz],E' [MPa],E'' [kPa]\n" + ROWS, {}, "modulus_unit .* different units"),
+        ("f [Hz],E' [MPa],E''\n" + ROWS, {}, "modulus_unit .* states no unit of E''"),
         ("f [Hz],E' [ell],E'' [ell]\n" + ROWS, {}, "modulus_unit must be given .* 'ell'"),
         ("f [Hz],storage [MPa],loss [MPa]\n" + ROWS, {}, "modulus must be given"),
         ("f [Hz],E' [MPa],G'' [MPa]\n" + ROWS, {}, "modulus must be given"),
@@ -130,6 +131,31 @@ ROWS = "1,2,0.2\n10,3,0.3\n"
 def test_nothing_is_guessed(tmp_path, text, options, message):
     with pytest.raises(InputError, match=message):
         read_master_curve(write(tmp_path, text), **options)
+
+
+@pytest.mark.parametrize(
+    ("titles", "loss"),
+    [
+        ("E' [MPa],E'' [kPa]", 200.0),
+        ("E' [MPa],tan delta [%]", 10.0),
+        ("E' [MPa],delta [°]", math.degrees(math.atan(0.1))),
+        ("|E*| [kPa],Phase angle (rad)", math.atan(0.1)),
+    ],
+)
+def test_each_column_has_the_unit_of_its_own_title(tmp_path, titles, loss):
+    first = 2.0 if titles.startswith("E'") else 2000.0 * math.sqrt(1.01)
+    rows = [f"{10.0**at:g},{first!r},{loss!r}" for at in range(4)]
+    curve = read_master_curve(write(tmp_path, "\n".join([f"f [Hz],{titles}", *rows])))
+    assert curve.storage == pytest.approx(np.full(4, 2e6))
+    assert curve.loss == pytest.approx(np.full(4, 2e5))
+
+
+def test_a_phase_angle_without_its_unit_or_beyond_a_right_angle_is_refused(tmp_path):
+    rows = "\n1,2,91\n10,3,40\n"
+    with pytest.raises(InputError, match=r"phase angle must state its unit .* delta \(deg\)"):
+        read_master_curve(write(tmp_path, f"f [Hz],E' [MPa],delta{rows}"))
+    with pytest.raises(FileError, match=r"line 2: expected a phase angle below 90 degrees .* 91"):
+        read_master_curve(write(tmp_path, f"f [Hz],E' [MPa],delta (deg){rows}"))
 
 
 SWEEPS = "T [C],f [Hz],E' [MPa],E'' [MPa]\n"

@@ -164,7 +164,10 @@ def test_measured_polymer():
         (PLAIN.replace("(MPa)", ""), "modulus_unit must be given"),
         (PLAIN.replace("E'", "").replace("'", ""), "modulus must be given"),
         (PLAIN.replace("loss modulus E''", "force"), "columns must give the modulus as two of"),
-        (PLAIN.replace("temperature (C)", "time (s)"), "columns or temperature must give the temp"),
+        (
+            PLAIN.replace("temperature (C)", "time (s)"),
+            "temperature of the rows must stand in a column",
+        ),
         (PLAIN.replace("frequency (Hz)", "log t (s)"), "columns must give the frequency"),
     ],
 )
@@ -191,10 +194,44 @@ def test_two_columns_that_mean_the_same_are_asked_about(tmp_path):
     assert gs.read_sweeps(path, columns={"storage": 3}).storage[0] == 8e6
 
 
+def moduli_at(celsius: float, scale: float = 1.0) -> list[str]:
+    """Rows of one sweep, softer by a decade in 20 K."""
+    size = scale * 10.0 ** (-celsius / 20.0)
+    return [f"{f:g},{size * f**0.2:.6g},{0.3 * size * f**0.2:.6g}" for f in (0.1, 1, 10, 100)]
+
+
+@pytest.mark.parametrize("titles", ["f [Hz],E' [MPa],E'' [MPa]", ""])
+def test_sweeps_without_their_temperatures_are_no_master_curve(tmp_path, titles):
+    units = {} if titles else {"frequency_unit": "Hz", "modulus_unit": "MPa", "modulus": "E"}
+    table = [*moduli_at(-20.0), *moduli_at(0.0), *moduli_at(20.0)]
+    words = (
+        "the same frequencies again with moduli 1e\\+02 times apart.* add a column with the temp"
+    )
+    with pytest.raises(FileError, match=words):
+        gs.read_master_curve(write(tmp_path, "\n".join([titles, *table])), **units)
+
+
+def test_two_specimens_of_one_master_curve_are_no_sweeps(tmp_path):
+    table = [*moduli_at(20.0), *moduli_at(20.0, 1.3)]
+    path = write(tmp_path, "\n".join(["f [Hz],E' [MPa],E'' [MPa]", *table]))
+    assert len(gs.read_master_curve(path)) == 8
+
+
+def test_moduli_far_apart_at_one_frequency_and_temperature_are_refused(tmp_path):
+    lines = [f"{t},{row}" for t in (0, 20) for s in (1.0, 3.0) for row in moduli_at(t, s)]
+    path = write(tmp_path, "\n".join(["T [C],f [Hz],E' [MPa],E'' [MPa]", *lines]))
+    assert holds_sweeps(path)
+    with pytest.raises(FileError, match=r"one measurement at each .* got moduli 3 times apart"):
+        gs.read_sweeps(path)
+
+
 def test_missing_values_are_left_out_and_bad_ones_named(tmp_path):
     lines = rows()
     gone = [lines[0].replace("8.0", "n/a"), *lines[1:]]
     assert len(gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *gone]))).storage) == 3
+    unnamed = [lines[0], lines[1].replace("20.1", ""), *lines[2:]]
+    with pytest.raises(FileError, match=r"line 3: expected a temperature in every row; .* 1 of 4"):
+        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *unnamed])))
     bad = [*lines[:3], lines[3].replace("0.75", "-0.75")]
     with pytest.raises(FileError, match=r"line 5: expected a loss above zero.* got -0.75"):
         gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *bad])))

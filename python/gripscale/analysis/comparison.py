@@ -512,7 +512,8 @@ def reference_totals(
         cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
     ).assign_attrs(
-        results.file.attributes | input_doubts([results.surface], [load], results.file.units),
+        results.file.attributes
+        | input_doubts([results.surface, results.rubber], [load], results.file.units),
         tolerance=JUDGED_TO,
     )
     traces = [name for name in map(str, samples) if name.startswith(PREFIX)]

@@ -478,7 +478,8 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
         for name in QUANTITIES:
             data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
-        plan.file.attributes | input_doubts([results.surface], loads, plan.file.units),
+        plan.file.attributes
+        | input_doubts([results.surface, results.rubber], loads, plan.file.units),
         case_file=str(plan.file.path),
         **{FILES: json.dumps(input_digests(plan.file))},
         seed=plan.seed,

@@ -36,6 +36,7 @@ from gripscale.case.proposals import Proposal, rubber_proposal, surface_proposal
 from gripscale.case.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.rubber import rubber_charts
 from gripscale.charts.surface import correlation_charts, profile_charts
+from gripscale.model import doubt_sentences
 from gripscale.report.elements import Notice, Text
 from gripscale.report.inputs import (
     cleaning_tables,
@@ -99,7 +100,8 @@ def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[Ap
     results = _prepared_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
     inputs = record.inputs(results)
     findings = InputRecord(inputs).findings
-    elements = [*notice_elements([Notice("warning", f"{text}.") for text in findings])]
+    texts = [*doubt_sentences(results.rubber), *(f"{text}." for text in findings)]
+    elements = [*notice_elements([Notice("warning", text) for text in texts])]
     for part in shift_parts(results.rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
     elements += superposition_elements(state, results.rubber, redraw)

@@ -22,6 +22,7 @@ from gripscale.case.proposals import (
     Weight,
     conditions_proposal,
     holds_moduli,
+    open_rubber,
     open_surface,
     rubber_proposal,
     surface_proposal,
@@ -31,7 +32,8 @@ from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.units import temperature_in_kelvin
-from gripscale.rubber import read_master_curve, read_shift_table
+from gripscale.rubber import read_shift_table
+from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.sweeps import holds_sweeps
 
@@ -69,6 +71,7 @@ def new_case(
     temperature: str | None = None,
     step: str | list[str] | None = None,
     shift: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] | None = None,
 ) -> NewCase:
     """Write a case for measured files to `path`.
 
@@ -87,6 +90,8 @@ def new_case(
         Distance between points where a file has none, such as "0.1 mm".
     shift : mapping, optional
         Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
+    layout : mapping, optional
+        What the file of the rubber does not state: keys of [rubber], such as columns.
 
     Raises
     ------
@@ -97,7 +102,13 @@ def new_case(
     if target.exists():
         raise FileError(f"{target} is there already and is not overwritten; give another name")
     tables, skipped = propose(
-        files, target.parent, load=load, temperature=temperature, step=step, shift=shift
+        files,
+        target.parent,
+        load=load,
+        temperature=temperature,
+        step=step,
+        shift=shift,
+        layout=layout,
     )
     folder.make(target.parent)
     results = "results" if target.stem == "case" else f"results-{target.stem}"
@@ -119,18 +130,24 @@ def propose(
     temperature: str | None = None,
     step: str | list[str] | None = None,
     shift: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] | None = None,
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
     Arguments and errors are those of `new_case`.
     """
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
-    surfaces, rubbers, shifts, skipped = _sorted(files, step)
+    layout = layout or {}
+    surfaces, rubbers, shifts, skipped = _sorted(files, step, layout)
     names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers, *shifts)}
     tables = {
         "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
         "rubber": _one_rubber(
-            rubbers, [names[file] for file in rubbers], temperature=kelvin, shift=shift
+            rubbers,
+            [names[file] for file in rubbers],
+            temperature=kelvin,
+            shift=shift,
+            layout=layout,
         ),
         "load": _load_proposal(load or {}),
     }
@@ -154,7 +171,7 @@ def ranked(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> tup
 
 
 def _sorted(
-    files: Sequence[str | Path], step: str | list[str] | None
+    files: Sequence[str | Path], step: str | list[str] | None, layout: Mapping[str, Any]
 ) -> tuple[list[Path], list[Path], list[Path], tuple[Path, ...]]:
     """Return the files of surfaces, of moduli and of shifts, and those of folders without use."""
     surfaces: list[Path] = []
@@ -164,7 +181,7 @@ def _sorted(
     refused: list[tuple[Path, GripscaleError]] = []
     for file in map(Path, files):
         for path in sorted(file.iterdir()) if file.is_dir() else [file]:
-            if holds_moduli(path):
+            if holds_moduli(path, FileLayout(**layout)):
                 rubbers.append(path)
                 continue
             if _holds_shift(path):
@@ -182,7 +199,7 @@ def _sorted(
     if refused:
         path, refusal = refused[0]
         if surfaces and not rubbers:
-            read_master_curve(path)  # raises why there are no moduli in it
+            open_rubber([path], layout)  # raises why there are no moduli in it
         raise refusal
     if not surfaces or not rubbers:
         what = "moduli (frequency, storage and loss)" if surfaces else "a surface"

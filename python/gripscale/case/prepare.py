@@ -216,6 +216,11 @@ class PreparedRubber:
     sweeps: Sweeps | None = None
     superposition: Superposition | None = None
 
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why its moduli may be those of no rubber, a sentence each."""
+        return () if self.fit is None else self.fit.doubts
+
     def shift_fits(self) -> list[ShiftFit]:
         """Return the WLF law of the shift that was found, where it follows one."""
         if self.master is None or not isinstance(self.master.shift, ShiftTable):

@@ -221,21 +221,24 @@ def rubber_proposal(
     *,
     temperature: float | None = None,
     shift: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] | None = None,
 ) -> Proposal:
     """Return the table [rubber] for a master curve or sweeps, to be used at a temperature [K].
 
-    `names` are those of the files in the case. Raises `FileError` and `InputError` as reading does.
+    `names` are those of the files in the case, and the `layout` what is stated of them. Raises
+    `FileError` and `InputError` as reading does.
     """
-    proposal = Proposal()
+    proposal, settings = Proposal(), dict(layout or {})
     proposal.add("file", names[0] if len(names) == 1 else names)
-    several = len(paths) > 1 or holds_sweeps(paths[0])
-    measured, layout = _open_rubber(paths, several)
-    for key in layout:
-        layout[key], words = _likely(key, paths, several, layout)
+    for key, value in settings.items():
+        proposal.add(key, value, "as stated")
+    measured, asked = open_rubber(paths, settings)
+    for key in asked:
+        settings[key], words = _likely(key, paths, settings | asked)
         reason = f"{paths[0].name} does not state it; {words}"
-        proposal.add(key, layout[key], reason, Weight.ANOTHER)
-    if layout:
-        measured, _ = _open_rubber(paths, several, **layout)
+        proposal.add(key, settings[key], reason, Weight.ANOTHER)
+    if asked:
+        measured, _ = open_rubber(paths, settings)
     _add_reference(proposal, measured, temperature)
     if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
         words = "the temperatures have no gaps: moduli are interpolated at multiples of this step"
@@ -254,7 +257,8 @@ def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
         giga = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
         words = (
             f"for Poisson's ratio of 0.3 at the largest E', {stiffest / 1e9:.3g} GPa, which no "
-            "rubber has: is the unit of the moduli right?"
+            "rubber has: is the unit of the moduli right? Leave bulk_modulus out once it is mended "
+            "by modulus_unit"
         )
         proposal.add("bulk_modulus", f"{giga:g} GPa", words, Weight.ANOTHER)
     else:
@@ -262,11 +266,14 @@ def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
         proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
 
 
-def _open_rubber(
-    paths: list[Path], several: bool, **layout: str
+def open_rubber(
+    paths: list[Path], layout: Mapping[str, Any]
 ) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
-    """Return sweeps or a master curve, and the keys of the layout that the file does not state."""
-    if several:
+    """Return sweeps or a master curve, and the keys of the layout that nothing states.
+
+    Raises `FileError` and `InputError` as reading does.
+    """
+    if len(paths) > 1 or holds_sweeps(paths[0], FileLayout(**layout)):
         return _read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
     return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
 
@@ -277,9 +284,7 @@ _HOTTEST = ZERO_CELSIUS + 180.0
 """Mean temperature that no sweeps have [K]."""
 
 
-def _likely(
-    key: str, paths: list[Path], several: bool, layout: Mapping[str, Any]
-) -> tuple[str, str]:
+def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str, str]:
     """Return the likely value of a key of the layout, and why."""
     if key == "frequency_unit":
         return "Hz", "rad/s would move the curve by 0.8 decades"
@@ -287,10 +292,11 @@ def _likely(
         return "E", "shear moduli (G) would be a third"
 
     def measured(unit: str) -> Any:
-        return _open_rubber(paths, several, **{**layout, key: unit})[0]
+        return open_rubber(paths, {**layout, key: unit})[0]
 
     if key == "temperature_unit":
-        warm = several and float(measured("C").temperature.mean()) > _HOTTEST
+        sweeps = measured("C")
+        warm = isinstance(sweeps, Sweeps) and float(sweeps.temperature.mean()) > _HOTTEST
         return ("K" if warm else "C"), "so the temperatures are those of a laboratory"
     units = ("MPa", "Pa", "kPa", "GPa")
     likely = (u for u in units if _SOFTEST < float(measured(u).storage.min()) < _STIFFEST)
@@ -307,6 +313,8 @@ def _add_reference(
             words = (
                 "the file states no temperature; the moduli are assumed to be measured at this one"
             )
+            if temperature is None:
+                words += ", as is the contact; --temperature states another"
             proposal.add("reference_temperature", celsius(target), words, Weight.ANOTHER)
         return
     kelvin = measured.temperature
@@ -314,8 +322,11 @@ def _add_reference(
         return
     reference = float(np.clip(target, kelvin.min(), kelvin.max()))
     words = f"sweeps from {celsius(kelvin.min())} to {celsius(kelvin.max())} are shifted to it"
-    weight = None if reference == target else Weight.FACTOR
+    weight = None if reference == target or temperature is None else Weight.FACTOR
     proposal.add("reference_temperature", celsius(reference), words, weight)
+    if temperature is None:
+        text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
+        proposal.doubts.append(Doubt(Weight.FACTOR, f"{text}; --temperature states another"))
 
 
 NOMINAL_STEP = "5 K"
@@ -345,7 +356,7 @@ def has_shift(paths: list[Path], proposal: Proposal) -> bool:
     if "shift" in proposal.keys or len(paths) > 1:
         return True
     layout = {k: v for k, v in proposal.keys.items() if k in FileLayout.__dataclass_fields__}
-    if not holds_sweeps(paths[0]):
+    if not holds_sweeps(paths[0], FileLayout(**layout)):
         return False
     sweeps = read_sweeps(paths, tolerance=0.0, **layout)
     several = float(np.ptp(sweeps.temperature)) > _ONE_SWEEP
@@ -356,23 +367,27 @@ ENOUGH_LINES = 400
 """Lines that tell what a file holds."""
 
 
-def holds_moduli(path: Path) -> bool:
-    """Return whether a file is one of moduli, by its titles, its numbers or its first line."""
+def holds_moduli(path: Path, layout: FileLayout | None = None) -> bool:
+    """Return whether a file is one of moduli, by its titles, its numbers or its first line.
+
+    A `layout` may state which columns hold them.
+    """
+    layout = layout or FileLayout()
     try:
         lines = read_lines(path)[:ENOUGH_LINES]
-        blocks = blocks_in(path, lines, FileLayout(), temperature_unit="C")
+        blocks = blocks_in(path, lines, layout, temperature_unit="C")
     except GripscaleError:
         return False
-    return any(_are_moduli(block.table) for block in blocks)
+    return any(_are_moduli(block.table, layout) for block in blocks)
 
 
-def _are_moduli(table: Any) -> bool:
+def _are_moduli(table: Any, layout: FileLayout) -> bool:
     """Return whether a table has titles of moduli, or three columns as of a master curve."""
     try:
-        if FileLayout().suffices(table):
+        if layout.suffices(table):
             return True
-    except InputError:  # several titles mean one quantity of a modulus
-        return True
+    except InputError:  # several titles mean one modulus, or columns are stated of another file
+        return layout.columns is None
     if any(table.names) or len(table.columns) != 3:
         return False
     frequency, *moduli = (table.numbers(at, "a number", missing=True) for at in range(3))

@@ -13,7 +13,7 @@ from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import Prediction
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.units import DisplayUnit, display_unit
-from gripscale.model import Load, doubt_sentences, load_doubts
+from gripscale.model import Doubtful, Load, doubt_sentences, load_doubts
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import Surface
 
@@ -110,7 +110,8 @@ class CaseResults:
         Of an answer on other surfaces or under other loads than those of the case, these count.
         """
         roads = [self.surface] if surfaces is None else surfaces
-        texts = [text for road in roads for text in doubt_sentences(road)]
+        inputs: list[Doubtful] = [*roads, self.rubber]
+        texts = [text for each in inputs for text in doubt_sentences(each)]
         texts += load_doubts([self.load] if loads is None else loads, self.file.units)
         texts = list(dict.fromkeys(texts))
         if self.rubber.rubber.reference_temperature is None:

@@ -12,8 +12,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale.cli.terminal import (
+    COLUMNS,
     argument,
     as_options,
+    column_of,
+    columns_of,
     command,
     keys_as_options,
     keys_of,
@@ -229,13 +232,7 @@ def fit_rubber(
         str | None, option('Such as "20 C": where sweeps are shifted to.')
     ] = None,
     temperature_unit: Annotated[str | None, option("K, C or F, if not stated.")] = None,
-    columns: Annotated[
-        str | None,
-        option(
-            "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
-            "frequency=1,storage=3,loss_factor=5."
-        ),
-    ] = None,
+    columns: Annotated[str | None, option(COLUMNS)] = None,
     sheet: Annotated[
         str | None, option("Excel sheet, by name or number from 1, if several hold numbers.")
     ] = None,
@@ -258,9 +255,9 @@ def fit_rubber(
 
     values = keys_of(context, RubberSource) | {"file": file[0] if len(file) == 1 else file}
     if columns is not None:
-        values["columns"] = _columns(columns)
+        values["columns"] = columns_of(columns)
     if sheet is not None:
-        values["sheet"] = _column(sheet)
+        values["sheet"] = column_of(sheet)
     source = validate(RubberSource, values, "options")
     if output is not None:
         folder.require_writable(output)
@@ -274,21 +271,6 @@ def fit_rubber(
     if output is not None:
         console.print()
         _write(console, prepared, output)
-
-
-def _column(text: str) -> str | int:
-    """Return the number or the name of a column as it was typed."""
-    text = text.strip()
-    return int(text) if text.isdecimal() else text
-
-
-def _columns(text: str) -> dict[str, str | int] | list[str | int]:
-    """Return columns typed as 1,3,4 or as frequency=1,storage=3,loss_factor=4."""
-    parts = text.split(",")
-    if not all("=" in part for part in parts):
-        return [_column(part) for part in parts]
-    pairs = [part.split("=", 1) for part in parts]
-    return {quantity.strip(): _column(column) for quantity, column in pairs}
 
 
 def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:

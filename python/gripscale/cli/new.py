@@ -6,12 +6,22 @@ import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
-from gripscale.cli.terminal import argument, command, lengths_of, option, print_wrapped, screen
+from gripscale.cli.terminal import (
+    COLUMNS,
+    argument,
+    columns_of,
+    command,
+    lengths_of,
+    option,
+    print_wrapped,
+    screen,
+)
 from gripscale.core.errors import GripscaleError, InputError
 
 CURES = {
     "shift": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
     "step": '--step LENGTH, such as --step "0.1 mm"',
+    "columns": "--columns, such as --columns frequency=2,storage=3,loss=4",
 }
 """Options that state what is missing, by its key in a case."""
 
@@ -45,6 +55,13 @@ def new(
         tuple[float, str] | None,
         option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
     ] = None,
+    columns: Annotated[str | None, option(COLUMNS)] = None,
+    temperature_unit: Annotated[
+        str | None, option("K, C or F, if the file of the rubber does not state it.")
+    ] = None,
+    modulus_unit: Annotated[
+        str | None, option("Such as MPa, if that file does not state it, or states a wrong one.")
+    ] = None,
 ) -> None:
     """Write a commented case for measured files, and list what is doubtful about it."""
     from gripscale.case.new import new_case
@@ -54,6 +71,12 @@ def new(
         options["step"] = lengths_of(step)
     if wlf is not None:
         options["shift"] = {"kind": "wlf", "c1": wlf[0], "c2": wlf[1]}
+    layout = {
+        "columns": None if columns is None else columns_of(columns),
+        "temperature_unit": temperature_unit,
+        "modulus_unit": modulus_unit,
+    }
+    options["layout"] = {key: value for key, value in layout.items() if value is not None}
     load = {"pressure": pressure, "speed": speed, "footprint": footprint}
     values = {key: value for key, value in load.items() if value is not None}
     try:

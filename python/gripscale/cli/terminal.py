@@ -289,6 +289,28 @@ def lengths_of(text: str) -> str | list[str]:
     return lengths if len(lengths) > 1 else lengths[0]
 
 
+COLUMNS = (
+    "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
+    "frequency=1,storage=3,loss_factor=5."
+)
+"""What the option --columns takes."""
+
+
+def column_of(text: str) -> str | int:
+    """Return the number or the name of a column as it was typed."""
+    text = text.strip()
+    return int(text) if text.isdecimal() else text
+
+
+def columns_of(text: str) -> dict[str, str | int] | list[str | int]:
+    """Return columns typed as 1,3,4 or as frequency=1,storage=3,loss_factor=4."""
+    parts = text.split(",")
+    if not all("=" in part for part in parts):
+        return [column_of(part) for part in parts]
+    pairs = [part.split("=", 1) for part in parts]
+    return {quantity.strip(): column_of(column) for quantity, column in pairs}
+
+
 def open_folder(
     file: CaseFile, output: Path | None, name: str, *opening: str
 ) -> tuple[Console, Path]:

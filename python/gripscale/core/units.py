@@ -48,6 +48,7 @@ UNITS: dict[str, dict[str, float]] = {
     "molar energy": {"J/mol": 1.0, "kJ/mol": 1e3, "kcal/mol": 4184.0},
     "bond energy": {"eV": 1.0, "meV": 1e-3, "kJ/mol": 1e3 / _JOULES_PER_MOLE_IN_EV},
     "strain": {"1": 1.0, "%": 1e-2},
+    "angle": {"rad": 1.0, "deg": math.pi / 180.0},
 }
 """The units of each kind of quantity by their usual spelling; the first is the one used inside: the
 SI unit, except for the energy of a bond."""
@@ -82,6 +83,7 @@ _OTHER_SPELLINGS = {
     "C": ("°c", "degc", "deg c", "celsius"),
     "F": ("°f", "degf", "deg f", "fahrenheit"),
     "K": ("kelvin",),
+    "deg": ("°", "degree", "degrees"),
 }
 _SPELLINGS = {word: unit for unit, words in _OTHER_SPELLINGS.items() for word in words}
 

@@ -8,7 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gripscale.case.prepare import case_chain, case_surface, prepare_rubber, prepare_surface
+from gripscale.case.prepare import (
+    PreparedRubber,
+    case_chain,
+    case_surface,
+    prepare_rubber,
+    prepare_surface,
+)
 from gripscale.case.read import CaseFile, read_case, validate
 from gripscale.case.rubber_tables import NAMED_RUBBERS, RubberSource
 from gripscale.case.tables import SurfaceTable
@@ -42,7 +48,11 @@ OF_A_FILE = (
 
 def case_rubber(file: CaseFile) -> Rubber:
     """Return the rubber of a case."""
-    return prepare_rubber(file.case.rubber, file.resolve).rubber
+    return _of_case(file).rubber
+
+
+def _of_case(file: CaseFile) -> PreparedRubber:
+    return prepare_rubber(file.case.rubber, file.resolve)
 
 
 def surface_of(value: Any, file: CaseFile) -> Surface:
@@ -117,7 +127,12 @@ def _rubber_note(value: Any, file: CaseFile) -> str:
 
 
 def rubber_of(value: Any, file: CaseFile) -> Rubber:
-    """Return the rubber an axis names.
+    """Return the rubber an axis names, as `prepared_rubber_of`."""
+    return prepared_rubber_of(value, file).rubber
+
+
+def prepared_rubber_of(value: Any, file: CaseFile) -> PreparedRubber:
+    """Return the rubber an axis names, with what it comes from and what is doubtful of it.
 
     `value` is "case", a rubber known by name, another case (its [rubber] is taken), a file of
     moduli, or a `Rubber`. A file is read with what the case's [rubber] says of its own file (units,
@@ -125,9 +140,9 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
     the bulk modulus, the strain energy and the limit of outliers of the case.
     """
     if isinstance(value, Rubber):
-        return value
+        return PreparedRubber(value, value.source)
     if value == "case":
-        return case_rubber(file)
+        return _of_case(file)
     case = file.case.rubber
     settings: dict[str, Any] = {"strain_energy": case.strain_energy}
     if case.bulk_modulus is not None:
@@ -136,7 +151,7 @@ def rubber_of(value: Any, file: CaseFile) -> Rubber:
         return _rubber({"name": value, **settings})
     path = _found("rubber", value, file, ("case", *NAMED_RUBBERS))
     if path.suffix == ".toml":
-        return case_rubber(read_case(path))
+        return _of_case(read_case(path))
     names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
     taken = {name: getattr(case, name) for name in names if getattr(case, name) is not None}
     if "reference_temperature" in taken:
@@ -183,9 +198,9 @@ def _found(name: str, value: Any, file: CaseFile, names: tuple[str, ...]) -> Pat
     )
 
 
-def _rubber(settings: dict[str, Any], *, titles_first: bool = False) -> Rubber:
+def _rubber(settings: dict[str, Any], *, titles_first: bool = False) -> PreparedRubber:
     source = validate(RubberSource, settings, "vary rubber")
-    return prepare_rubber(source, titles_first=titles_first).rubber
+    return prepare_rubber(source, titles_first=titles_first)
 
 
 EFFECTS = ("temperature", "softening", "heat")

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case.prepare import prepare_conditions
+from gripscale.case.prepare import PreparedRubber, prepare_conditions
 from gripscale.case.read import CaseFile, read_case
 from gripscale.case.results import CaseResults
 from gripscale.chain.chain import Chain
@@ -182,9 +182,15 @@ class Study:
     @cached_property
     def rubbers(self) -> list[Rubber]:
         """The varied rubbers, or the one of the case, read and fitted."""
-        default = "case" if self.prepared is None else self.prepared.rubber.rubber
-        values = self._values("rubber") or (default,)
-        return [inputs.rubber_of(value, self.file) for value in values]
+        return [prepared.rubber for prepared in self.prepared_rubbers]
+
+    @cached_property
+    def prepared_rubbers(self) -> list[PreparedRubber]:
+        """The `rubbers` with what they come from and what is doubtful of them."""
+        values = self._values("rubber")
+        if not values and self.prepared is not None:
+            return [self.prepared.rubber]
+        return [inputs.prepared_rubber_of(value, self.file) for value in values or ("case",)]
 
     @cached_property
     def _case_conditions(self) -> Conditions | None:
@@ -394,7 +400,9 @@ class Study:
             "title": "Study of real contact area and friction of rubber on a rough surface",
             **self.file.attributes,
             **input_doubts(
-                self.surfaces, [point.task.load for point in self.points], self.file.units
+                [*self.surfaces, *self.prepared_rubbers],
+                [point.task.load for point in self.points],
+                self.file.units,
             ),
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,

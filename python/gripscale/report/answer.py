@@ -66,11 +66,12 @@ def no_answer(data: xr.Dataset | None) -> str:
             "none with an interval. Only the direct contact of a measured surface has an interval, "
             "and none was solved."
         )
+    doubts = [*filter(None, [data.attrs.get(model.INPUT_DOUBTS)])]
     if not has_answer(data):
-        return f"none. The direct contact of the measured surface has no result: {_status(data)}."
+        words = f"The direct contact of the measured surface has no result: {_status(data)}."
+        return " ".join(["none.", *doubts, words])
     guesses = [share.text for share in _guesses(data) if share.effect > MOST_ON_GUESSES]
-    doubts = data.attrs.get(model.INPUT_DOUBTS)
-    reasons = [*filter(None, [doubts]), *guesses, *_sampled_too_little(data)]
+    reasons = [*doubts, *guesses, *_sampled_too_little(data)]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 

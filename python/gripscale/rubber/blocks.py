@@ -37,7 +37,7 @@ from gripscale.rubber.columns import (
 )
 from gripscale.rubber.shift import WLF
 
-KINDS = ("temperature", "frequency", "modulus", "strain")
+KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
 """Kinds of quantities whose units titles may hold."""
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _STEP = re.compile(r"\[\w+\]")

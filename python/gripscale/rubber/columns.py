@@ -9,14 +9,17 @@ Titles are read in English and German:
 | storage | E', G', E_stor, Storage modulus, Speichermodul |
 | loss | E'', G'', E", E_loss, Loss modulus, Verlustmodul |
 | loss_factor | tan delta, tan(d), Loss factor, Verlustfaktor, Damping factor |
+| phase | delta, Phase angle, Loss angle, Phasenwinkel, Verlustwinkel |
 | magnitude | E*, G*, |E*|, Complex modulus, Komplexer Modul |
 | strain | Strain, Shear strain, Strain amplitude, Dehnung, Verformung, Deformation, gamma |
 
 A logarithm (log, log10, lg or ln of one of these, such as log f or log10(E'/Pa)) is raised again,
-and the a_T of a shifted frequency (a_T f) is no part of its title. Two of E', E'', tan delta and
-|E*| state the modulus:
+and the a_T of a shifted frequency (a_T f) is no part of its title. Two of E', E'', |E*| and tan
+delta, or the angle delta, state the modulus:
 
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
+
+Each modulus has the unit of its own title. A loss factor may be in %, an angle states its unit.
 
 A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
 """
@@ -60,6 +63,7 @@ _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
+_PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
 """Letters that are a title by themselves: t is a time and F a force."""
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
@@ -78,6 +82,8 @@ def quantity(name: str) -> str | None:
     text = _SHIFTED.sub("", plain(name))
     if logarithm := _RAISED.fullmatch(text):
         return quantity(logarithm[2])
+    if _PHASE.fullmatch(text):
+        return "phase"
     if not text[1:2].isalpha() and text[:1] in _LETTERS:
         return _LETTERS[text[0]]
     if len(text) == 1:
@@ -152,12 +158,17 @@ def stated_temperature(line: str) -> tuple[str, str | None] | None:
     return None if match is None else (match["number"], match["before"] or match["after"])
 
 
-MODULI = ("storage", "loss", "loss_factor", "magnitude")
+MODULI = ("storage", "loss", "loss_factor", "magnitude", "phase")
+RATIOS = ("loss_factor", "phase")
+"""Those without the unit of a modulus."""
 PAIRS = (
     ("storage", "loss"),
     ("storage", "loss_factor"),
     ("loss", "loss_factor"),
     ("magnitude", "loss_factor"),
+    ("storage", "phase"),
+    ("loss", "phase"),
+    ("magnitude", "phase"),
 )
 """Two that state the modulus, the first choice first."""
 QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
@@ -264,26 +275,23 @@ class FileLayout(Checked):
             )
         return hits[0] if hits else None
 
-    def needed_column(self, table: TextTable, wanted: str, argument: str = "columns") -> int:
-        """Return the column of a quantity; raise `InputError`, which names `argument`, for none."""
+    def needed_column(self, table: TextTable, wanted: str) -> int:
+        """Return the column of a quantity; raise `InputError` for none."""
         column = self.column(table, wanted)
         if column is None:
-            raise missing(table, wanted, argument)
+            raise missing(table, wanted)
         return column
 
     def read(self, table: TextTable, wanted: str, numbers: ReadColumn | None = None) -> Array:
         """Return a column in SI units, of a quantity that must be there; as `young_moduli`."""
         column = self.needed_column(table, wanted)
         values = (numbers or above_zero)(table, column, wanted)
-        return np.asarray(in_si(values, self.unit(table, [column], wanted), wanted))
+        return np.asarray(in_si(values, self.unit(table, column, wanted), wanted))
 
-    def unit(self, table: TextTable, chosen: Sequence[int], kind: str) -> str:
-        """Return the unit of the `chosen` columns; raise `InputError` if nothing states it."""
+    def unit(self, table: TextTable, column: int, kind: str) -> str:
+        """Return the unit of a column; raise `InputError` if nothing states it."""
         chosen_unit: str | None = getattr(self, f"{kind}_unit")
-        written = {
-            spelled(unit, kind) or unit for unit in (table.columns[at].unit for at in chosen)
-        }
-        header = next(iter(written)) if len(written) == 1 else None
+        header = table.columns[column].unit
         unit = spelled(header, kind)
         if chosen_unit is not None and not (self.titles_first and unit):
             return chosen_unit
@@ -291,7 +299,7 @@ class FileLayout(Checked):
             what = "no unit" if header is None else checks.short_repr(header)
             raise InputError(
                 f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header "
-                f"states {what if len(written) == 1 else 'different units'}",
+                f"states {what} of {table.columns[column].name or f'column {column + 1}'}",
                 missing=f"{kind}_unit",
             )
         return unit
@@ -323,11 +331,13 @@ def position_of(table: TextTable, column: str | int) -> int:
     return table.names.index(column)
 
 
-def missing(table: TextTable, what: str, argument: str) -> InputError:
+def missing(table: TextTable, what: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
-    return InputError(f"{table.path}: {argument} must give the {what}; {header}", missing="columns")
+    if what == "frequency":
+        header += "; where no column holds it, add one, such as Frequency [Hz] with 10 in every row"
+    return InputError(f"{table.path}: columns must give the {what}; {header}", missing="columns")
 
 
 _ROUNDING = 0.05
@@ -347,26 +357,47 @@ def young_moduli(
     at = {name: position for name, position in positions.items() if position is not None}
     pair = next((pair for pair in PAIRS if set(pair) <= set(at)), None)
     if pair is None:
-        raise missing(table, "modulus as two of storage, loss, loss_factor, magnitude", "columns")
-    in_pascal = [at[name] for name in pair if name != "loss_factor"]
-    size = in_si(1.0, layout.unit(table, in_pascal, "modulus"), "modulus")
-    size *= 3.0 if layout.modulus_of(table, in_pascal) == "G" else 1.0
+        raise missing(table, f"modulus as two of {', '.join(MODULI)}")
+    moduli = [name for name in pair if name not in RATIOS]
+    units = {name: layout.unit(table, at[name], "modulus") for name in moduli}
+    size = 3.0 if layout.modulus_of(table, [at[name] for name in moduli]) == "G" else 1.0
     values = {
-        name: read(table, at[name], name) * (1.0 if name == "loss_factor" else size)
-        for name in pair
+        name: size * in_si(read(table, at[name], name), unit, "modulus")
+        for name, unit in units.items()
     }
     if pair == ("storage", "loss"):
         if "loss_factor" in at:
             printed = table.numbers(at["loss_factor"], "a finite number", missing=True)
+            printed *= _ratio_unit(table, at["loss_factor"])
             _refuse_swapped(table, values["loss"] / values["storage"], printed)
         return values["storage"], values["loss"]
-    factor = values["loss_factor"]
+    factor = _loss_factor(table, at[pair[1]], pair[1], read)
     if "storage" in values:
         return values["storage"], values["storage"] * factor
     if "loss" in values:
         return values["loss"] / factor, values["loss"]
     storage = values["magnitude"] / np.sqrt(1.0 + factor**2)
     return storage, storage * factor
+
+
+def _loss_factor(table: TextTable, column: int, name: str, read: ReadColumn) -> Array:
+    """Return the loss factor [-] of a column that holds it, or the angle between E' and E''."""
+    values, title = read(table, column, name), table.columns[column]
+    if name == "loss_factor":
+        return values * _ratio_unit(table, column)
+    if spelled(title.unit, "angle") is None:
+        raise InputError(
+            f"{table.path}: the title of a phase angle must state its unit ({listed('angle')}), "
+            f"such as {title.name or 'delta'} (deg); got {title.unit or 'none'}"
+        )
+    angle = np.asarray(in_si(values, str(title.unit), "angle"))
+    check_rows(table, column, angle < 0.5 * math.pi, values, "a phase angle below 90 degrees")
+    return np.tan(angle)
+
+
+def _ratio_unit(table: TextTable, column: int) -> float:
+    """Return the size of the unit of a loss factor: that of %, or 1."""
+    return in_si(1.0, spelled(table.columns[column].unit, "strain") or "1", "strain")
 
 
 def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
@@ -382,6 +413,33 @@ def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
             "the file is storage over loss; columns must name them in their order",
             missing="columns",
         )
+
+
+_SAME_FREQUENCY, _SAME_TEMPERATURE = 0.01, 0.2
+"""Frequencies that differ by less than this share, temperatures by less than this [K], are one."""
+APART = 1.5
+"""Ratio of moduli measured twice that no scatter explains: ten per cent of noise makes 1.3."""
+_OFTEN = 3
+"""Conditions measured over those that come again, at most, in a table that repeats itself."""
+
+
+def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:
+    """Return by which factor moduli of one frequency and temperature differ, in the median.
+
+    Of E' and E'' the larger counts. One where fewer than a third of the conditions come again.
+    """
+    conditions = np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE
+    _, row, count = np.unique(np.round(conditions), axis=1, return_inverse=True, return_counts=True)
+    again = count > 1
+    if not again.sum() >= max(2.0, len(count) / _OFTEN):
+        return 1.0
+    spreads = np.ones((2, len(count)))
+    for modulus, spread in zip((storage, loss), spreads, strict=True):
+        low, high = np.full(len(count), np.inf), np.zeros(len(count))
+        np.minimum.at(low, row.reshape(-1), modulus)
+        np.maximum.at(high, row.reshape(-1), modulus)
+        spread[:] = high / low
+    return float(np.median(spreads.max(axis=0)[again]))
 
 
 def above_zero(table: TextTable, column: int, wanted: str) -> Array:

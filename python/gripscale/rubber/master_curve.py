@@ -16,9 +16,11 @@ from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import (
+    APART,
     THREE,
     FileLayout,
     quantity,
+    spread_of_repeats,
     young_moduli,
 )
 from gripscale.rubber.shift import Shift, shift_at
@@ -171,6 +173,14 @@ def read_master_curve(
     column = layout.needed_column(table, "frequency")
     _refuse_sweeps(table, column, with_columns=bool(layout.columns))
     columns = layout.read(table, "frequency", _positive), *young_moduli(table, layout, _positive)
+    spread = spread_of_repeats(*columns, np.zeros(len(table.rows)))
+    if spread > APART:
+        raise FileError(
+            f"{file}: expected one master curve; got the same frequencies again with moduli "
+            f"{spread:.2g} times apart, as sweeps at several temperatures have them: add a column "
+            "with the temperature of each row, or write one file for each temperature, with the "
+            "temperature in its name, such as sweep_-20C.csv"
+        )
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
@@ -194,8 +204,8 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> N
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
                 f"{kelvin.min():g} to {kelvin.max():g} in column {checks.shortened(title.name)}; "
-                "shift the sweeps to one master curve first (read_sweeps, superpose), or name the "
-                "columns if they are shifted"
+                "shift the sweeps to one master curve first, or name the columns (columns) if they "
+                "are shifted"
             )
 
 

@@ -38,6 +38,7 @@ from gripscale.rubber.material import (
     storage_shape,
 )
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
+from gripscale.rubber.misread import likely_reading, moduli_doubts
 from gripscale.rubber.prony_report import PronyFit, report, rms, swapped_moduli
 
 _RISE = 9.0
@@ -253,7 +254,7 @@ def fit_prony_report(
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
     bulk = material.check_modulus("bulk_modulus", bulk_modulus)
     swapped = swapped_moduli(master)
-    if swapped.certain:
+    if swapped.certain and not likely_reading(master, swapped):
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
@@ -296,9 +297,10 @@ def fit_prony_report(
         shift=master.shift,
     )
     fit_report = report(master, rows, screening, candidates, rubber)
-    if swapped.likely:
+    doubts = tuple(moduli_doubts(master, swapped, screening.storage_scatter))
+    if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
-    return rubber, fit_report
+    return rubber, replace(fit_report, doubts=doubts)
 
 
 def _option(name: str, value: float, most: float) -> float:

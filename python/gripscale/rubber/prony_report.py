@@ -144,12 +144,13 @@ def swapped_moduli(master: MasterCurve) -> SwappedModuli:
     """Return how well a linear solid has the moduli of `master` as they are, and swapped."""
     omega = master.angular_frequency
     return SwappedModuli(
-        _misfit(Curve(omega, master.storage, master.loss)),
-        _misfit(Curve(omega, master.loss, master.storage)),
+        misfit(Curve(omega, master.storage, master.loss)),
+        misfit(Curve(omega, master.loss, master.storage)),
     )
 
 
-def _misfit(curve: Curve) -> float:
+def misfit(curve: Curve) -> float:
+    """Return the root mean square log misfit [-] of the best linear solid to E' and E''."""
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     terms = min(max(4, round(_TIMES_PER_DECADE * decades) + 1), _MOST_TIMES)
     limit = _OVER_MEASURED * float(max(curve.storage.max(), curve.loss.max()))
@@ -163,8 +164,8 @@ def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterat
     """Yield what a reader must know before the rubber is used, a sentence each."""
     if inconsistencies:
         yield (
-            "E' and E'' break the Kramers-Kronig relation (no linear solid has both) where the "
-            "best series misses them by more than their scatter, at most by: "
+            "E' and E'' do not belong to one linear solid (Kramers-Kronig) where the best series "
+            "misses them by more than their scatter, at most by: "
             + "; ".join(map(str, inconsistencies))
         )
     for name, misfit in zip(("slowest", "fastest"), ends, strict=True):
@@ -240,11 +241,13 @@ class PronyFit:
     measured_band: tuple[float, float]
     """Lowest and highest measured angular frequency among the rows kept [rad/s]."""
     inconsistencies: tuple[Misfit, ...] = ()
-    """Where E' and E'' break the Kramers-Kronig relation: even the best series misses them."""
+    """Where E' and E'' do not belong to one linear solid: even the best series misses them."""
     slow_end: Misfit | None = None
     """How the series misses the five slowest rows; None within their scatter."""
     fast_end: Misfit | None = None
     """The same of the five fastest."""
+    doubts: tuple[str, ...] = ()
+    """Why the moduli may be those of no rubber, a sentence each."""
     findings: tuple[str, ...] = ()
     """What is doubtful, a sentence each."""
 
@@ -254,7 +257,7 @@ class PronyFit:
         return not self.inconsistencies
 
     def summary(self, *, findings: bool = True) -> str:
-        """Return the report as a few lines of text, with or without what is doubtful."""
+        """Return the report as a few lines of text, with or without what is found besides."""
         low, high = self.measured_band
         lines = [
             f"{self.terms} Maxwell elements for {low:.3g} to {high:.3g} rad/s",
@@ -265,7 +268,7 @@ class PronyFit:
         if self.outlier_frequency.size:
             left_out = ", ".join(f"{frequency:.3g}" for frequency in self.outlier_frequency)
             lines.append(f"left out as outliers [Hz]: {left_out}")
-        return "\n".join([*lines, *(self.findings if findings else ())])
+        return "\n".join([*lines, *self.doubts, *(self.findings if findings else ())])
 
 
 def report(

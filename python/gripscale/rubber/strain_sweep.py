@@ -20,6 +20,7 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import (
     MODULI,
+    RATIOS,
     FileLayout,
     young_moduli,
 )
@@ -137,7 +138,7 @@ def read_strain_sweep(
     storage, loss = young_moduli(table, layout)
     complete = np.isfinite([strain, storage, loss]).all(axis=0)
     strain, storage, loss = (values[complete] for values in (strain, storage, loss))
-    moduli = [layout.column(table, name) for name in MODULI if name != "loss_factor"]
+    moduli = [layout.column(table, name) for name in MODULI if name not in RATIOS]
     kind = layout.modulus_of(table, [column for column in moduli if column is not None])
     column = layout.column(table, "temperature")
     if temperature is None and (blocks[0].temperature is not None or column is not None):

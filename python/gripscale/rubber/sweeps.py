@@ -26,8 +26,10 @@ from gripscale.core.units import ZERO_CELSIUS, in_si
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks
 from gripscale.rubber.columns import (
+    APART,
     FileLayout,
     check_rows,
+    spread_of_repeats,
     young_moduli,
 )
 from gripscale.rubber.shift import WLF
@@ -224,7 +226,8 @@ def _repeats(block: Block, layout: FileLayout) -> bool:
     degrees, hertz = (
         table.numbers(at, "a number", missing=True) for at in columns if at is not None
     )
-    if not np.ptp(degrees) > 2.0 * TOLERANCE:
+    degrees = degrees[np.isfinite(degrees)]
+    if not degrees.size or np.ptp(degrees) <= 2.0 * TOLERANCE:
         return False
     return len(np.unique(hertz)) <= len(hertz) // 2 or is_single_frequency(hertz)
 
@@ -368,10 +371,17 @@ def read_sweeps(
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
         raise FileError(f"{paths[0]}: expected rows without missing values; got none")
+    kelvin, hertz, storage, loss = rows
+    spread = spread_of_repeats(hertz, storage, loss, kelvin)
+    if spread > APART:
+        raise FileError(
+            f"{paths[0]}: expected one measurement at each frequency and temperature; got moduli "
+            f"{spread:.2g} times apart, as of several specimens, strain amplitudes, units or "
+            "unnamed temperatures: keep the rows of one of them"
+        )
     name = paths[0].stem if name is None else name
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)
-    kelvin, hertz, storage, loss = rows
     try:
         return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
     except InputError as error:
@@ -402,7 +412,15 @@ def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:
     hertz = layout.read(block.table, "frequency")
     kelvin = row_temperatures(block, layout, temperature)
     rows = np.array([kelvin, hertz, *young_moduli(block.table, layout)])
-    return rows[:, np.isfinite(rows).all(axis=0)]
+    measured = np.isfinite(rows[1:]).all(axis=0)
+    without = np.flatnonzero(measured & np.isnan(kelvin))
+    if without.size:
+        raise FileError(
+            f"{block.table.path}, line {block.table.line_numbers[without[0]]}: expected a "
+            f"temperature in every row; got none in {without.size} of {len(kelvin)} rows: fill "
+            "the column, or remove these rows"
+        )
+    return rows[:, measured]
 
 
 def row_temperatures(block: Block, layout: FileLayout, temperature: float | None) -> Array:
@@ -412,9 +430,15 @@ def row_temperatures(block: Block, layout: FileLayout, temperature: float | None
         temperature = block.temperature
     if temperature is not None:
         return np.full(len(table.rows), temperature)
-    column = layout.needed_column(table, "temperature", "columns or temperature")
+    column = layout.column(table, "temperature")
+    if column is None:
+        raise InputError(
+            f"{table.path}: the temperature of the rows must stand in a column, Temperature [°C], "
+            "in a line above the rows, T = 20 °C, or in the name of each of several files, "
+            f"sweep_20C.csv; the header has {table.titles or 'no names'}"
+        )
     degrees = table.numbers(column, "a temperature", missing=True)
-    unit = layout.unit(table, [column], "temperature")
+    unit = layout.unit(table, column, "temperature")
     kelvin = np.asarray(in_si(degrees, unit, "temperature"))
     check_rows(table, column, kelvin > 0.0, kelvin, "a temperature above absolute zero")
     return kelvin
