@@ -13,7 +13,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis import case_sensitivity, compare_over
+from gripscale.analysis import (
+    case_sensitivity,
+    compare_case,
+    compare_compounds,
+    compare_over,
+    compare_surfaces,
+)
 from gripscale.analysis.comparison import reference
 from gripscale.case import CaseFile, read_case, record
 from gripscale.case.run import prepare_case
@@ -254,6 +260,17 @@ def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any
     (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
     study = Study(file, vary=vary, model="chain").run(tmp_path / "study", workers=1)
     assert study.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+
+
+def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
+    misread = write(tmp_path, dma=dma_text(60.0, "0.2"))
+    ladder = compare_case(misread, rungs=["direct"]).data
+    roads = compare_surfaces(misread, {"a": "case", "b": "case"}, tmp_path / "roads", samples=None)
+    (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
+    rubbers = {"right": "case", "misread": "other.txt"}
+    compounds = compare_compounds(write(tmp_path), rubbers, tmp_path / "rubbers", uncertainty=False)
+    for data in (ladder, roads.data, compounds.data):
+        assert data.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
 
 
 def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:

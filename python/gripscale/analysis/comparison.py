@@ -36,7 +36,7 @@ from gripscale.analysis.ladder import (
     chosen,
     each_measured,
 )
-from gripscale.case.prepare import prepare_continuation
+from gripscale.case.prepare import PreparedRubber, prepare_continuation
 from gripscale.case.read import CaseFile
 from gripscale.case.results import CaseResults
 from gripscale.case.run import prepare_case
@@ -156,7 +156,7 @@ def compare_case(
     choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
     with bench_in(folder, workers, client, on_task) as bench:
-        return _compared(results.file, {"": task}, choice, None, bench)
+        return _compared(results.file, {"": task}, [results.rubber], choice, None, bench)
 
 
 def compare_over(
@@ -203,11 +203,16 @@ def compare_over(
     choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     tasks = {point.label: point.task for point in study.points}
     with bench_in(folder, workers, client, on_task) as bench:
-        return _compared(study.file, tasks, choice, axis, bench)
+        return _compared(study.file, tasks, study.prepared_rubbers, choice, axis, bench)
 
 
 def _compared(
-    file: CaseFile, tasks: Mapping[str, Task], choice: Choice, axis: Axis | None, bench: Bench
+    file: CaseFile,
+    tasks: Mapping[str, Task],
+    rubbers: Sequence[PreparedRubber],
+    choice: Choice,
+    axis: Axis | None,
+    bench: Bench,
 ) -> Comparison:
     """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
     # what was measured is refused before anything is solved
@@ -240,7 +245,9 @@ def _compared(
             require_measured(setup.rubber_before, wavelength, speed)
     wanted = chosen(choice.rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
-    make = partial(Comparison, file, axis=axis, measured=measured, factors=choice.factors)
+    make = partial(
+        Comparison, file, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
+    )
     rungs: Sequence[Rung] = quick or wanted
     while True:
         design, rungs = _design(setups, list(tasks), rungs, axis)

@@ -14,6 +14,7 @@ import xarray as xr
 from gripscale.analysis import samples as reduce
 from gripscale.analysis.best_estimate import SHARES, Factor, best_estimate
 from gripscale.analysis.ladder import ComparisonSetup, Rung
+from gripscale.case.prepare import PreparedRubber
 from gripscale.case.read import CaseFile
 from gripscale.core import provenance
 from gripscale.experiment.axis import Axis
@@ -54,6 +55,8 @@ class Comparison:
     """Friction measured elsewhere, to be put beside the models."""
     factors: Sequence[Factor] = ()
     """Factors of the best estimate known from elsewhere."""
+    rubbers: Sequence[PreparedRubber] = ()
+    """What the rubbers of the setups come from, and what is doubtful of them."""
 
     @property
     def converged(self) -> bool:
@@ -185,7 +188,9 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
             "title": "Contact and friction by model",
             **comparison.file.attributes,
             **input_doubts(
-                [setups[0].surface], [setup.load for setup in setups], comparison.file.units
+                [setups[0].surface, *comparison.rubbers],
+                [setup.load for setup in setups],
+                comparison.file.units,
             ),
             "case_file": str(comparison.file.path),
             "conditions": json.dumps(conditions and conditions.to_dict()),

@@ -41,10 +41,11 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import attributes
-from gripscale.experiment.inputs import contents, rubber_notes, rubber_of, stated_by
+from gripscale.experiment.inputs import contents, prepared_rubber_of, rubber_notes, stated_by
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
 from gripscale.io import netcdf
+from gripscale.rubber import Rubber
 
 RESULT = "design.nc"
 TOLERANCE = 0.05
@@ -140,14 +141,17 @@ def design_compound(
         design_key=key,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
     )
-    compounds, notes = _compounds(problem, reference, rubbers or {}, file)
+    prepared = {name: prepared_rubber_of(value, file) for name, value in (rubbers or {}).items()}
+    read = {name: each.rubber for name, each in prepared.items()}
+    compounds, notes = _compounds(problem, reference, read)
     notes = (*notes, *_left_out(file))
     base = base.merge(compounds).assign_attrs(base.attrs, notes="\n".join(notes))
     goal_loads = [
         replace(results.load, speed=goal.speed, pressure=goal.pressure)
         for goal in problem.friction.goals
     ]
-    of_compounds = rubber_notes((rubbers or {}).values(), file)
+    misread = [f"{name}: {text}." for name, each in prepared.items() for text in each.doubts]
+    of_compounds = [*rubber_notes((rubbers or {}).values(), file), *misread]
     of_inputs = record.inputs(results, problem.roads.values(), goal_loads, of_compounds)
     points: list[xr.Dataset] = []
     rising = _order(wanted, problem)
@@ -240,15 +244,14 @@ def _left_out(file: CaseFile) -> list[str]:
 
 
 def _compounds(
-    problem: DesignProblem, reference: Reference, rubbers: Mapping[str, Any], file: CaseFile
+    problem: DesignProblem, reference: Reference, rubbers: Mapping[str, Rubber]
 ) -> tuple[xr.Dataset, tuple[str, ...]]:
     """Return gain and rolling resistance of other compounds, over `compound`, and remarks."""
     if not rubbers:
         return xr.Dataset(), ()
-    read = {name: rubber_of(value, file) for name, value in rubbers.items()}
-    together, notes = at_one_temperature({"today": problem.rubber, **read})
+    together, notes = at_one_temperature({"today": problem.rubber, **rubbers})
     parts = []
-    for name in read:
+    for name in rubbers:
         rubber, friction = together[name], problem.friction
         contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
         result = gain(friction, reference.contacts, contacts)
@@ -266,7 +269,7 @@ def _compounds(
             "compound_rolling_ratio": (rolling, "loss factor when rolling over today's"),
         }
         parts.append(scalars(values))
-    names = np.array(list(read), dtype=object)
+    names = np.array(list(rubbers), dtype=object)
     data = xr.concat(parts, "compound").assign_coords(compound=("compound", names))
     return data, notes
 

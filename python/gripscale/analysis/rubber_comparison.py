@@ -34,13 +34,14 @@ from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import Design, Point, attributes, solve_design
-from gripscale.experiment.inputs import rubber_notes, rubber_of
+from gripscale.experiment.inputs import prepared_rubber_of, rubber_notes
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import Study
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
+from gripscale.model import input_doubts
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.theory.half_plane import HalfPlane
 
@@ -279,9 +280,10 @@ def compare_compounds(
     """
     require_some("rubbers", rubbers, "compounds")
     file = case if isinstance(case, CaseFile) else read_case(case)
-    compounds = {name: rubber_of(value, file) for name, value in rubbers.items()}
+    prepared = {name: prepared_rubber_of(value, file) for name, value in rubbers.items()}
     if temperature is None:
         temperature = file.case.conditions.temperature
+    compounds = {name: each.rubber for name, each in prepared.items()}
     together, notes = at_one_temperature(compounds, temperature)
     notes = (*rubber_notes(rubbers.values(), file), *notes)
     vary = {"rubber": together}
@@ -296,7 +298,11 @@ def compare_compounds(
         bench = Bench(Store(Path(folder) / PREDICTIONS), workers)
         data = data.assign(_ranges(study, data, bench))
     data = data.assign(_believed(data if best is None else with_best_estimate(best), data))
-    data = data.assign(_differences(data)).assign_attrs(notes="\n".join(notes))
+    loads = [point.task.load for point in study.points]
+    data = data.assign(_differences(data)).assign_attrs(
+        input_doubts([*study.surfaces, *prepared.values()], loads, file.units),
+        notes="\n".join(notes),
+    )
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     if kelvins[0] is not None and len({*kelvins}) == 1:
         data = data.assign_attrs({TEMPERATURE: kelvins[0]})

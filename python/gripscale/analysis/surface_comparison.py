@@ -45,7 +45,7 @@ from gripscale.experiment.design import (
     solve_design,
     surface_numbers,
 )
-from gripscale.experiment.inputs import case_rubber, model_of, surface_note, surface_of
+from gripscale.experiment.inputs import model_of, prepared_rubber_of, surface_note, surface_of
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.study import UPPER_HEIGHT
 from gripscale.experiment.task import PREDICTIONS, Store, Task
@@ -304,7 +304,8 @@ def compare_surfaces(
         else surface_of(value, file)
         for name, value in surfaces.items()
     }
-    load, rubber = file.case.load.nominal, case_rubber(file)
+    load, prepared = file.case.load.nominal, prepared_rubber_of("case", file)
+    rubber = prepared.rubber
     points: list[Point] = []
     notes = [*filter(None, (surface_note(value, file) for value in surfaces.values()))]
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
@@ -342,7 +343,7 @@ def compare_surfaces(
         surfaces=shlex.join(words),
         case_file=str(file.path),
         **file.attributes,
-        **input_doubts(roads.values(), [load], file.units),
+        **input_doubts([*roads.values(), prepared], [load], file.units),
         **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))

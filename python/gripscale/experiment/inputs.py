@@ -46,11 +46,6 @@ OF_A_FILE = (
 """Keys of the case's [rubber] that a varied file is read with where it does not state them."""
 
 
-def case_rubber(file: CaseFile) -> Rubber:
-    """Return the rubber of a case."""
-    return _of_case(file).rubber
-
-
 def _of_case(file: CaseFile) -> PreparedRubber:
     return prepare_rubber(file.case.rubber, file.resolve)
 
