@@ -24,7 +24,7 @@ from gripscale.report.notices import Failure
 RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
 CHAIN_RANKS_NOTHING = (
     "The chain solves the sine waves of the road one by one and leaves out how they meet in the "
-    "contact: it says where a difference may come from, and the direct contact, above, ranks."
+    "contact. It says where a difference may come from; the ranking is that of the direct contact."
 )
 QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
 
