@@ -244,7 +244,9 @@ def test_study_found_whole_is_not_prepared_again(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     first = Study(case, {"speed": SPEEDS}).run(tmp_path)
-    monkeypatch.setattr(study_module.inputs, "case_rubber", lambda _: pytest.fail("fitted again"))
+    monkeypatch.setattr(
+        study_module.inputs, "prepared_rubber_of", lambda *_: pytest.fail("fitted again")
+    )
     again = Study(case, {"speed": SPEEDS})
     assert again.run(tmp_path).identical(first)
     assert json.loads(first.attrs["description"])[1].endswith("2 different predictions")

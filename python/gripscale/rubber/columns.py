@@ -297,9 +297,10 @@ class FileLayout(Checked):
             return chosen_unit
         if unit is None:
             what = "no unit" if header is None else checks.short_repr(header)
+            title = shortened(table.columns[column].name) or f"column {column + 1}"
             raise InputError(
                 f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header "
-                f"states {what} of {table.columns[column].name or f'column {column + 1}'}",
+                f"states {what} of {title}",
                 missing=f"{kind}_unit",
             )
         return unit
