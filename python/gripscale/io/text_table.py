@@ -250,7 +250,8 @@ class TextTable:
         cells = self._cells(column)
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
-        exponents = (Decimal(cell).as_tuple().exponent for cell in cells)
+        numbers = filter(NUMBER.fullmatch, cells)  # others are marks of missing values
+        exponents = (Decimal(cell).as_tuple().exponent for cell in numbers)
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
     def _cells(self, column: int) -> list[str]:

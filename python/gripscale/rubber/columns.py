@@ -270,7 +270,7 @@ class FileLayout(Checked):
         if any([row[at] for row in table.rows] != first for at in hits[1:]):
             raise InputError(
                 f"{table.path}: columns must say which is the {wanted}, because {len(hits)} titles "
-                f"mean it ({', '.join(table.columns[at].name for at in hits)})",
+                f"mean it ({shortened(', '.join(table.columns[at].name for at in hits))})",
                 missing="columns",
             )
         return hits[0] if hits else None

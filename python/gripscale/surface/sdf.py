@@ -54,7 +54,9 @@ def read_sdf_text(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     try:
         counts = np.array(cells).astype(float)
     except ValueError as error:
-        raise FileError(f"{path}: expected numbers as heights ({error})") from error
+        raise FileError(
+            f"{path}: expected numbers as heights ({checks.shortened(str(error))})"
+        ) from error
     heights = numbers["Zscale"] * counts.reshape(profiles, points).T
     x, y = (
         numbers[name] * np.arange(size, dtype=float)
@@ -90,6 +92,6 @@ def _number(path: Path, header: dict[str, str], name: str) -> float:
 
 
 def _count(path: Path, name: str, value: float) -> int:
-    if not (value == int(value) and 1 <= value <= MOST_POINTS):
+    if not (1 <= value <= MOST_POINTS and value == int(value)):
         raise FileError(f"{path}: expected a whole number as {name}; got {value:g}")
     return int(value)
