@@ -20,7 +20,7 @@ Units are stated by the file or by the caller, never guessed.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -177,13 +177,22 @@ def read_text_profile(
         )
     x = in_si(grid.points(x), x_unit, "length")
     z = in_si(grid.spread(z), z_unit, "length")
-    doubts = depth_doubts(table, z_column)
+    doubts = () if is_captif(lines) else depth_doubts(table, z_column)
     with about_file(path):
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
 DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
 """What a title says of heights that may be counted downwards."""
+
+
+def is_captif(lines: Sequence[Line]) -> bool:
+    """Return whether a file is of the profilometer of CAPTIF, whose "Depth" counts upwards.
+
+    The steel plates on which it stands are above the road in its files
+    (https://github.com/captif-nz/captif-slp).
+    """
+    return any("*****DATA*****" in text for _, text in lines[:20])
 
 
 def depth_doubts(table: TextTable, column: int) -> tuple[str, ...]:
