@@ -16,7 +16,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import name
 from benchmarks.table import show
-from gripscale.case import prepare_case
+from gripscale.case_file import prepare_case
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import ROOT
 

@@ -13,7 +13,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.rough_contact import road
 from benchmarks.table import show
-from gripscale.case import prepare_case
+from gripscale.case_file import prepare_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties, fixed_point
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus

@@ -13,7 +13,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.case import prepare_case
+from gripscale.case_file import prepare_case
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"

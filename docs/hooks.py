@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gripscale.case.keys import Section
+    from gripscale.case_file.keys import Section
 
 DOCS = Path(__file__).parent.resolve()
 KEYS = "<!-- every key of a case -->"
@@ -48,7 +48,7 @@ def equation(latex: str) -> str:
 
 def key_tables() -> str:
     """Return a heading and a table for each table of a case, as Markdown."""
-    from gripscale.case.keys import sections
+    from gripscale.case_file.keys import sections
 
     return "\n".join(line for section in sections() for line in _section(section))
 

@@ -13,13 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.analysis import calibrate_case, predictions_at
-from gripscale.case import prepare_case
+from gripscale.case_file import prepare_case
 from gripscale.charts.figure_folder import FigureFolder
-from gripscale.charts.uncertainty import calibration_pictures
 from gripscale.charts.write import draw
 from gripscale.conditions import GaussianStress
 from gripscale.experiment import MeasuredFriction, Store
+from gripscale.questions import calibrate_case, predictions_at
+from gripscale.questions.uncertainty.charts import calibration_pictures
 
 CASE = Path(__file__).parent / "measured_friction" / "case.toml"
 TRUE = GaussianStress(

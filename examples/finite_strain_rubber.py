@@ -11,7 +11,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from gripscale.charts import finite_strain_figure, save_figure
+from gripscale.charts import save_figure
+from gripscale.questions import finite_strain_figure
 from gripscale.rubber import (
     FiniteStrainFit,
     UniaxialTest,

@@ -14,12 +14,8 @@ import sys
 from pathlib import Path
 
 import gripscale as gs
-from gripscale.charts import (
-    save_figure,
-    shift_figure,
-    superposition_figure,
-    superposition_tests_figure,
-)
+from gripscale.charts import save_figure
+from gripscale.questions import shift_figure, superposition_figure, superposition_tests_figure
 from gripscale.rubber import fit_arrhenius, fit_wlf, read_shift_table, superpose_report
 
 DATA = Path(__file__).parent / "data" / "rubber" / "multi_temperature_polymer"

@@ -9,7 +9,8 @@ import sys
 from pathlib import Path
 
 import gripscale as gs
-from gripscale.charts import correlation_figure, profile_figure, save_figure
+from gripscale.charts import save_figure
+from gripscale.questions import correlation_figure, profile_figure
 
 ROAD = Path(__file__).parent / "data" / "road" / "20211011_aylesbury_dec_station_0.dat"
 PLATES = (0.12, 1.78)  # [m], the road lies between the steel plates of the instrument

@@ -12,7 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.charts import block_figure, save_figure
+from gripscale.charts import save_figure
+from gripscale.questions import block_figure
 from gripscale.theory import solve_half_plane
 from gripscale.wave.result import waves_to_dataset
 

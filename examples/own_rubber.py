@@ -13,7 +13,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.charts import master_curve_figure, save_figure
+from gripscale.charts import save_figure
+from gripscale.questions import master_curve_figure
 from gripscale.rubber import MooneyRivlin, NeoHookean, Yeoh, fit_prony_report, uniaxial_stress
 
 DATA = Path(__file__).parent / "data" / "rubber" / "measured_dma.txt"

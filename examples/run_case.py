@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from gripscale.case import run_case
+from gripscale.case_file import run_case
 
 case = sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent / "road_and_tread" / "case.toml"
 results = run_case(case, output=sys.argv[2] if len(sys.argv) > 2 else "results/run_case")

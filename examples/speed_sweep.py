@@ -1,7 +1,7 @@
 """Contact area and friction over the speed: each speed starts from the solution before it.
 
 Run as `python examples/speed_sweep.py [FOLDER [COLUMNS]]`. For whole stacks of waves, on all cores,
-with results kept on disk, see `gripscale study` and `gripscale.experiment.Study`.
+with results kept on disk, see `gripscale study` and `gripscale.questions.Study`.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ a fixed amount for each unit of friction already made, and shifts all relaxation
 a factor 10 each `per_decade` kelvin: a toy, no thermal model.
 
 A condition of the package is one such class in a file of its own; a case file that shall switch it
-on needs a key in `python/gripscale/case/rubber_tables.py`. All else stays as it is. Run as
+on needs a key in `python/gripscale/case_file/rubber_tables.py`. All else stays as it is. Run as
 `python examples/toy_condition.py [FOLDER]`.
 """
 
@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import gripscale as gs
-from gripscale.case import prepare_case
+from gripscale.case_file import prepare_case
 from gripscale.chain import Chain, Prediction, predict
-from gripscale.experiment import Study
+from gripscale.questions import Study
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"

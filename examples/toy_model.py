@@ -22,9 +22,9 @@ import xarray as xr
 from rich.console import Console
 
 import gripscale as gs
-from gripscale.experiment import Study
 from gripscale.model import Load, Model, answer
-from gripscale.report.study import study_table
+from gripscale.questions import Study
+from gripscale.questions.vary.page import study_table
 from gripscale.surface.surface import Surface, SurfacePart
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"

@@ -11,7 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.case import RubberSource, SurfaceTable, prepare_rubber, prepare_surface, validate
+from gripscale.case_file import (
+    RubberSource,
+    SurfaceTable,
+    prepare_rubber,
+    prepare_surface,
+    validate,
+)
 from gripscale.core.errors import FileError
 from gripscale.experiment import Task
 from gripscale.model import Load

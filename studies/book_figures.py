@@ -22,17 +22,17 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.analysis import case_sensitivity, effects
-from gripscale.analysis.comparison import reference
-from gripscale.case import prepare_case
-from gripscale.charts import blocks_figure, draw, effects_figure
+from gripscale.case_file import prepare_case
+from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
-from gripscale.charts.direct_contact import named_traces
 from gripscale.charts.paper import save_figure
-from gripscale.charts.sensitivity import sensitivity_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
-from gripscale.charts.view import PredictionView
 from gripscale.core.units import MEGA, MILLI
+from gripscale.questions import blocks_figure, case_sensitivity, effects, effects_figure
+from gripscale.questions.answer.charts import named_traces
+from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.compare.comparison import reference
+from gripscale.questions.sensitivity.charts import sensitivity_figure
 from gripscale.theory import Persson
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.result import waves_to_dataset

@@ -14,11 +14,11 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.analysis import compare_case
-from gripscale.analysis.comparison import reference
-from gripscale.case import prepare_case
-from gripscale.report.answer import number_and_interval
-from gripscale.report.comparison import best_line
+from gripscale.case_file import prepare_case
+from gripscale.questions import compare_case
+from gripscale.questions.answer.page import number_and_interval
+from gripscale.questions.compare.comparison import reference
+from gripscale.questions.compare.page import best_line
 
 ROOT = Path(__file__).resolve().parents[1]
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"

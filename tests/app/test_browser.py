@@ -19,7 +19,7 @@ import pytest
 from gripscale.app.case import MAX_UPLOAD
 from gripscale.app.commands import COMMANDS
 from gripscale.app.run_tabs import POLL
-from gripscale.case import EXAMPLES
+from gripscale.case_file import EXAMPLES
 from gripscale.surface import read_profile
 from tests.browsing import BETWEEN, CURVES, GREY, PATIENCE, Visit
 

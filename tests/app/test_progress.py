@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.app.runs import Progress
-from gripscale.case.events import (
+from gripscale.case_file.events import (
     DirectContactSolved,
     EffectsSolved,
     Event,

@@ -9,13 +9,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gripscale.analysis.comparison import save_reference
 from gripscale.app.elements import Cards, Folded, html, notice_elements
 from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
-from gripscale.case import read_case, run_case
+from gripscale.case_file import read_case, run_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.rubber import rubber_charts
+from gripscale.questions.compare.comparison import save_reference
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.report import source
 from gripscale.report.elements import Element, Notice, Text
 from gripscale.report.pages import page_of

@@ -25,8 +25,8 @@ from gripscale.app.case import (
 from gripscale.app.case_panel import problem_pane
 from gripscale.app.forms import field, table_form
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
-from gripscale.case import EXAMPLES
-from gripscale.case.keys import sections
+from gripscale.case_file import EXAMPLES
+from gripscale.case_file.keys import sections
 from gripscale.core.errors import InputError
 
 from .conftest import CASE

@@ -10,12 +10,16 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.analysis.cut_off_curve import AREA, FRICTION, SLOPE_IN_CONTACT
-from gripscale.charts import contact_figure
-from gripscale.charts.cut_off import cut_off_sheet
 from gripscale.charts.draw import on_paper
-from gripscale.charts.uncertainty import distribution_figure, profiles_figure, residual_figure
-from gripscale.charts.view import ANSWER, JUDGE
+from gripscale.questions import contact_figure
+from gripscale.questions.chain.view import ANSWER, JUDGE
+from gripscale.questions.cut_off.charts import cut_off_sheet
+from gripscale.questions.cut_off.cut_off_curve import AREA, FRICTION, SLOPE_IN_CONTACT
+from gripscale.questions.uncertainty.charts import (
+    distribution_figure,
+    profiles_figure,
+    residual_figure,
+)
 
 BEST = {"friction": 0.461, "contact_fraction": 0.0047}
 

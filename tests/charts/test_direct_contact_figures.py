@@ -12,9 +12,14 @@ from matplotlib.image import imread
 
 from gripscale.charts import draw
 from gripscale.charts.chart import CrossLine, Panel, Series, Sheet
-from gripscale.charts.direct_contact import height_figure, named_traces, profile_names, trace_sheet
 from gripscale.charts.paper import png
 from gripscale.half_space.location import with_traces
+from gripscale.questions.answer.charts import (
+    height_figure,
+    named_traces,
+    profile_names,
+    trace_sheet,
+)
 
 SUMMIT, HALF = 60e-3, 50e-6
 """Middle of the contact and half its length [m]."""

@@ -14,25 +14,25 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
-from gripscale.case.record import envelope, sine_curves
-from gripscale.charts import (
+from gripscale.charts import save_figure
+from gripscale.charts.chart import Axis, Outline, Panel, Series, Sheet
+from gripscale.charts.paper import draw_sheet, png
+from gripscale.charts.style import short_number, stretches
+from gripscale.core.errors import FileError, InputError
+from gripscale.questions import (
     block_figure,
     blocks_figure,
     contact_figure,
     correlation_figure,
-    ladder,
     master_curve_figure,
     profile_figure,
-    save_figure,
 )
-from gripscale.charts.chart import Axis, Outline, Panel, Series, Sheet
-from gripscale.charts.comparison import comparison_figure
-from gripscale.charts.ladder import Row
-from gripscale.charts.paper import draw_sheet, png
-from gripscale.charts.style import short_number, stretches
-from gripscale.charts.surface import kept_points
-from gripscale.charts.view import JUDGE
-from gripscale.core.errors import FileError, InputError
+from gripscale.questions.chain.view import JUDGE
+from gripscale.questions.compare import charts_of_ladder as ladder
+from gripscale.questions.compare.charts import comparison_figure
+from gripscale.questions.compare.charts_of_ladder import Row
+from gripscale.questions.inputs.charts_of_surface import kept_points
+from gripscale.questions.inputs.record import envelope, sine_curves
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import Profile, SelfAffineFit, SineStack, clean, height_difference
 

@@ -8,11 +8,11 @@ import xarray as xr
 from matplotlib.patches import Rectangle
 
 import gripscale as gs
-from gripscale.charts import direct_heat_figure, heat_figure
 from gripscale.conditions import Conditions, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.io.table import as_text
-from gripscale.report.waves import heat_table
+from gripscale.questions import direct_heat_figure, heat_figure
+from gripscale.questions.chain.page import heat_table
 from gripscale.surface import HeightMap
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_VALUES as LOAD

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.charts import friction_master_figure, map_figure
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.charts.write import draw_study
-from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT, with_master_curve
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
+from gripscale.questions import friction_master_figure, map_figure
+from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, with_master_curve
 from gripscale.report import write_report
 from gripscale.rubber import WLF, Rubber
 from tests.samples import DOCS

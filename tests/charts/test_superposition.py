@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.charts import shift_figure, superposition_figure, superposition_tests_figure
 from gripscale.core.errors import InputError
+from gripscale.questions import shift_figure, superposition_figure, superposition_tests_figure
 from gripscale.rubber import (
     WLF,
     MasterCurve,

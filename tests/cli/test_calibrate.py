@@ -11,16 +11,16 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.analysis import calibrate_case
-from gripscale.analysis.calibration_text import parse_fixed
-from gripscale.case import prepare_conditions, read_case
-from gripscale.charts.uncertainty import fitted_figure, profiles_figure, residual_figure
+from gripscale.case_file import prepare_conditions, read_case
 from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
-from gripscale.experiment.inputs import default_model
 from gripscale.io import netcdf
-from gripscale.report.calibration import calibration_lines
+from gripscale.questions import calibrate_case
+from gripscale.questions.calibration.calibration_text import parse_fixed
+from gripscale.questions.calibration.page import calibration_lines
+from gripscale.questions.uncertainty.charts import fitted_figure, profiles_figure, residual_figure
+from gripscale.questions.vary.inputs import default_model
 from tests.report.reading import Page
 from tests.samples import EXAMPLES, Shell
 

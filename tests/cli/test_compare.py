@@ -15,20 +15,20 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale.analysis import compare_case, compare_over, solve_reference
-from gripscale.analysis.comparison import FILE, VARIED, reference_totals
-from gripscale.analysis.samples import curve_at
-from gripscale.case import prepare_case, read_case
-from gripscale.charts.comparison import comparison_axis_figure, comparison_figure
+from gripscale.case_file import prepare_case, read_case
 from gripscale.charts.figure_folder import FigureFolder
-from gripscale.charts.ladder import rows_of
-from gripscale.charts.view import PredictionView
 from gripscale.charts.write import draw_comparison
 from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
-from gripscale.report.comparison import comparison_table, judgement, remarks
+from gripscale.questions import compare_case, compare_over, solve_reference
+from gripscale.questions.answer.samples import curve_at
+from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.compare.charts import comparison_axis_figure, comparison_figure
+from gripscale.questions.compare.charts_of_ladder import rows_of
+from gripscale.questions.compare.comparison import FILE, VARIED, reference_totals
+from gripscale.questions.compare.page import comparison_table, judgement, remarks
 from gripscale.report.pages import page_of
 from gripscale.report.source import Compared
 from tests.samples import Shell

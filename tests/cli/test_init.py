@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import gripscale
-from gripscale.case import EXAMPLES, prepare_case, read_case, write_example
+from gripscale.case_file import EXAMPLES, prepare_case, read_case, write_example
 from gripscale.cli.inputs import Choice
 from gripscale.core.errors import FileError, InputError
 from tests.samples import ROOT, Shell

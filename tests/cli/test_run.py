@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-from gripscale.case.folder import AT_TIMES, NOTE, RESULTS
+from gripscale.case_file.folder import AT_TIMES, NOTE, RESULTS
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.cli import app
 from gripscale.cli.terminal import time_left
 from gripscale.io import netcdf
 from gripscale.io.text_table import read_sheets
-from gripscale.report.answer import no_answer
+from gripscale.questions.answer.page import no_answer
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
 from tests.samples import Shell
@@ -161,7 +161,7 @@ def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
     save_every: float,
     on_disk: list[int],
 ) -> None:
-    monkeypatch.setattr("gripscale.case.run.SAVE_EVERY", save_every)
+    monkeypatch.setattr("gripscale.case_file.run.SAVE_EVERY", save_every)
     case = changed("static = true", "static = false")
     seen: list[int] = []
 
@@ -271,15 +271,15 @@ def test_ctrl_c_says_that_results_are_kept_only_where_there_are_some(
     def stop(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("gripscale.case.prepare_surface", stop)
-    monkeypatch.setattr("gripscale.case.prepare_case", stop)
+    monkeypatch.setattr("gripscale.case_file.prepare_surface", stop)
+    monkeypatch.setattr("gripscale.case_file.prepare_case", stop)
     for command in (["fit-surface", case.with_name("road.txt")], ["run", case]):
         stopped = shell(*command)
         assert stopped.exit_code == 130
         assert stopped.stderr.split() == ["error:", "stopped;", "nothing", "was", "finished"]
     monkeypatch.undo()
     assert shell("run", case).exit_code == 0
-    monkeypatch.setattr("gripscale.case.prepare_case", stop)
+    monkeypatch.setattr("gripscale.case_file.prepare_case", stop)
     kept = shell("run", case, "--fresh")
     assert f"finished results are kept in {case.parent / 'results'}" in kept.stderr
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.case import write_example
+from gripscale.case_file import write_example
 
 EXTRAS = ("bokeh", "jinja2", "panel", "openpyxl", "dask", "distributed", "SurfaceTopography")
 WITHOUT = f"import sys\nsys.modules |= dict.fromkeys({EXTRAS})\n"

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.charts.view import PredictionView
 from gripscale.conditions import Conditions, ConstantStress, GaussianStress, ThermalProperties
+from gripscale.questions.chain.view import PredictionView
 from gripscale.report.notices import conditions_notices
 from gripscale.rubber.softening import Kraus
 from tests.samples import SHIFTED_RUBBER as RUBBER

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 import gripscale as gs
-from gripscale import analysis as measured
 from gripscale import conditions as interface
 from gripscale import half_space as rough
+from gripscale import questions as measured
 from gripscale import rubber, surface, theory, wave
-from gripscale.analysis import calibrate
 from gripscale.conditions import Conditions
 from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
+from gripscale.questions import calibrate
 from gripscale.rubber import softening
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")

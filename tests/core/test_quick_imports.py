@@ -26,8 +26,8 @@ print(*sorted({name.partition(".")[0] for name in sys.modules}))
     [
         ("gripscale.surface", {"numpy"}),
         ("gripscale.rubber", {"numpy"}),
-        ("gripscale.case", set()),
-        ("gripscale.case.read", {"numpy", "pydantic"}),
+        ("gripscale.case_file", set()),
+        ("gripscale.case_file.read", {"numpy", "pydantic"}),
     ],
 )
 def test_a_room_loads_only_what_it_must(room: str, light: set[str]) -> None:

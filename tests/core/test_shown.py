@@ -13,8 +13,8 @@ from gripscale.core.units import (
     display_unit_of,
     stated_units,
 )
-from gripscale.experiment.axis import axes_of
-from gripscale.experiment.study import coordinates
+from gripscale.questions.vary.axis import axes_of
+from gripscale.questions.vary.study import coordinates
 
 CASE = """
 [surface]

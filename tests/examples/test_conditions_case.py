@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.analysis import effects
-from gripscale.case import prepare_case
+from gripscale.case_file import prepare_case
 from gripscale.cli import app
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
+from gripscale.questions import effects
 from tests.samples import EXAMPLES
 
 EXAMPLE = EXAMPLES / "conditions" / "case.toml"

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.experiment.axis import axes_of, parse_vary
+from gripscale.questions.vary.axis import axes_of, parse_vary
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,8 @@ import pytest
 import xarray as xr
 
 from gripscale.core.errors import InputError
-from gripscale.experiment import Progress, Study, solve
+from gripscale.experiment import Progress, solve
+from gripscale.questions import Study
 
 distributed: Any = pytest.importorskip("distributed")
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.experiment.speed_and_temperature import PRECISE, ROUGH, collapse
+from gripscale.questions.vary.speed_and_temperature import PRECISE, ROUGH, collapse
 from gripscale.rubber import Rubber
 
 RUBBER = Rubber(5e6, np.geomspace(3e6, 3e8, 10), np.geomspace(1e-1, 1e-9, 10))

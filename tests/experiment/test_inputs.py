@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case import read_case
-from gripscale.case.prepare import case_surface
+from gripscale.case_file import read_case
+from gripscale.case_file.prepare import case_surface
 from gripscale.core.errors import FileError, InputError
-from gripscale.experiment.inputs import rubber_of, surface_of
+from gripscale.questions.vary.inputs import rubber_of, surface_of
 from tests.samples import EXAMPLES, write_road
 
 EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"

@@ -13,10 +13,10 @@ import xarray as xr
 
 from gripscale import Rubber
 from gripscale.core.errors import ConvergenceError
-from gripscale.experiment import Study
 from gripscale.experiment.solve import PROCESSES, solve_all
 from gripscale.experiment.task import Store, Task
 from gripscale.model import Load, Model
+from gripscale.questions import Study
 from gripscale.surface import Surface
 from tests.samples import THREE_SINES
 

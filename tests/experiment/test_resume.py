@@ -14,7 +14,8 @@ import pytest
 import xarray as xr
 
 from gripscale.core.parallel import Stopped
-from gripscale.experiment import Progress, Store, Study
+from gripscale.experiment import Progress, Store
+from gripscale.questions import Study
 
 VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 PROGRAM = """

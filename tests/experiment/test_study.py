@@ -14,16 +14,17 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case import read_case
+from gripscale.case_file import read_case
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import FACES, fingerprint
 from gripscale.core.units import display_unit_of
-from gripscale.experiment import Progress, Study, Task, task
-from gripscale.experiment import study as study_module
+from gripscale.experiment import Progress, Task, task
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Load
+from gripscale.questions import Study
+from gripscale.questions.vary import study as study_module
 from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status

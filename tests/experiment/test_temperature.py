@@ -11,14 +11,13 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.analysis import compare_case
 from gripscale.chain import Chain
 from gripscale.conditions import Conditions, ConstantStress
 from gripscale.core.errors import InputError
-from gripscale.experiment import Study
 from gripscale.half_space.model import DirectContact
 from gripscale.io.table import as_text
-from gripscale.report.study import collapse_sentences, shift_sentence, study_table
+from gripscale.questions import Study, compare_case
+from gripscale.questions.vary.page import collapse_sentences, shift_sentence, study_table
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, Persson

@@ -18,9 +18,9 @@ from typing import Any
 import typer
 
 import gripscale
-from gripscale.analysis.ladder import LADDER
-from gripscale.case.keys import sections
+from gripscale.case_file.keys import sections
 from gripscale.cli import app
+from gripscale.questions.compare.ladder import LADDER
 from gripscale.wave import Status
 
 from .experiment_numbers import datasets, result_files

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.experiment import Study
+from gripscale.questions import Study
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "examples" / "data"

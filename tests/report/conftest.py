@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis import Factor, LogNormalValue, compare_case
-from gripscale.case import prepare_case, run_case
+from gripscale.case_file import prepare_case, run_case
 from gripscale.experiment import MeasuredFriction
-from gripscale.experiment.axis import axes_of
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
+from gripscale.questions import Factor, LogNormalValue, compare_case
+from gripscale.questions.vary.axis import axes_of
 from tests.samples import COARSE_BLOCK, case_text, three_waves, write_maxwell, write_road
 
 CASE = '# A small case <b>with</b> "marks" & signs\n' + case_text(

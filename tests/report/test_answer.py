@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis.best_estimate import IsotropicSurface
-from gripscale.report.answer import (
+from gripscale.questions.answer.best_estimate import IsotropicSurface
+from gripscale.questions.answer.page import (
     answer_cards,
     answer_lines,
     answer_notices,
@@ -18,9 +18,9 @@ from gripscale.report.answer import (
     no_answer,
     no_answer_notices,
 )
+from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import Doubt, Notice, Page, ranked
 from gripscale.report.notices import case_notices, warning_lines
-from gripscale.report.record import InputRecord
 
 
 def answered(**changed: float) -> xr.Dataset:

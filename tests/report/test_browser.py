@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from gripscale.case import run_case
+from gripscale.case_file import run_case
 from gripscale.report import write_report
 from tests.browsing import CURVES, Visit
 

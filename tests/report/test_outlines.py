@@ -12,8 +12,8 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.charts.direct_contact import trace_charts
 from gripscale.half_space import contact_trace
+from gripscale.questions.answer.charts import trace_charts
 from gripscale.report.build import render
 from gripscale.report.elements import Page, Section
 from tests.browsing import Visit

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.case import prepare_case
-from gripscale.case.record import sine_curves
+from gripscale.case_file import prepare_case
+from gripscale.questions.inputs.record import sine_curves
 from gripscale.rubber.material import fast_end
 
 from .conftest import read

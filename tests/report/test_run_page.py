@@ -16,13 +16,13 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.wave_and_chain import contact_charts
 from gripscale.core.errors import FileError, InputError
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, Load, answer
+from gripscale.questions.chain.charts import contact_charts
+from gripscale.questions.inputs.page import rubber_facts
 from gripscale.report import write_report
-from gripscale.report.inputs import rubber_facts
 from gripscale.report.notices import cards, notices
 from gripscale.report.pages import run_page
 from gripscale.report.source import Run, read_result

@@ -8,15 +8,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis import with_best_estimate
-from gripscale.analysis.comparison import reference
-from gripscale.case import prepare_case
-from gripscale.charts.study import totals_figure
-from gripscale.experiment import Study
+from gripscale.case_file import prepare_case
 from gripscale.io.table import significant
+from gripscale.questions import Study, with_best_estimate
+from gripscale.questions.compare.comparison import reference
+from gripscale.questions.vary.charts import totals_figure
+from gripscale.questions.vary.page import study_table
+from gripscale.questions.vary.page_of_answer import course, study_cards, study_lines
 from gripscale.report import write_report
-from gripscale.report.study import study_table
-from gripscale.report.study_answer import course, study_cards, study_lines
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 

@@ -11,13 +11,13 @@ import pytest
 from bokeh.models import ColumnDataSource
 
 from gripscale.charts.bokeh_parts import model
-from gripscale.charts.study import study_charts
-from gripscale.experiment import Study
 from gripscale.io import netcdf
+from gripscale.questions import Study
+from gripscale.questions.inputs.page import input_sections
+from gripscale.questions.vary.charts import study_charts
 from gripscale.report import source as results
 from gripscale.report import write_report
 from gripscale.report.elements import Facts
-from gripscale.report.inputs import input_sections
 from gripscale.wave.problem import Status
 from tests.samples import EXAMPLES
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis.intervals import interval_ends
 from gripscale.io.text_table import read_sheets
+from gripscale.questions.answer.intervals import interval_ends
 from gripscale.report.summary import FILE, summary_table, write_summary
 
 UNIT = {"units": "1"}

@@ -11,10 +11,10 @@ import pytest
 import xarray as xr
 
 from gripscale.chain import Prediction
-from gripscale.charts.view import PredictionView
 from gripscale.io.table import as_text, significant
 from gripscale.model import TOTALS, Load, answer
-from gripscale.report.waves import prediction_table, totals
+from gripscale.questions.chain.page import prediction_table, totals
+from gripscale.questions.chain.view import PredictionView
 from gripscale.rubber import Rubber
 from gripscale.wave import WaveResult
 from gripscale.wave.problem import Status

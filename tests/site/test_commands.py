@@ -12,7 +12,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from gripscale.case import write_example
+from gripscale.case_file import write_example
 from gripscale.cli import app
 from tests.samples import DOCS, EXAMPLES, ROOT
 

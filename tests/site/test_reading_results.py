@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from gripscale.cli import app
 from gripscale.io import netcdf
-from gripscale.report import waves
+from gripscale.questions.chain import page as waves
 from gripscale.wave import Status
 from tests.samples import ROOT, case_text, write_short_road
 

@@ -14,7 +14,7 @@ import yaml
 
 import gripscale
 from gripscale import chain
-from gripscale.case.keys import sections
+from gripscale.case_file.keys import sections
 from tests.samples import ROOT
 
 LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}

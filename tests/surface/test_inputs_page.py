@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from gripscale.case import SurfaceTable
+from gripscale.case_file import SurfaceTable
 from tests.samples import ROOT
 
 PAGE = (ROOT / "docs" / "inputs.md").read_text(encoding="utf-8")

@@ -30,13 +30,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.analysis import Factor, LogNormalValue
-from gripscale.analysis.best_estimate import ESTIMATED, best_estimate
-from gripscale.analysis.samples import sample_numbers
 from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact, RoughContact
 from gripscale.half_space.line_to_map import upper_height
 from gripscale.model import Load
+from gripscale.questions import Factor, LogNormalValue
+from gripscale.questions.answer.best_estimate import ESTIMATED, best_estimate
+from gripscale.questions.answer.samples import sample_numbers
 from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface
 from tests.samples import MEASURED_DMA, ROOT
 

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case import read_case
+from gripscale.case_file import read_case
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io import netcdf
 from gripscale.rubber import read_uniaxial_test

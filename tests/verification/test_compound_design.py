@@ -11,11 +11,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.analysis.compound_design import TOLERANCE
-from gripscale.analysis.compound_limits import changed
-from gripscale.analysis.compound_search import best_change, design_problem, nearest_design
-from gripscale.case import read_case
-from tests.analysis.design.test_search import mixtures
+from gripscale.case_file import read_case
+from gripscale.questions.design.compound_design import TOLERANCE
+from gripscale.questions.design.compound_limits import changed
+from gripscale.questions.design.compound_search import best_change, design_problem, nearest_design
+from tests.questions.design.test_search import mixtures
 from tests.samples import EXAMPLES
 
 TRIED, SOLVED = 2000, 100

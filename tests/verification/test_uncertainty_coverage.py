@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.analysis import Uncertainty
-from gripscale.analysis.propagation import quantiles
-from gripscale.analysis.sampled_inputs import Inputs, Measurement
-from gripscale.analysis.sampling import draws
 from gripscale.chain.chain import Chain
 from gripscale.model import Load
+from gripscale.questions import Uncertainty
+from gripscale.questions.uncertainty.propagation import quantiles
+from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
+from gripscale.questions.uncertainty.sampling import draws
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import (
     HeightDifference,

@@ -1,7 +1,7 @@
 """A page in the browser: from a road and a rubber to contact and friction, as a case file.
 
 Needs the extra `gripscale[app]` (Panel on Bokeh, TOML Kit). Whatever the page does is in the case
-file it shows; it computes nothing itself: inputs are prepared by `gripscale.case`, a run is
+file it shows; it computes nothing itself: inputs are prepared by `gripscale.case_file`, a run is
 `gripscale run` in a process of its own, figures are those of the report.
 """
 

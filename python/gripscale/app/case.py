@@ -21,10 +21,10 @@ import param
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from gripscale.case import CaseFile, folder, read_case
-from gripscale.case.examples import write_example
-from gripscale.case.folder import CASE, INPUTS, renamed
-from gripscale.case.new import case_text, propose
+from gripscale.case_file import CaseFile, folder, read_case
+from gripscale.case_file.examples import write_example
+from gripscale.case_file.folder import CASE, INPUTS, renamed
+from gripscale.case_file.new import case_text, propose
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.text_table import require_numbers
 
@@ -285,7 +285,7 @@ class CaseState(param.Parameterized):
         """Return the text of an uploaded case, with the files uploaded with it under their names.
 
         Files without a case make a new one. Raises `InputError` if several of `uploads` are cases
-        or one is no text, and as `gripscale.case.new.propose`.
+        or one is no text, and as `gripscale.case_file.new.propose`.
         """
         cases = [name for name in uploads if name.lower().endswith(".toml")]
         if not cases:

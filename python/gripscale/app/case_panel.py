@@ -9,7 +9,7 @@ import panel as pn
 from gripscale.app.case import CaseState
 from gripscale.app.elements import CUT_TEXT, column, html, in_worker, work_button
 from gripscale.app.uploads import file_upload
-from gripscale.case.examples import EXAMPLES
+from gripscale.case_file.examples import EXAMPLES
 from gripscale.report.elements import Notice
 
 

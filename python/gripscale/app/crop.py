@@ -10,11 +10,11 @@ from bokeh.models import BoxSelectTool
 
 from gripscale.app.case import CaseState
 from gripscale.app.elements import chart_pane, column, in_worker
-from gripscale.case.prepare import raw_surface
+from gripscale.case_file.prepare import raw_surface
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.surface import raw_chart
 from gripscale.core.errors import GripscaleError
+from gripscale.questions.inputs.charts_of_surface import raw_chart
 
 READ_BY = (
     *("files", "map", "x_unit", "z_unit", "z_axis", "direction", "reader", "channel", "sheet"),

@@ -13,9 +13,9 @@ import panel as pn
 
 from gripscale.app.case import CaseState, field_text, field_value
 from gripscale.app.elements import CUT_TEXT, PageElements, column, in_worker, panes, work_button
-from gripscale.case import CaseFile
-from gripscale.case.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
-from gripscale.case.schema import table_of
+from gripscale.case_file import CaseFile
+from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
+from gripscale.case_file.schema import table_of
 from gripscale.core.units import UNITS, number_and_unit
 
 BY_DEFAULT = "by default"
@@ -149,7 +149,7 @@ def field(state: CaseState, section: Section, key: Key) -> Any:
 
 
 QUANTITY = re.compile(r'(a list of 2, each )?an? ([\w ]+) such as "[-\d.]+ ([^"]+)"')
-"""How `gripscale.case.keys` says that a key takes a quantity, or two, with an example."""
+"""How `gripscale.case_file.keys` says that a key takes a quantity, or two, with an example."""
 
 
 def quantity_field(

@@ -21,7 +21,7 @@ from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.app.superposition import Redraw, superposition_elements
 from gripscale.app.uploads import NewText, file_upload, with_upload
-from gripscale.case import (
+from gripscale.case_file import (
     CaseFile,
     CaseResults,
     ConditionsTable,
@@ -29,23 +29,23 @@ from gripscale.case import (
     RubberSource,
     SurfaceTable,
     prepare_case,
-    record,
     validate,
 )
-from gripscale.case.proposals import Proposal, rubber_proposal, surface_proposal
-from gripscale.case.rubber_tables import NAMED_RUBBERS
-from gripscale.charts.rubber import rubber_charts
-from gripscale.charts.surface import correlation_charts, profile_charts
+from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
+from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.model import doubt_sentences
-from gripscale.report.elements import Notice, Text
-from gripscale.report.inputs import (
+from gripscale.questions.inputs import record
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts
+from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
+from gripscale.questions.inputs.page import (
     cleaning_tables,
     rubber_facts,
     shift_parts,
     sines_line,
     surface_facts,
 )
-from gripscale.report.record import InputRecord
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.report.elements import Notice, Text
 
 ROAD_FIELDS = (
     "scales",

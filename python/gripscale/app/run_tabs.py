@@ -19,7 +19,6 @@ import numpy as np
 import panel as pn
 import xarray as xr
 
-from gripscale.analysis.intervals import interval_ends
 from gripscale.app.case import CaseState, field_text, tables_of
 from gripscale.app.case_panel import problem_pane
 from gripscale.app.commands import COMMANDS, Command, Option
@@ -37,13 +36,14 @@ from gripscale.app.elements import (
 )
 from gripscale.app.runs import Run, Runs
 from gripscale.app.uploads import file_upload
-from gripscale.charts.view import SYMBOLS, PredictionView
-from gripscale.charts.wave_and_chain import contact_charts
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
+from gripscale.questions.answer.intervals import interval_ends
+from gripscale.questions.answer.page import has_answer, no_answer
+from gripscale.questions.chain.charts import contact_charts
+from gripscale.questions.chain.view import SYMBOLS, PredictionView
 from gripscale.report import source
-from gripscale.report.answer import has_answer, no_answer
 from gripscale.report.elements import Element, Text
 from gripscale.report.head import with_answer
 from gripscale.report.pages import page_of

@@ -1,6 +1,7 @@
 """Runs of one visit: each is a `gripscale` command in its own process, which writes into a folder.
 
-The process of `gripscale run` writes its events (`gripscale.case.events`) to one file beside the
+The process of `gripscale run` writes its events (`gripscale.case_file.events`) to one file beside
+the
 results, each process its text to another. Stopping a run ends the process and all it started; what
 it finished stays, and a run of the same case continues from there.
 """
@@ -23,8 +24,8 @@ import param
 
 from gripscale.app.case import CaseState
 from gripscale.app.commands import COMMANDS, RUN, Command
-from gripscale.case import CaseFile, folder
-from gripscale.case.events import (
+from gripscale.case_file import CaseFile, folder
+from gripscale.case_file.events import (
     DirectContactSolved,
     EffectsSolved,
     Event,

@@ -20,8 +20,8 @@ from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
 from gripscale.app.uploads import prepare_areas
-from gripscale.case import folder, read_case
-from gripscale.case.examples import EXAMPLES
+from gripscale.case_file import folder, read_case
+from gripscale.case_file.examples import EXAMPLES
 from gripscale.core.errors import InputError
 
 TITLE = "gripscale"

@@ -15,11 +15,11 @@ import panel as pn
 
 from gripscale.app.case import CaseState
 from gripscale.app.elements import AppElement, column, html, work_button
-from gripscale.case.prepare import PreparedRubber
+from gripscale.case_file.prepare import PreparedRubber
 from gripscale.charts.draw import image
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.rubber import superposition_figure
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.questions.inputs.charts_of_rubber import superposition_figure
 from gripscale.report.elements import Text
 from gripscale.rubber import ShiftTable, write_shift_table
 from gripscale.rubber.superposition import temperatures_in

@@ -325,8 +325,8 @@ class Prediction:
         return model.with_area_term(answer, self.adhesive_friction)
 
     def plot(self) -> Figure:
-        """Draw area and friction down to each wave; see `gripscale.charts.contact_figure`."""
-        return gripscale.charts.contact_figure({"chain": self.to_dataset()})
+        """Draw area and friction down to each wave; see `gripscale.questions.contact_figure`."""
+        return gripscale.questions.contact_figure({"chain": self.to_dataset()})
 
     def report(self, output: str | Path) -> Path:
         """Write a page of this prediction at `output`; see `gripscale.report.write_report`."""

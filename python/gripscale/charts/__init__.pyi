@@ -1,17 +1,1 @@
-from .blocks import block_figure as block_figure
-from .blocks import blocks_figure as blocks_figure
-from .direct_contact import rough_contact_figure as rough_contact_figure
 from .paper import save_figure as save_figure
-from .rubber import finite_strain_figure as finite_strain_figure
-from .rubber import master_curve_figure as master_curve_figure
-from .rubber import shift_figure as shift_figure
-from .rubber import superposition_figure as superposition_figure
-from .rubber import superposition_tests_figure as superposition_tests_figure
-from .study import friction_master_figure as friction_master_figure
-from .study import map_figure as map_figure
-from .surface import correlation_figure as correlation_figure
-from .surface import profile_figure as profile_figure
-from .wave_and_chain import contact_figure as contact_figure
-from .wave_and_chain import direct_heat_figure as direct_heat_figure
-from .wave_and_chain import effects_figure as effects_figure
-from .wave_and_chain import heat_figure as heat_figure

@@ -5,7 +5,6 @@ import sys
 from collections.abc import Iterator
 from typing import Any
 
-from gripscale.charts import blocks_on_paper, paper  # noqa: F401  # before the first figure is here
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.core.errors import GripscaleError
 

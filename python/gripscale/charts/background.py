@@ -7,18 +7,19 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from gripscale.case.events import Event, OnEvent, PredictionFinished, WaveSolved
+from gripscale.case_file.events import Event, OnEvent, PredictionFinished, WaveSolved
 from gripscale.charts.figure_folder import FigureProcess, Figures
 
 if TYPE_CHECKING:
-    from gripscale.case.results import CaseResults
+    from gripscale.case_file.results import CaseResults
 
 
 @contextmanager
 def background_figures(results: CaseResults, figures: Figures) -> Iterator[OnEvent]:
     """Draw the figures of a case while it is being solved.
 
-    Gives a function to be called with the events of `gripscale.case.run_case`: with the first wave
+    Gives a function to be called with the events of `gripscale.case_file.run_case`: with the
+    first wave
     the folder of results is ready and the direct contact solved, with the end of a prediction its
     blocks are complete. On leaving, what went wrong is raised.
     """

@@ -19,7 +19,7 @@ def on_paper(drawing: Drawing) -> Figure:
         from gripscale.charts.paper import draw_sheet
 
         return draw_sheet(drawing)
-    from gripscale.charts.blocks_on_paper import draw_blocks
+    from gripscale.questions.chain.charts_on_paper import draw_blocks
 
     return draw_blocks(drawing)
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.experiment.axis import LABELS
-from gripscale.experiment.speed_and_temperature import BEYOND_SHIFT
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, WHY_NO_EXPONENT
+from gripscale.questions.vary.axis import LABELS
+from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,22 +9,26 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from gripscale.case.record import excited
-from gripscale.charts import comparison, rubber, study, surface, wave_and_chain
-from gripscale.charts.blocks import all_blocks
-from gripscale.charts.cut_off import cut_off_sheet
-from gripscale.charts.direct_contact import named_traces, trace_sheet
 from gripscale.charts.figure_folder import FigureFolder, Figures
-from gripscale.charts.ladder import on_the_surface, varied, worth_drawing
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.view import JUDGE, PredictionView
-from gripscale.experiment.axis import dimensions, numeric
-from gripscale.experiment.speed_and_temperature import REDUCED_SPEED
+from gripscale.questions.answer.charts import named_traces, trace_sheet
+from gripscale.questions.chain import charts as wave_and_chain
+from gripscale.questions.chain.charts_of_blocks import all_blocks
+from gripscale.questions.chain.view import JUDGE, PredictionView
+from gripscale.questions.compare import charts as comparison
+from gripscale.questions.compare.charts_of_ladder import on_the_surface, varied, worth_drawing
+from gripscale.questions.cut_off.charts import cut_off_sheet
+from gripscale.questions.inputs import charts_of_rubber as rubber
+from gripscale.questions.inputs import charts_of_surface as surface
+from gripscale.questions.inputs.record import excited
+from gripscale.questions.vary import charts as study
+from gripscale.questions.vary.axis import dimensions, numeric
+from gripscale.questions.vary.speed_and_temperature import REDUCED_SPEED
 from gripscale.rubber import ShiftTable
 
 if TYPE_CHECKING:
-    from gripscale.case.prepare import PreparedRubber
-    from gripscale.case.results import CaseResults
+    from gripscale.case_file.prepare import PreparedRubber
+    from gripscale.case_file.results import CaseResults
     from gripscale.surface import Surface
 
 

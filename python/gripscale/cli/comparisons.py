@@ -25,8 +25,8 @@ from gripscale.core.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.analysis import Comparison
     from gripscale.model import Model
+    from gripscale.questions import Comparison
 
 
 @command
@@ -65,17 +65,9 @@ def compare(
     cluster: Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.analysis.comparison import VARIED, at_measured, compare_case, compare_over
-    from gripscale.analysis.effects import case_effects
-    from gripscale.analysis.ladder import WINDOWS, chosen
-    from gripscale.analysis.measured_comparison import friction_of_case
-    from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case import prepare_case, read_case
-    from gripscale.charts.comparison import at_measured_figure
+    from gripscale.case_file import prepare_case, read_case
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.ladder import varied
     from gripscale.charts.write import draw_comparison, draw_effects
-    from gripscale.experiment.axis import parse_vary
     from gripscale.experiment.measured_friction import (
         FRICTION_DOUBTS,
         friction_doubts,
@@ -84,13 +76,26 @@ def compare(
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
-    from gripscale.report.answer import answer_lines, answer_notices, has_answer
-    from gripscale.report.comparison import best_line, comparison_parts, failures
+    from gripscale.questions.answer.page import answer_lines, answer_notices, has_answer
+    from gripscale.questions.calibration.measured_comparison import friction_of_case
+    from gripscale.questions.calibration.page_of_measured import residual_table
+    from gripscale.questions.compare.charts import at_measured_figure
+    from gripscale.questions.compare.charts_of_ladder import varied
+    from gripscale.questions.compare.comparison import (
+        VARIED,
+        at_measured,
+        compare_case,
+        compare_over,
+    )
+    from gripscale.questions.compare.ladder import WINDOWS, chosen
+    from gripscale.questions.compare.page import best_line, comparison_parts, failures
+    from gripscale.questions.uncertainty.page import uncertainty_lines
+    from gripscale.questions.uncertainty.propagation import input_digests, stored_uncertainty
+    from gripscale.questions.vary.axis import parse_vary
+    from gripscale.questions.vary.effects import case_effects
+    from gripscale.questions.vary.page_side_by_side import effects_table
     from gripscale.report.elements import ranked
-    from gripscale.report.measured import residual_table
     from gripscale.report.notices import friction_notices, warning_lines
-    from gripscale.report.side_by_side import effects_table
-    from gripscale.report.uncertainty import uncertainty_lines
 
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
     file = read_case(case)
@@ -235,17 +240,17 @@ def compare_surfaces(
     workers: Workers = None,
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
-    from gripscale.analysis.surface_comparison import compare_surfaces as compare
-    from gripscale.case import read_case
+    from gripscale.case_file import read_case
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.side_by_side import road_pictures
     from gripscale.charts.write import draw
-    from gripscale.report.side_by_side import (
+    from gripscale.questions.vary.charts_side_by_side import road_pictures
+    from gripscale.questions.vary.page_side_by_side import (
         failed_totals,
         ratio_lines,
         roads_sentences,
         roads_tables,
     )
+    from gripscale.questions.vary.surface_comparison import compare_surfaces as compare
 
     file = read_case(case_of(surfaces, case, "the rubber and the load"))
     console, target = terminal.open_folder(file, output, "surfaces")
@@ -299,19 +304,19 @@ def compare_rubbers(
     workers: Workers = None,
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
-    from gripscale.analysis.rubber_comparison import compare_compounds
-    from gripscale.case import read_case
+    from gripscale.case_file import read_case
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.side_by_side import compound_pictures
     from gripscale.charts.write import draw
     from gripscale.core.units import temperature_in_kelvin
-    from gripscale.report.side_by_side import (
+    from gripscale.questions.vary.charts_side_by_side import compound_pictures
+    from gripscale.questions.vary.page_side_by_side import (
         believed_table,
         compounds_sentences,
         compounds_table,
         failed_totals,
         ratio_lines,
     )
+    from gripscale.questions.vary.rubber_comparison import compare_compounds
 
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)

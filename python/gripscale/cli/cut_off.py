@@ -31,14 +31,14 @@ def cut_off(
     workers: Workers = None,
 ) -> None:
     """Contact and friction against the cut-off, down below what the profiles resolve."""
-    from gripscale.analysis.cut_off_curve import FILE, case_cut_off
-    from gripscale.case import folder, read_case
-    from gripscale.charts.cut_off import cut_off_sheet
+    from gripscale.case_file import folder, read_case
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.core.units import parse_quantity
-    from gripscale.report.cut_off import answer_lines, cut_off_parts, failures
+    from gripscale.questions.cut_off.charts import cut_off_sheet
+    from gripscale.questions.cut_off.cut_off_curve import FILE, case_cut_off
+    from gripscale.questions.cut_off.page import answer_lines, cut_off_parts, failures
+    from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.report.notices import case_notices
-    from gripscale.report.record import InputRecord
 
     file = read_case(case)
     try:

@@ -64,17 +64,22 @@ def design(
 
     Resumes where it was stopped.
     """
-    from gripscale.analysis.compound_design import RESULT, design_compound
-    from gripscale.analysis.compound_limits import CompoundLimits
-    from gripscale.analysis.compound_search import default_goal
-    from gripscale.analysis.design_text import parse_goal, parse_levels, parse_limit, write_targets
-    from gripscale.case import folder, read_case
-    from gripscale.charts.design import design_pictures
+    from gripscale.case_file import folder, read_case
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
-    from gripscale.report.design import compounds_table, design_lines, design_table
+    from gripscale.questions.design.charts import design_pictures
+    from gripscale.questions.design.compound_design import RESULT, design_compound
+    from gripscale.questions.design.compound_limits import CompoundLimits
+    from gripscale.questions.design.compound_search import default_goal
+    from gripscale.questions.design.design_text import (
+        parse_goal,
+        parse_levels,
+        parse_limit,
+        write_targets,
+    )
+    from gripscale.questions.design.page import compounds_table, design_lines, design_table
+    from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.report.notices import case_notices
-    from gripscale.report.record import InputRecord
 
     file = read_case(case)
     points = None if not limit else tuple(parse_limit(text) for text in limit)

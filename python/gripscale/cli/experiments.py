@@ -45,14 +45,14 @@ def study(
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
-    from gripscale.analysis.best_estimate import with_best_estimate
-    from gripscale.case import folder
+    from gripscale.case_file import folder
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.experiment.axis import parse_vary
-    from gripscale.experiment.study import RESULT, Study
     from gripscale.io import netcdf
-    from gripscale.report.study import failed_predictions, study_parts
-    from gripscale.report.study_answer import study_lines
+    from gripscale.questions.answer.best_estimate import with_best_estimate
+    from gripscale.questions.vary.axis import parse_vary
+    from gripscale.questions.vary.page import failed_predictions, study_parts
+    from gripscale.questions.vary.page_of_answer import study_lines
+    from gripscale.questions.vary.study import RESULT, Study
 
     pairs = [parse_vary(text) for text in vary]
     axes = dict(pairs)
@@ -160,19 +160,25 @@ def uncertainty(
 
     Options go before what the case states in its table [uncertainty].
     """
-    from gripscale.analysis.propagation import BOTH, RESULT, VARIED, propagate, stated_models
-    from gripscale.analysis.sampled_inputs import length
-    from gripscale.analysis.sampling import Uncertainty
-    from gripscale.case import folder, read_case
+    from gripscale.case_file import folder, read_case
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.uncertainty import uncertainty_pictures
     from gripscale.charts.write import draw
     from gripscale.core import checks
     from gripscale.core.parallel import worker_count
-    from gripscale.experiment.axis import parse_vary
     from gripscale.experiment.solve import PROCESSES
     from gripscale.half_space.model import DirectContact
-    from gripscale.report.uncertainty import failures, too_many_failed, uncertainty_parts
+    from gripscale.questions.uncertainty.charts import uncertainty_pictures
+    from gripscale.questions.uncertainty.page import failures, too_many_failed, uncertainty_parts
+    from gripscale.questions.uncertainty.propagation import (
+        BOTH,
+        RESULT,
+        VARIED,
+        propagate,
+        stated_models,
+    )
+    from gripscale.questions.uncertainty.sampled_inputs import length
+    from gripscale.questions.uncertainty.sampling import Uncertainty
+    from gripscale.questions.vary.axis import parse_vary
 
     models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
@@ -258,13 +264,9 @@ def calibrate(
     cluster: Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.analysis.calibration import calibrate_case, measured_of
-    from gripscale.analysis.calibration_text import notes, parse_fixed, shear_stress_table
-    from gripscale.case import prepare_case, read_case, record
+    from gripscale.case_file import prepare_case, read_case
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.uncertainty import calibration_pictures
     from gripscale.charts.write import draw
-    from gripscale.experiment.inputs import default_model
     from gripscale.experiment.measured_friction import (
         friction_doubts,
         read_measured_friction,
@@ -272,9 +274,18 @@ def calibrate(
     )
     from gripscale.io import netcdf
     from gripscale.model import INPUT_DOUBTS
-    from gripscale.report.calibration import calibration_lines, calibration_parts, failures
+    from gripscale.questions.calibration.calibration import calibrate_case, measured_of
+    from gripscale.questions.calibration.calibration_text import (
+        notes,
+        parse_fixed,
+        shear_stress_table,
+    )
+    from gripscale.questions.calibration.page import calibration_lines, calibration_parts, failures
+    from gripscale.questions.inputs import record
+    from gripscale.questions.inputs.page_record import InputRecord
+    from gripscale.questions.uncertainty.charts import calibration_pictures
+    from gripscale.questions.vary.inputs import default_model
     from gripscale.report.notices import case_notices
-    from gripscale.report.record import InputRecord
 
     values = parse_fixed(fixed or [])
     file = read_case(case)

@@ -127,7 +127,7 @@ def mesh(
 
 def _rubber_of(source: Path) -> Rubber:
     """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
-    from gripscale.case import RubberSource, prepare_rubber, read_case, validate
+    from gripscale.case_file import RubberSource, prepare_rubber, read_case, validate
     from gripscale.io.text_table import read_bytes
     from gripscale.rubber import Rubber
 

@@ -31,7 +31,7 @@ from gripscale.core.errors import about_keys
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from gripscale.case.prepare import PreparedRubber
+    from gripscale.case_file.prepare import PreparedRubber
     from gripscale.io.table import Table
     from gripscale.surface import Surface
 
@@ -62,7 +62,7 @@ def init(
     ] = Choice.road,
 ) -> None:
     """Write a commented case and example data to start from; nothing is overwritten."""
-    from gripscale.case.examples import EXAMPLES, write_example
+    from gripscale.case_file.examples import EXAMPLES, write_example
 
     written = write_example(folder, example)
     console = screen()
@@ -87,7 +87,7 @@ def keys(
     ] = None,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""
-    from gripscale.case.keys import sections
+    from gripscale.case_file.keys import sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
     from gripscale.report.notices import chapter_words
@@ -148,9 +148,14 @@ def fit_surface(
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
-    from gripscale.case import SurfaceTable, folder, prepare_surface, validate
-    from gripscale.case.proposals import open_surface
-    from gripscale.report.inputs import slopes_table, surface_lines, texture_table, waves_table
+    from gripscale.case_file import SurfaceTable, folder, prepare_surface, validate
+    from gripscale.case_file.proposals import open_surface
+    from gripscale.questions.inputs.page import (
+        slopes_table,
+        surface_lines,
+        texture_table,
+        waves_table,
+    )
     from gripscale.surface import HeightMap
 
     values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
@@ -250,8 +255,8 @@ def fit_rubber(
     output: Annotated[Path | None, option("Folder for figures and files.", metavar="DIR")] = None,
 ) -> None:
     """Fit a Prony series to a master curve, or to sweeps at several temperatures."""
-    from gripscale.case import RubberSource, folder, prepare_rubber, validate
-    from gripscale.report.inputs import band_table, prony_table, rubber_parts
+    from gripscale.case_file import RubberSource, folder, prepare_rubber, validate
+    from gripscale.questions.inputs.page import band_table, prony_table, rubber_parts
 
     values = keys_of(context, RubberSource) | {"file": file[0] if len(file) == 1 else file}
     if columns is not None:
@@ -275,7 +280,7 @@ def fit_rubber(
 
 def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
-    from gripscale.case import folder
+    from gripscale.case_file import folder
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import rubber_figures
 

@@ -64,7 +64,7 @@ def new(
     ] = None,
 ) -> None:
     """Write a commented case for measured files, and list what is doubtful about it."""
-    from gripscale.case.new import new_case
+    from gripscale.case_file.new import new_case
 
     options: dict[str, Any] = {}
     if step is not None:

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-    from gripscale.case import CaseResults
-    from gripscale.case.events import Event, OnEvent
-    from gripscale.case.read import CaseFile
+    from gripscale.case_file import CaseResults
+    from gripscale.case_file.events import Event, OnEvent
+    from gripscale.case_file.read import CaseFile
     from gripscale.charts.figure_folder import Figures
     from gripscale.core.units import DisplayUnit
     from gripscale.experiment.measured_friction import MeasuredFriction
@@ -64,9 +64,9 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
-    from gripscale.case import folder
-    from gripscale.case.finished import is_finished
-    from gripscale.case.read import read_case
+    from gripscale.case_file import folder
+    from gripscale.case_file.finished import is_finished
+    from gripscale.case_file.read import read_case
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
 
     as_json = progress == ProgressFormat.JSON
@@ -87,7 +87,7 @@ def run(
 @contextmanager
 def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     """Give what writes an event to standard output, if asked for; the last tells the exit code."""
-    from gripscale.case.events import RunFailed, RunFinished, to_json
+    from gripscale.case_file.events import RunFailed, RunFinished, to_json
 
     def emit(event: Event) -> None:
         if progress == ProgressFormat.JSON:
@@ -119,13 +119,13 @@ def _run(
     console: Console, emit: OnEvent, file: CaseFile, target: Path, figures: Figures, fresh: bool
 ) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
-    from gripscale.analysis.measured_comparison import friction_of_case
-    from gripscale.case import prepare_case
-    from gripscale.case.events import FileWritten
-    from gripscale.case.finished import case_replaced, note_finished
-    from gripscale.case.run import require_feasible
+    from gripscale.case_file import prepare_case
+    from gripscale.case_file.events import FileWritten
+    from gripscale.case_file.finished import case_replaced, note_finished
+    from gripscale.case_file.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
+    from gripscale.questions.calibration.measured_comparison import friction_of_case
     from gripscale.report.notices import explained
     from gripscale.report.summary import FILE as SUMMARY
 
@@ -176,13 +176,13 @@ def _print_answer(
     console: Console, results: CaseResults, friction: MeasuredFriction | None, target: Path
 ) -> list[str]:
     """Solve what the answer is of, print it above the inputs; return the lines of the report."""
-    from gripscale.analysis.comparison import reference
-    from gripscale.case import record
     from gripscale.core.provenance import version_of
     from gripscale.experiment.measured_friction import friction_doubts
-    from gripscale.report.answer import answer_lines
+    from gripscale.questions.answer.page import answer_lines
+    from gripscale.questions.compare.comparison import reference
+    from gripscale.questions.inputs import record
+    from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.report.notices import case_notices, warning_lines
-    from gripscale.report.record import InputRecord
 
     file = results.file
     header = f"gripscale {version_of('gripscale')}, case {file.path}"
@@ -208,12 +208,12 @@ def _solve(
     fresh: bool,
 ) -> xr.Dataset | None:
     """Solve and write the chain and, where the case asks for them, the effects of conditions."""
-    from gripscale.analysis.comparison import FILE as DIRECT
-    from gripscale.analysis.comparison import save_reference
-    from gripscale.analysis.effects import FILE as EFFECTS
-    from gripscale.analysis.effects import case_effects
-    from gripscale.case import run_case
-    from gripscale.case.events import DirectContactSolved, EffectsSolved, FileWritten
+    from gripscale.case_file import run_case
+    from gripscale.case_file.events import DirectContactSolved, EffectsSolved, FileWritten
+    from gripscale.questions.compare.comparison import FILE as DIRECT
+    from gripscale.questions.compare.comparison import save_reference
+    from gripscale.questions.vary.effects import FILE as EFFECTS
+    from gripscale.questions.vary.effects import case_effects
 
     print_event = _event_printer(console, results.display_unit("speed"))
 
@@ -248,7 +248,7 @@ def _print_older_page(console: Console, results: CaseResults, target: Path) -> N
 def _inputs(results: CaseResults) -> list[str]:
     """Return what the run starts from, line by line."""
     from gripscale.io.table import as_text
-    from gripscale.report.inputs import conditions_lines, rubber_parts, surface_lines
+    from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 
     rubber = as_text(*rubber_parts(results.rubber), width=10**6).splitlines()
     lines = [
@@ -266,8 +266,8 @@ def _inputs(results: CaseResults) -> list[str]:
 
 def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
     """Return what prints a sentence for each event that a person waits for."""
-    from gripscale.case.events import PredictionFinished, ResultsReplaced, WaveSolved
-    from gripscale.case.results import title
+    from gripscale.case_file.events import PredictionFinished, ResultsReplaced, WaveSolved
+    from gripscale.case_file.results import title
 
     def print_event(event: Event) -> None:
         match event:
@@ -305,15 +305,15 @@ def _parts(
     target: Path,
 ) -> tuple[list[str | Table], xr.Dataset | None]:
     """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
-    from gripscale.analysis.propagation import input_digests, stored_uncertainty
-    from gripscale.case.results import DYNAMIC
-    from gripscale.charts.view import PredictionView
-    from gripscale.report.comparison import judgement, slopes_table
-    from gripscale.report.cut_off import basis_lines, rules_table
-    from gripscale.report.measured import measured_lines
-    from gripscale.report.side_by_side import effects_table
-    from gripscale.report.uncertainty import uncertainty_lines
-    from gripscale.report.waves import LEGEND, heat_table, prediction_table
+    from gripscale.case_file.results import DYNAMIC
+    from gripscale.questions.calibration.page_of_measured import measured_lines
+    from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
+    from gripscale.questions.chain.view import PredictionView
+    from gripscale.questions.compare.page import judgement, slopes_table
+    from gripscale.questions.cut_off.page import basis_lines, rules_table
+    from gripscale.questions.uncertainty.page import uncertainty_lines
+    from gripscale.questions.uncertainty.propagation import input_digests, stored_uncertainty
+    from gripscale.questions.vary.page_side_by_side import effects_table
 
     views = [PredictionView(results.dataset(name), name) for name in results.predictions]
     parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]

@@ -52,15 +52,20 @@ def sensitivity(
     workers: Workers = None,
 ) -> None:
     """Tell which part of the master curve, and which input, decides the friction of a case."""
-    from gripscale.analysis.friction_sensitivity import FILE, STORAGE, VARIED, case_sensitivity
-    from gripscale.case import folder, read_case
+    from gripscale.case_file import folder, read_case
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.sensitivity import height_pictures, sensitivity_figure
     from gripscale.charts.write import draw as write_pictures
-    from gripscale.experiment.axis import parse_vary
+    from gripscale.questions.inputs.page_record import InputRecord
+    from gripscale.questions.sensitivity.charts import height_pictures, sensitivity_figure
+    from gripscale.questions.sensitivity.friction_sensitivity import (
+        FILE,
+        STORAGE,
+        VARIED,
+        case_sensitivity,
+    )
+    from gripscale.questions.sensitivity.page import answer_lines, failures, sensitivity_parts
+    from gripscale.questions.vary.axis import parse_vary
     from gripscale.report.notices import case_notices
-    from gripscale.report.record import InputRecord
-    from gripscale.report.sensitivity import answer_lines, failures, sensitivity_parts
 
     pairs = [parse_vary(text, VARIED) for text in vary or ()]
     axes = dict(pairs) or None

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
     from rich.console import Console
 
-    from gripscale.case import CaseFile
+    from gripscale.case_file import CaseFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.report.elements import Notice
@@ -130,7 +130,7 @@ def conclude(
     `closing` says what is in the folder. `page` is the result whose page is written, where the
     libraries for it are installed; `failure` is what has no result, and sets the exit code.
     """
-    from gripscale.case import folder
+    from gripscale.case_file import folder
     from gripscale.io.table import as_text
     from gripscale.report.notices import warning_lines
     from gripscale.report.summary import write_summary
@@ -315,7 +315,7 @@ def open_folder(
     file: CaseFile, output: Path | None, name: str, *opening: str
 ) -> tuple[Console, Path]:
     """Print what a command begins with and make its folder `name`, by default in the case's."""
-    from gripscale.case import folder
+    from gripscale.case_file import folder
 
     target = output or file.resolve(file.case.output.folder) / name
     folder.require_writable(target)

@@ -36,8 +36,8 @@ def version_of(name: str) -> str:
         return "unknown (not installed)"
 
 
-FACES = ("app", "charts", "cli", "report")
-"""Rooms that only show results: a change in them changes no number."""
+FACES = ("app", "charts", "cli", "page", "report")
+"""First words of the names of rooms and files that only show results: they change no number."""
 
 
 @lru_cache(maxsize=1)
@@ -58,7 +58,7 @@ def fingerprint(home: Path, kernel: Path, without: Collection[str] = ()) -> str:
     digest = hashlib.sha256(kernel.read_bytes())
     for path in sorted(home.rglob("*.py")):
         name = path.relative_to(home)
-        if name.parts[0] not in without:
+        if not any(Path(part).stem.split("_")[0] in without for part in name.parts):
             digest.update(f"{name.as_posix()} {path.stat().st_size}\n".encode())
             digest.update(path.read_bytes())
     return digest.hexdigest()

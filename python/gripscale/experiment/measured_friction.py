@@ -74,7 +74,7 @@ def _column(name: str, array: ArrayLike) -> Array:
 class MeasuredFriction(Checked, eq=False):
     """Measured friction coefficients over sliding speed, in the order they were given in.
 
-    What is computed for the points, such as `gripscale.analysis.Predicted`, has the same order.
+    What is computed for the points, such as `gripscale.questions.Predicted`, has the same order.
 
     Parameters
     ----------

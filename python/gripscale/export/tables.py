@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.case import folder as folders
+from gripscale.case_file import folder as folders
 from gripscale.core import checks
 from gripscale.io import netcdf
 from gripscale.io.table import Column as Column

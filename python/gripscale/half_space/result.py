@@ -349,8 +349,8 @@ class RoughContact:
         return xr.Dataset(data).set_coords("wavelength")
 
     def plot(self) -> Figure:
-        """Draw rubber on the surface and pressure; see `gripscale.charts.rough_contact_figure`."""
-        return gripscale.charts.rough_contact_figure(self)
+        """Draw rubber on the surface and pressure; see `rough_contact_figure`."""
+        return gripscale.questions.rough_contact_figure(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
         """Return everything as a labelled Dataset, with `fields` the arrays on the grid too."""

@@ -8,12 +8,14 @@ from dataclasses import replace
 
 import xarray as xr
 
-from gripscale.charts.view import SYMBOLS
 from gripscale.io.table import significant
-from gripscale.report import calibration, side_by_side, study_answer
+from gripscale.questions.calibration import page as calibration
+from gripscale.questions.chain.view import SYMBOLS
+from gripscale.questions.vary import page_of_answer as study_answer
+from gripscale.questions.vary import page_side_by_side as side_by_side
+from gripscale.questions.vary.page import study_table
 from gripscale.report.elements import Card, Page, Section
 from gripscale.report.source import Source, Study
-from gripscale.report.study import study_table
 
 DIMENSIONS = {"compounds": ("rubber", "compound"), "roads": ("surface", "road")}
 """What stands side by side, and what a table calls it, by the kind of result."""

@@ -11,14 +11,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
-from gripscale.analysis.cut_off_curve import CONTINUED_TO
-from gripscale.charts.view import CONVERGED, PredictionView
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.provenance import versions
 from gripscale.core.units import MILLI, in_mm
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import NONE, significant
-from gripscale.report.answer import (
+from gripscale.questions.answer.page import (
     answer_cards,
     answer_notices,
     changes,
@@ -28,8 +26,10 @@ from gripscale.report.answer import (
     no_answer,
     no_answer_notices,
 )
+from gripscale.questions.chain.view import CONVERGED, PredictionView
+from gripscale.questions.cut_off.cut_off_curve import CONTINUED_TO
+from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import MOST_OPEN, Card, Doubt, Notice, number, percent, ranked
-from gripscale.report.record import InputRecord
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
 from gripscale.wave.problem import Status

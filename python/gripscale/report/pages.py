@@ -9,40 +9,40 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from gripscale.case.run import KEY
-from gripscale.charts.blocks import blocks_image
-from gripscale.charts.comparison import axis_charts, ladder_charts
-from gripscale.charts.cut_off import cut_off_charts
-from gripscale.charts.design import design_pictures
-from gripscale.charts.direct_contact import contact_pictures
+from gripscale.case_file.run import KEY
 from gripscale.charts.draw import image
-from gripscale.charts.ladder import varied
 from gripscale.charts.page_elements import words_of
-from gripscale.charts.rubber import rubber_charts
-from gripscale.charts.sensitivity import height_charts, sensitivity_charts
-from gripscale.charts.side_by_side import compound_pictures, road_pictures
-from gripscale.charts.study import study_charts
-from gripscale.charts.surface import correlation_charts, profile_charts
-from gripscale.charts.uncertainty import calibration_pictures
-from gripscale.charts.view import SYMBOLS, PredictionView
-from gripscale.charts.wave_and_chain import contact_charts, measured_chart, verification_charts
 from gripscale.core.provenance import versions
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Table
 from gripscale.model import FRICTION_OUTSIDE_BAND
-from gripscale.report import (
-    answer,
-    calibration,
-    comparison,
-    cut_off,
-    design,
-    inputs,
-    notices,
-    sensitivity,
-    side_by_side,
-    study,
-    uncertainty,
-)
+from gripscale.questions.answer import page as answer
+from gripscale.questions.answer.charts import contact_pictures
+from gripscale.questions.calibration import page as calibration
+from gripscale.questions.calibration.page_of_measured import measured_lines
+from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
+from gripscale.questions.chain.charts_of_blocks import blocks_image
+from gripscale.questions.chain.page import wave_tables
+from gripscale.questions.chain.view import SYMBOLS, PredictionView
+from gripscale.questions.compare import page as comparison
+from gripscale.questions.compare.charts import axis_charts, ladder_charts
+from gripscale.questions.compare.charts_of_ladder import varied
+from gripscale.questions.cut_off import page as cut_off
+from gripscale.questions.cut_off.charts import cut_off_charts
+from gripscale.questions.design import page as design
+from gripscale.questions.design.charts import design_pictures
+from gripscale.questions.inputs import page as inputs
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts
+from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
+from gripscale.questions.sensitivity import page as sensitivity
+from gripscale.questions.sensitivity.charts import height_charts, sensitivity_charts
+from gripscale.questions.uncertainty import page as uncertainty
+from gripscale.questions.uncertainty.charts import calibration_pictures
+from gripscale.questions.vary import page as study
+from gripscale.questions.vary import page_side_by_side as side_by_side
+from gripscale.questions.vary.charts import study_charts
+from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
+from gripscale.report import notices
 from gripscale.report.elements import (
     Card,
     Code,
@@ -56,9 +56,7 @@ from gripscale.report.elements import (
     ranked,
 )
 from gripscale.report.equations import equations
-from gripscale.report.measured import measured_lines
 from gripscale.report.source import Compared, Run, Source, Study, case_name
-from gripscale.report.waves import wave_tables
 
 METHOD = (
     "The measured surface is approximated by superposed sine waves. On each wave, largest first, "

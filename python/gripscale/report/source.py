@@ -9,21 +9,21 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.analysis.best_estimate import with_best_estimate
-from gripscale.analysis.comparison import FILE as DIRECT
-from gripscale.analysis.cut_off_curve import FILE as CUT_OFF
-from gripscale.analysis.cut_off_curve import FRICTION as CURVE
-from gripscale.analysis.effects import stored_effects
-from gripscale.analysis.friction_sensitivity import LOSS as SENSITIVITY
-from gripscale.analysis.propagation import of_same_inputs, stored_uncertainty
-from gripscale.case.folder import CASE
-from gripscale.charts.ladder import varied
-from gripscale.charts.view import PredictionView
+from gripscale.case_file.folder import CASE
 from gripscale.core.errors import FileError
-from gripscale.experiment.axis import dimensions
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.io import netcdf
-from gripscale.report.record import InputRecord
+from gripscale.questions.answer.best_estimate import with_best_estimate
+from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.compare.charts_of_ladder import varied
+from gripscale.questions.compare.comparison import FILE as DIRECT
+from gripscale.questions.cut_off.cut_off_curve import FILE as CUT_OFF
+from gripscale.questions.cut_off.cut_off_curve import FRICTION as CURVE
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.sensitivity.friction_sensitivity import LOSS as SENSITIVITY
+from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
+from gripscale.questions.vary.axis import dimensions
+from gripscale.questions.vary.effects import stored_effects
 
 PREDICTIONS = ("dynamic", "static")
 COMPARISON = "comparison"
@@ -228,8 +228,8 @@ def _measured(case: Path) -> MeasuredFriction | None:
     if "measured" not in tables:
         return None
     # to import what reads a case takes longer than to read all results
-    from gripscale.analysis.measured_comparison import friction_of_case
-    from gripscale.case.read import read_case
+    from gripscale.case_file.read import read_case
+    from gripscale.questions.calibration.measured_comparison import friction_of_case
 
     return friction_of_case(read_case(case))
 

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.analysis.intervals import interval_ends
-from gripscale.analysis.ladder import DIRECT
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import INPUT_DOUBTS, STATUS
-from gripscale.report.answer import has_answer, no_answer
+from gripscale.questions.answer.intervals import interval_ends
+from gripscale.questions.answer.page import has_answer, no_answer
+from gripscale.questions.compare.ladder import DIRECT
 
 FILE = "summary.xlsx"
 ROWS = (STATUS, "status", "gain")

@@ -404,8 +404,8 @@ class Rubber(Checked, eq=False):
         return rubbers
 
     def plot(self) -> Figure:
-        """Draw moduli and loss factor by frequency; see `gripscale.charts.master_curve_figure`."""
-        return gripscale.charts.master_curve_figure(self)
+        """Draw moduli and loss factor by frequency; see `master_curve_figure`."""
+        return gripscale.questions.master_curve_figure(self)
 
     def at(self, temperature: float) -> Rubber:
         """Return the same rubber at another temperature [K].

@@ -95,7 +95,7 @@ class HeightDifference(Checked, eq=False):
         self_affine: gripscale.SelfAffineFit | None = None,
     ) -> Figure:
         """Draw the curve with its band, with fitted waves by name and the self-affine fit."""
-        return gripscale.charts.correlation_figure(self, sines or {}, self_affine)
+        return gripscale.questions.correlation_figure(self, sines or {}, self_affine)
 
     def __len__(self) -> int:
         return int(self.lag.size)

@@ -232,7 +232,7 @@ class Profile(Checked, eq=False):
 
     def plot(self, cleaned: Profile | None = None) -> Figure:
         """Draw the profile, with the `cleaned` one if it is there."""
-        return gripscale.charts.profile_figure([(self, self if cleaned is None else cleaned)])
+        return gripscale.questions.profile_figure([(self, self if cleaned is None else cleaned)])
 
     def __len__(self) -> int:
         return int(self.x.size)

@@ -212,8 +212,8 @@ class WaveResult:
         return extrapolation.of_frequencies(self.rubber, omega)
 
     def plot(self) -> Figure:
-        """Draw contact pressure and deformed mesh; see `gripscale.charts.block_figure`."""
-        return gripscale.charts.block_figure(waves_to_dataset([self]))
+        """Draw contact pressure and deformed mesh; see `gripscale.questions.block_figure`."""
+        return gripscale.questions.block_figure(waves_to_dataset([self]))
 
     def _complex_modulus(self) -> complex:
         if self.rubber is None:

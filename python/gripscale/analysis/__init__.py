@@ -1,5 +1,0 @@
-"""Experiments on a case: comparison, effects, uncertainty and calibration."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,220 @@
+"""The results folder: checked before the long work, and cleared of an earlier run's results.
+
+Only files with the names of results, and copies that the saved case names, are ever removed. The
+case is saved beside its results with copies of the files it names, so that the folder runs
+anywhere: its text is that of the case but for the names of files, which become those of the copies.
+Files too large to be copied are named where they are.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import time
+import tomllib
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import get_args
+
+from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case_file.tables import Case, FigureKind
+from gripscale.core.errors import FileError, GripscaleError
+from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import read_bytes
+
+CASE, INPUTS = "case.toml", "inputs"
+COPIED_AT_MOST = 100e6
+"""Bytes of all files together above which they are not copied."""
+
+_STRING = re.compile(
+    r"""#[^\n]*"""
+    r"""|\"{3}(?:\\.|[^\\])*?\"{3,5}|'{3}.*?'{3,5}"""
+    r"""|"(?:\\.|[^"\\\n])*"|'[^'\n]*'""",
+    re.DOTALL,
+)
+"""A comment or a string of TOML 1.0, the longer quotes first."""
+_MARK = "the file that is looked for"
+
+
+@dataclass(frozen=True)
+class SavedCase:
+    """What is written: the text of the case, and by path in the folder the files it names."""
+
+    text: str
+    copies: Mapping[str, bytes]
+
+
+def saved_case(file: CaseFile, folder: Path) -> SavedCase:
+    """Return `file` as it can be saved in `folder`, where nothing is touched.
+
+    Raises `FileError` if a file it names cannot be read.
+    """
+    names = list(dict.fromkeys(name for _, name in file.case.named_files()))
+    paths = {name: file.resolve(name) for name in names}
+    contents = {name: read_bytes(path) for name, path in paths.items()}
+    if sum(map(len, contents.values())) > COPIED_AT_MOST:
+        return SavedCase(renamed(file.text, {name: str(paths[name]) for name in names}), {})
+    targets: dict[str, str] = {}
+    earlier = saved_inputs(folder)
+    for name, content in contents.items():
+        taken = set(targets.values())
+        targets[name] = _free_target(paths[name], content, taken, folder, earlier)
+    copies = {target: contents[name] for name, target in targets.items()}
+    return SavedCase(renamed(file.text, targets), copies)
+
+
+def saved_inputs(folder: Path) -> set[str]:
+    """Return the copies, by path in `folder`, that the case saved there names."""
+    try:
+        names = read_case(folder / CASE).case.named_files()
+    except GripscaleError:
+        return set()
+    return {name for _, name in names if Path(name).parent == Path(INPUTS)}
+
+
+def renamed(text: str, targets: Mapping[str, str]) -> str:
+    """Return the text of a case with the files it names by other names, and nothing else changed.
+
+    A string is the name of a file if the case would look for another file with another string.
+    """
+    for match in reversed(list(_STRING.finditer(text))):
+        if match[0].startswith("#"):
+            continue
+        name = tomllib.loads(f"string = {match[0]}")["string"]
+        before, after = text[: match.start()], text[match.end() :]
+        if name in targets and _names_a_file(f'{before}"{_MARK}"{after}'):
+            text = f"{before}{json.dumps(targets[name], ensure_ascii=False)}{after}"
+    return text
+
+
+def _names_a_file(text: str) -> bool:
+    """Return whether the case looks for a file by the mark put into its text."""
+    try:
+        case = Case.model_validate(tomllib.loads(text))
+    except ValueError:
+        return False
+    return any(name == _MARK for _, name in case.named_files())
+
+
+def _free_target(
+    path: Path, content: bytes, taken: set[str], folder: Path, earlier: set[str]
+) -> str:
+    """Return a path in the folder for a copy, at which no file of somebody else would be lost."""
+
+    def is_free(target: str) -> bool:
+        present = folder / target
+        same = present.is_file() and present.read_bytes() == content
+        return target not in taken and (target in earlier or same or not present.exists())
+
+    endings = ("" if number == 1 else f"_{number}" for number in count(1))
+    targets = (f"{INPUTS}/{path.stem}{ending}{path.suffix}" for ending in endings)
+    return next(filter(is_free, targets))
+
+
+FIGURES = (
+    "profile",
+    "correlation",
+    "master_curve",
+    "contact_and_friction",
+    "direct_contact",
+    "blocks_dynamic",
+    "blocks_static",
+)
+AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
+"""Figures of cases with conditions, or with sweeps at several temperatures."""
+NOTE = ".finished.json"
+"""What a finished run was made from, see `gripscale.case_file.finished`."""
+RESULTS = (
+    NOTE,
+    "dynamic.nc",
+    "static.nc",
+    "direct.nc",
+    "cut_off.nc",
+    "effects_chain.nc",
+    "report.txt",
+    "summary.xlsx",
+    CASE,
+    *(f"figures/{name}.{kind}" for name in (*FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
+)
+"""Everything a run may write into its folder, beside copies of the files the case names."""
+
+
+def require_writable(folder: Path) -> None:
+    """Raise `FileError` unless `folder` could be made and written; touch nothing."""
+    parent = nearest_existing(folder)
+    if not parent.is_dir():
+        raise FileError(f"output folder {folder} cannot be made: {parent} is not a folder")
+    if not os.access(parent, os.W_OK | os.X_OK):
+        raise FileError(f"output folder {folder} cannot be written: no permission for {parent}")
+
+
+def nearest_existing(path: Path) -> Path:
+    """Return `path`, or the nearest of its parents that exists."""
+    return next((step for step in (path, *path.parents) if step.exists()), path)
+
+
+def make(folder: Path) -> None:
+    """Make `folder`; raise `FileError` if that fails."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _refusal(folder, error) from error
+
+
+def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
+    """Return a sentence on what an earlier run left in `folder` but for `keep`, or nothing."""
+    replaced = [name for name in RESULTS if (folder / name).exists() and name not in keep]
+    if not replaced:
+        return ""
+    newest = max((folder / name).stat().st_mtime for name in replaced)
+    when = time.strftime("%Y-%m-%d %H:%M", time.localtime(newest))
+    files = "1 file" if len(replaced) == 1 else f"{len(replaced)} files"
+    return f"Replaces {files} of an earlier run, of {when}, in {folder}."
+
+
+def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
+    """Make `folder`, remove what an earlier run left but for `keep`, and save the case in it.
+
+    Raises `FileError` if that fails, or a file that the case names cannot be read.
+    """
+    saved = saved_case(file, folder)
+    make(folder / "figures")
+    try:
+        for name in {*RESULTS, *saved_inputs(folder)} - {*keep, *saved.copies, CASE}:
+            (folder / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise _refusal(folder, error) from error
+    _save(saved, folder)
+
+
+def save_case(file: CaseFile, folder: Path) -> None:
+    """Save the case in `folder` with copies of its files, so that it runs from there.
+
+    Raises `FileError` if one cannot be read or written.
+    """
+    _save(saved_case(file, folder), folder)
+
+
+def _save(saved: SavedCase, folder: Path) -> None:
+    if saved.copies:
+        make(folder / INPUTS)
+    for target, content in saved.copies.items():
+        write_bytes(folder / target, content)
+    write_text(folder / CASE, saved.text)
+
+
+def _refusal(folder: Path, error: OSError) -> FileError:
+    return FileError(f"output folder {folder} cannot be written: {error.strerror or error}")
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write `text` as UTF-8 to `path`, completely or not at all."""
+    return write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, content: bytes) -> Path:
+    """Write `content` to `path`, completely or not at all."""
+    return write_whole(path, lambda part: part.write_bytes(content))

@@ -1,0 +1,131 @@
+"""Every key of a case file: what it takes, its default, its meaning, where it is explained.
+
+Made from the tables that read the file: what they do not know is not listed, what they know is.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+from gripscale.case_file import tables
+from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
+from gripscale.case_file.schema import Table, expected, table_of
+from gripscale.conditions.area_term import SHEAR_STRESSES
+from gripscale.conditions.flash_temperature import ThermalProperties
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
+
+NEEDED, NOTHING = "needed", "-"
+"""The default of a key that must be there, and of one that may be left out for nothing."""
+
+TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
+    ("surface", tables.SurfaceTable, "inputs.md"),
+    ("surface.sines", tables.WaveTable, "method.md"),
+    ("rubber", RubberSource, "temperature.md"),
+    ("rubber.shift", SHIFT_LAWS, "temperature.md"),
+    ("rubber.strain_energy", STRAIN_ENERGIES, "material.md"),
+    ("load", tables.LoadTable, "method.md"),
+    ("solver", tables.SolverTable, "method.md"),
+    ("chain", tables.ChainOptions, "chain-and-direct-contact.md"),
+    ("conditions", ConditionsTable, "conditions.md"),
+    ("conditions.softening", SOFTENING, "conditions.md"),
+    ("conditions.heat", ThermalProperties, "conditions.md"),
+    ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
+    ("below_measurement", tables.BelowMeasurementTable, "below-measurement.md"),
+    ("below_measurement.finer", tables.FinerTable, "below-measurement.md"),
+    ("measured", tables.MeasuredTable, "direct-contact.md"),
+    ("output", tables.OutputTable, "reading-results.md"),
+    ("compare", tables.CompareTable, "theories.md"),
+    ("uncertainty", tables.UncertaintyTable, "uncertainty.md"),
+    ("uncertainty.ranges", tables.RangesTable, "uncertainty.md"),
+)
+"""Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
+
+_OF_THE_METHOD = ("scales", "smallest_wavelength", "s_wavelength", "s_amplitude", "single_factor")
+CHAPTERS = {
+    **dict.fromkeys(("top_height_fraction", "cut_off"), "chain-and-direct-contact.md"),
+    **dict.fromkeys(_OF_THE_METHOD, "method.md"),
+    **dict.fromkeys(("strain_energy", "terms"), "material.md"),
+    **dict.fromkeys(("extrapolate", "time_limit"), "inputs.md"),
+}
+"""Chapters of keys that are explained elsewhere than their tables."""
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key: its name, what it takes, its default, its meaning, the page that explains it."""
+
+    name: str
+    takes: str
+    default: str
+    meaning: str
+    chapter: str
+
+
+@dataclass(frozen=True)
+class Section:
+    """One table of a case; `kind` tells tables of the same name apart."""
+
+    name: str
+    kind: str
+    about: str
+    keys: list[Key]
+
+    @property
+    def title(self) -> str:
+        """How the table begins in a file."""
+        return f"[{self.name}]" + (f' kind = "{self.kind}"' if self.kind else "")
+
+
+@cache
+def sections() -> list[Section]:
+    """Return all tables of a case with their keys, in the order of the documentation."""
+    return [
+        Section(name, kind, _about(law), list(_keys(law, page)))
+        for name, table, page in TABLES
+        for kind, law in (table.items() if isinstance(table, Mapping) else [("", table)])
+    ]
+
+
+def _keys(law: type, page: str) -> Iterator[Key]:
+    """Yield the keys of a table or a law, its own before those it shares with others."""
+    table = table_of(law)
+    meanings = {"kind": _about(law)}
+    for source in [base for base in law.__mro__[:0:-1] if issubclass(base, Table)] + [law]:
+        meanings |= _field_texts(source)
+    for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
+        item = table.model_fields[name]
+        default = NEEDED if item.is_required() else _written(item.default)
+        yield Key(name, expected(item), default, meanings.get(name, ""), CHAPTERS.get(name, page))
+
+
+def _field_texts(law: type) -> dict[str, str]:
+    """Return the text below each field of a law, without units: a case states them as it likes."""
+    texts = {}
+    body = ast.parse(inspect.getsource(law)).body[0]
+    assert isinstance(body, ast.ClassDef)
+    for field, below in pairwise(body.body):
+        match field, below:
+            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=text)):
+                texts[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
+    return texts
+
+
+def _about(law: type) -> str:
+    return (law.__doc__ or "").partition("\n")[0]
+
+
+def _written(value: Any) -> str:
+    """Return `value` as a case file writes it."""
+    if value is None:
+        return NOTHING
+    if isinstance(value, StrainEnergy):
+        return f'{{ kind = "{value.kind}" }}'
+    return f"{value:g}" if isinstance(value, float) else json.dumps(value)

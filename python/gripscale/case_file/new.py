@@ -1,0 +1,318 @@
+"""A case for measured files: sorted by their content, read, proposed, written with reasons.
+
+What was taken for granted is listed as doubts, the weightiest first.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gripscale.case_file import folder
+from gripscale.case_file.keys import sections
+from gripscale.case_file.proposals import (
+    UNITS_OF_SURFACE,
+    Doubt,
+    Proposal,
+    Weight,
+    conditions_proposal,
+    holds_moduli,
+    open_rubber,
+    open_surface,
+    rubber_proposal,
+    surface_proposal,
+)
+from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case_file.results import CaseResults
+from gripscale.case_file.run import prepare_case
+from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
+from gripscale.core.units import temperature_in_kelvin
+from gripscale.rubber import read_shift_table
+from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.extrapolation import require_measured
+from gripscale.rubber.sweeps import holds_sweeps
+
+LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
+"""What is taken where the caller states nothing."""
+HEAD = """\
+# Written by `gripscale new`. Quantities are texts with their unit; paths start at this file.
+# `gripscale keys` lists every key with its default and meaning.
+"""
+WIDTH = 98
+COMMENT: dict[str, Any] = {
+    "initial_indent": "# ",
+    "subsequent_indent": "# ",
+    "break_long_words": False,
+    "break_on_hyphens": False,
+}
+
+
+@dataclass(frozen=True)
+class NewCase:
+    """A case that was written, and what is doubtful about it."""
+
+    path: Path
+    doubts: tuple[Doubt, ...]
+    """The weightiest first."""
+    skipped: tuple[Path, ...] = ()
+    """Files of a folder that hold neither a surface nor moduli."""
+
+
+def new_case(
+    files: Sequence[str | Path],
+    path: str | Path,
+    *,
+    load: Mapping[str, str] | None = None,
+    temperature: str | None = None,
+    step: str | list[str] | None = None,
+    shift: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] | None = None,
+) -> NewCase:
+    """Write a case for measured files to `path`.
+
+    Parameters
+    ----------
+    files : sequence of path-like
+        Profiles or a map, and a master curve or sweeps, in any order; folders of them.
+    path : path-like
+        The case file, which must not be there. Its results go to the folder `results`, or to
+        `results-NAME` of a case with another name than case.toml.
+    load : mapping, optional
+        `pressure`, `speed` and `footprint` as in a case; 3 bar, 1 m/s and 100 mm by default.
+    temperature : str, optional
+        Of the rubber before the contact, such as "20 C".
+    step : str or list, optional
+        Distance between points where a file has none, such as "0.1 mm".
+    shift : mapping, optional
+        Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
+    layout : mapping, optional
+        What the file of the rubber does not state: keys of [rubber], such as columns.
+
+    Raises
+    ------
+    InputError, FileError
+        If the files hold no surface or no moduli, cannot be read, or `path` is there already.
+    """
+    target = Path(path)
+    if target.exists():
+        raise FileError(f"{target} is there already and is not overwritten; give another name")
+    tables, skipped = propose(
+        files,
+        target.parent,
+        load=load,
+        temperature=temperature,
+        step=step,
+        shift=shift,
+        layout=layout,
+    )
+    folder.make(target.parent)
+    results = "results" if target.stem == "case" else f"results-{target.stem}"
+    folder.write_text(target, case_text(tables, results=results))
+    try:
+        of_inputs = doubts_of_inputs(read_case(target))
+    except GripscaleError:
+        target.unlink()
+        raise
+    folder.write_text(target, case_text(tables, of_inputs, results))
+    return NewCase(target, ranked(tables, of_inputs), skipped)
+
+
+def propose(
+    files: Sequence[str | Path],
+    directory: Path,
+    *,
+    load: Mapping[str, str] | None = None,
+    temperature: str | None = None,
+    step: str | list[str] | None = None,
+    shift: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] | None = None,
+) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
+    """Return the tables of a case in a directory for measured files, and the files without use.
+
+    Arguments and errors are those of `new_case`.
+    """
+    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
+    layout = layout or {}
+    surfaces, rubbers, shifts, skipped = _sorted(files, step, layout)
+    names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers, *shifts)}
+    tables = {
+        "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
+        "rubber": _one_rubber(
+            rubbers,
+            [names[file] for file in rubbers],
+            temperature=kelvin,
+            shift=shift,
+            layout=layout,
+        ),
+        "load": _load_proposal(load or {}),
+    }
+    if shift is None:
+        tables["rubber"].doubts += [
+            Doubt(
+                Weight.FACTOR,
+                f'{names[file]} holds shift factors and is not used: shift = "{names[file]}" in '
+                "[rubber] takes them",
+            )
+            for file in shifts
+        ]
+    tables["conditions"] = conditions_proposal(tables["rubber"], rubbers, kelvin)
+    return tables, skipped
+
+
+def ranked(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> tuple[Doubt, ...]:
+    """Return the doubts of proposals and further ones, the weightiest first."""
+    every = [doubt for table in tables.values() for doubt in table.doubts] + [*further]
+    return tuple(sorted(every, key=lambda doubt: -doubt.weight))
+
+
+def _sorted(
+    files: Sequence[str | Path], step: str | list[str] | None, layout: Mapping[str, Any]
+) -> tuple[list[Path], list[Path], list[Path], tuple[Path, ...]]:
+    """Return the files of surfaces, of moduli and of shifts, and those of folders without use."""
+    surfaces: list[Path] = []
+    rubbers: list[Path] = []
+    shifts: list[Path] = []
+    skipped: list[Path] = []
+    refused: list[tuple[Path, GripscaleError]] = []
+    for file in map(Path, files):
+        for path in sorted(file.iterdir()) if file.is_dir() else [file]:
+            if holds_moduli(path, FileLayout(**layout)):
+                rubbers.append(path)
+                continue
+            if _holds_shift(path):
+                shifts.append(path)
+                continue
+            try:
+                open_surface(path, step, UNITS_OF_SURFACE)
+            except GripscaleError as error:
+                if file.is_dir():
+                    skipped.append(path)
+                else:
+                    refused.append((path, error))
+            else:
+                surfaces.append(path)
+    if refused:
+        path, refusal = refused[0]
+        if surfaces and not rubbers:
+            open_rubber([path], layout)  # raises why there are no moduli in it
+        raise refusal
+    if not surfaces or not rubbers:
+        what = "moduli (frequency, storage and loss)" if surfaces else "a surface"
+        every = (*surfaces, *rubbers, *shifts, *skipped)
+        got = ", ".join(path.name for path in every) or "no file"
+        raise InputError(f"expected a file with {what}, too; got {got}")
+    return surfaces, rubbers, shifts, tuple(skipped)
+
+
+def _one_rubber(files: list[Path], names: list[str], **options: Any) -> Proposal:
+    """Return the proposal for files of one rubber; name those of a folder that do not fit."""
+    try:
+        return rubber_proposal(files, names, **options)
+    except GripscaleError as error:
+        sweeps = [file.name for file in files if holds_sweeps(file)]
+        others = [file.name for file in files if file.name not in sweeps]
+        if not sweeps or not others:
+            raise
+        raise InputError(
+            f"{' and '.join(others)} cannot be joined with the sweeps of {' and '.join(sweeps)}; "
+            "name the file of one of them in place of the folder"
+        ) from error
+
+
+def _holds_shift(path: Path) -> bool:
+    """Return whether a file is a table of shift factors, by its titles."""
+    try:
+        read_shift_table(path)
+    except GripscaleError:
+        return False
+    return True
+
+
+def _name_in(directory: Path, file: Path) -> str:
+    """Return how a case in a directory names a file: from there, if they are not on two drives."""
+    try:
+        return Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
+    except ValueError:
+        return file.resolve().as_posix()
+
+
+def _load_proposal(load: Mapping[str, str]) -> Proposal:
+    proposal = Proposal()
+    for key, default in LOAD.items():
+        if load.get(key) is not None:
+            proposal.add(key, load[key])
+        else:
+            weight = Weight.SCATTER if key == "footprint" else Weight.FACTOR
+            proposal.add(key, default, f"not stated; --{key} states another", weight)
+    return proposal
+
+
+def case_text(
+    tables: Mapping[str, Proposal], further: Sequence[Doubt] = (), results: str = "results"
+) -> str:
+    """Return the text of a case: its doubts, and each key with why it has its value or its meaning.
+
+    The doubts are those of the proposals and `further` ones; `results` is the folder of results.
+    """
+    parts = [HEAD]
+    doubts = ranked(tables, further)
+    if doubts:
+        parts += ["# Doubts, the most important first:"]
+        for number, doubt in enumerate(doubts, start=1):
+            parts += textwrap.wrap(f"{number}. {doubt.text}", WIDTH, **COMMENT)
+        parts += [""]
+    meanings = {
+        (section.name, key.name): key.meaning for section in sections() for key in section.keys
+    }
+    for name, proposal in tables.items():
+        if not proposal.keys:
+            continue
+        parts.append(f"[{name}]")
+        for key, value in proposal.keys.items():
+            reason = proposal.reasons.get(key) or meanings[name, key].rstrip(".")
+            parts += [*textwrap.wrap(reason, WIDTH, **COMMENT), f"{key} = {_toml(value)}"]
+        parts.append("")
+    return "\n".join([*parts, "[output]", f"folder = {_toml(results)}", ""])
+
+
+def _toml(value: Any) -> str:
+    """Return a text, a number, a list of texts or a table as TOML."""
+    if isinstance(value, Mapping):
+        pairs = ", ".join(f"{key} = {_toml(item)}" for key, item in value.items())
+        return f"{{ {pairs} }}"
+    if isinstance(value, list) and sum(map(len, value)) > WIDTH // 2:
+        return "\n".join(["[", *(f"  {_toml(item)}," for item in value), "]"])
+    return json.dumps(value, ensure_ascii=False)
+
+
+def doubts_of_inputs(file: CaseFile) -> list[Doubt]:
+    """Return what reading and fitting the files of a case puts in doubt."""
+    results = prepare_case(file)
+    rubber, surface = results.rubber, results.surface
+    findings = [*(rubber.fit.findings if rubber.fit else ())]
+    findings += [*(rubber.superposition.findings if rubber.superposition else ())]
+    by_weight = {
+        Weight.ANOTHER: [*results.doubts(), *results.load_notes()],
+        Weight.FACTOR: [*_beyond_the_band(results)],
+        Weight.SCATTER: [
+            *(note for note in surface.notes if note not in surface.doubts),
+            *(f"rubber: {finding}" for finding in findings),
+        ],
+    }
+    return [
+        Doubt(weight, text.rstrip(".")) for weight, texts in by_weight.items() for text in texts
+    ]
+
+
+def _beyond_the_band(results: CaseResults) -> Iterator[str]:
+    """Yield which wave excites the rubber farthest beyond its measured frequencies."""
+    try:
+        wavelengths = results.surface.sines.wavelength
+        require_measured(results.rubber_before, wavelengths, results.load.speed)
+    except ExtrapolationError as error:
+        yield str(error)

@@ -1,0 +1,419 @@
+"""From the surface, rubber and conditions a case names to what a model needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from inspect import signature
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gripscale import surface as surfaces
+from gripscale.case_file.read import CaseFile
+from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
+from gripscale.case_file.schema import Table
+from gripscale.case_file.tables import FinerTable, SurfaceTable
+from gripscale.chain.chain import Chain, wave_solver
+from gripscale.conditions.conditions import Conditions
+from gripscale.core.errors import FileError, GripscaleError, InputError, about_file, about_keys
+from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.half_space.below_measurement import (
+    FinerMeasurement,
+    HurstExponent,
+    OwnFaces,
+    Roughness,
+    contact_by_cut_off,
+    cut_off_at,
+)
+from gripscale.half_space.continued import ContinuedContact
+from gripscale.rubber import (
+    MasterCurve,
+    PronyFit,
+    Rubber,
+    Shift,
+    ShiftFit,
+    ShiftTable,
+    Superposition,
+    Sweeps,
+    fit_prony_report,
+    fit_wlf,
+    read_master_curve,
+    read_shift_table,
+    read_strain_sweep,
+    read_sweeps,
+    styrene_butadiene,
+    superpose_report,
+)
+from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
+from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
+
+Resolve = Callable[[str], Path]
+RawHeights = surfaces.HeightMap | list[surfaces.Profile]
+"""What the files of a surface hold, before any cleaning."""
+
+
+def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
+    """Return the keys of a table that are options of a function by the same name."""
+    names = [name for name in signature(function).parameters if name in type(table).model_fields]
+    values = {name: getattr(table, name) for name in names}
+    return {name: tuple(v) if isinstance(v, list) else v for name, v in values.items()}
+
+
+@about_keys("surface")
+def prepare_surface(
+    surface: SurfaceTable, resolve: Resolve = Path, raw: RawHeights | None = None
+) -> surfaces.Surface:
+    """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
+
+    `resolve` turns the name of a file into its path. `raw` is what `raw_surface` returns, where the
+    files are read already.
+
+    Raises `FileError` and `InputError` as reading, cleaning and fitting do.
+    """
+    if surface.sines is not None:
+        waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
+        return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
+    raw = raw_surface(surface, resolve) if raw is None else raw
+    return _described(surface, _cleaned(surface, raw, resolve), resolve)
+
+
+@about_keys("surface")
+def _described(
+    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
+) -> surfaces.Surface:
+    """Return a cleaned surface with its correlation and sine waves; errors of `prepare_surface`."""
+    paths = [resolve(name) for name in surface.measured_files]
+    counted = _options(surface, surfaces.height_difference)
+    try:
+        correlation = surfaces.height_difference(measured.cleaned, **counted)
+    except InputError as error:  # a wrong unit may leave no heights
+        raise InputError("; ".join([*measured.doubts, str(error)])) from error
+    try:
+        measured = replace(measured, self_affine=surfaces.fit_self_affine(correlation))
+    except GripscaleError as error:  # the sine waves do not need a self-affine surface
+        measured = replace(measured, no_self_affine=str(error))
+    fit = _options(surface, surfaces.fit_sines)
+    if not (surface.cut_off is None or isinstance(surface.cut_off, float)):
+        where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
+        with about_file(where, InputError):
+            fit["cut_off"] = surfaces.find_cut_off(measured.slopes, surface.cut_off).wavelength
+    return surfaces.Surface(
+        surfaces.fit_sines(correlation, **fit),
+        ", ".join(str(path) for path in paths),
+        correlation,
+        fit,
+        measured,
+        counted,
+        surface.cut_off,
+    )
+
+
+def case_surface(file: CaseFile) -> surfaces.Surface:
+    """Return the surface of a case, its cut-off by the slope in contact solved.
+
+    Raises `FileError` and `InputError` as `prepare_surface` and `contact_by_cut_off` do, and if the
+    contact of the measured roughness does not reach the slope.
+    """
+    table = file.case.surface
+    rule = table.cut_off
+    if not isinstance(rule, surfaces.ContactSlope):
+        return prepare_surface(table, file.resolve)
+    if table.map is not None:
+        raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
+    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
+    lines = measured.cleaned
+    load = file.case.load.nominal
+    curve = contact_by_cut_off(
+        prepare_rubber(file.case.rubber, file.resolve).rubber,
+        lines,
+        pressure=load.pressure,
+        speed=load.speed,
+        down_to=max(line.resolution_limit for line in lines),
+        conditions=prepare_conditions(file.case.conditions, file.resolve),
+        footprint=load.footprint,
+    )
+    slopes = curve.values("slope_in_contact")
+    wavelength = cut_off_at(rule.contact_slope, curve.wavelength, slopes)
+    if not wavelength > 0.0:
+        raise InputError(
+            f"{file.path}: [surface] cut_off must be a slope in contact that the measurement "
+            f"reaches, from {slopes[0]:.3g} to {slopes[-1]:.3g} at "
+            f"{in_mm(curve.wavelength[-1], 3)}; got {rule.contact_slope:g} (`gripscale cut-off` "
+            "continues the roughness below it)"
+        )
+    solved = replace(rule, wavelength=wavelength)
+    return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
+
+
+@about_keys("surface")
+def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
+    """Return what the files of `surface` hold before any cleaning; no profile without files.
+
+    Along x of a map is the way of sliding. Raises `FileError` and `InputError` as reading does.
+    """
+    paths = [resolve(name) for name in surface.measured_files]
+    if surface.map is None:
+        options = _options(surface, surfaces.read_profile)
+        return [surfaces.read_profile(path, **options) for path in paths]
+    raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
+    return raw if surface.direction == "x" else raw.turned()
+
+
+def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfaces.Measured:
+    """Clean profiles or a map, which `raw_surface` has read."""
+    if isinstance(raw, surfaces.HeightMap):
+        return _cleaned_map(surface, raw, resolve(surface.measured_files[0]))
+    profiles, reports = [], []
+    for line, name in zip(raw, surface.measured_files, strict=True):
+        with about_file(resolve(name), InputError):
+            cleaned, report = surfaces.clean(line, **cleaning_options(surface))
+        profiles.append((line, cleaned))
+        reports.append(report)
+    return surfaces.Measured(profiles, reports, None, "")
+
+
+def cleaning_options(surface: SurfaceTable) -> dict[str, Any]:
+    """Return the arguments of `gripscale.clean` that a case states for its profiles."""
+    return _options(surface, surfaces.clean)
+
+
+def _cleaned_map(surface: SurfaceTable, raw: surfaces.HeightMap, path: Path) -> surfaces.Measured:
+    """Clean a map whose x is the way of sliding."""
+    options = _options(surface, surfaces.clean_map)
+    with about_file(path, InputError):
+        cleaned, report = surfaces.clean_map(
+            raw, **options | {"crop": (options["crop"], surface.crop_across)}
+        )
+    # The line to be drawn is the fullest, nearest to the middle.
+    away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
+    fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
+    before, after = (
+        each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest])))) for each in (raw, cleaned)
+    )
+    after = replace(after, name=before.name, source=before.source)
+    return surfaces.Measured([(before, after)], [report], None, "", cleaned)
+
+
+OF_SWEEPS = ("temperature_step", "vertical")
+"""Keys of the case's [rubber] that only sweeps at several temperatures have."""
+
+
+@dataclass(frozen=True)
+class PreparedRubber:
+    """A rubber and what it comes from.
+
+    Of a master curve the curve and the report on its fit; of sweeps at several temperatures those,
+    too, and how they meet.
+    """
+
+    rubber: Rubber
+    source: str
+    master: MasterCurve | None = None
+    fit: PronyFit | None = None
+    sweeps: Sweeps | None = None
+    superposition: Superposition | None = None
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why its moduli may be those of no rubber, a sentence each."""
+        return () if self.fit is None else self.fit.doubts
+
+    def shift_fits(self) -> list[ShiftFit]:
+        """Return the WLF law of the shift that was found, where it follows one."""
+        if self.master is None or not isinstance(self.master.shift, ShiftTable):
+            return []
+        try:
+            reference = self.master.reference_temperature
+            return [fit_wlf(self.master.shift, reference_temperature=reference)]
+        except InputError:
+            return []
+
+
+@about_keys("rubber")
+def prepare_rubber(
+    source: RubberSource, resolve: Resolve = Path, *, titles_first: bool = False
+) -> PreparedRubber:
+    """Read and fit the file of `source`, or take the rubber it names.
+
+    `resolve` turns the name of a file into its path. What the source states of the file goes before
+    what the file says itself, unless its `titles_first` are to be believed.
+
+    Raises `FileError` and `InputError` as reading, superposition and fitting do.
+    """
+    options = _options(source, fit_prony_report)
+    options = {name: value for name, value in options.items() if value is not None}
+    if source.file is None:
+        rubber = replace(styrene_butadiene(**options), strain_energy=source.strain_energy)
+        return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
+    paths, layout = [resolve(name) for name in source.measured_files], source.layout()
+    path = paths[0]
+    if path.is_dir():
+        raise FileError(
+            f"{path}: expected a file or a list of files; got a folder: `gripscale new` writes the "
+            "list"
+        )
+    origin = source.source or ", ".join(map(str, paths))
+    reading = layout | {"titles_first": titles_first, "source": origin}
+    sweeps: Sweeps | None
+    report: Superposition | None
+    if len(paths) > 1 or holds_sweeps(path, FileLayout(**layout)):
+        sweeps, master, report = _superposed(paths, source, resolve, reading)
+    else:
+        foreign = [name for name in OF_SWEEPS if name in source.model_fields_set]
+        if foreign:
+            raise InputError(
+                f"{path}: {foreign[0]} is for sweeps at several temperatures; got a master curve"
+            )
+        reference = source.reference_temperature
+        master = read_master_curve(path, reference_temperature=reference, **reading)
+        sweeps, report = None, None
+    with about_file(path, InputError):
+        rubber, fit = fit_prony_report(master, **options)
+    rubber = replace(rubber, strain_energy=source.strain_energy)
+    if sweeps is not None and sweeps.is_ramp:
+        fit = replace(fit, findings=(*fit.findings, OF_A_RAMP))
+        sweeps, report = None, None
+    elif sweeps is None:
+        rubber = _shifted(rubber, source, resolve)
+    return PreparedRubber(rubber, master.source, master, fit, sweeps, report)
+
+
+OF_A_RAMP = (
+    "a temperature ramp at one frequency becomes a master curve by the stated shift: "
+    "nothing in the file checks this shift"
+)
+
+
+def _superposed(
+    paths: list[Path], source: RubberSource, resolve: Resolve, reading: dict[str, Any]
+) -> tuple[Sweeps, MasterCurve, Superposition]:
+    """Return sweeps, the master curve they make, and how they meet."""
+    path = paths[0]
+    shift = _shift(source, resolve)
+    if shift is None and not source.vertical:
+        shift = read_shift_of_sweeps(path, source.layout())
+    sweeps = read_sweeps(paths, tolerance=0.0, temperature_step=source.temperature_step, **reading)
+    if sweeps.is_ramp:
+        _require_shift_of_ramp(path, sweeps, shift)
+    elif source.temperature_step is None:
+        with about_file(path, InputError):
+            sweeps = replace(sweeps, tolerance=TOLERANCE)
+    single = len(sweeps) == 1
+    reference = None if single and reading["titles_first"] else source.reference_temperature
+    if reference is None and not single:
+        raise InputError(
+            f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
+            f"{len(sweeps)} temperatures to be shifted to",
+            missing="reference_temperature",
+        )
+    master, report = superpose_report(
+        sweeps,
+        reference_temperature=float(sweeps.temperatures[0]) if reference is None else reference,
+        vertical=source.vertical,
+        shift=shift,
+    )
+    return sweeps, master, report
+
+
+def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> None:
+    """Raise `InputError` for a temperature ramp at one frequency without a shift."""
+    if shift is None:
+        low, high = (ramp.temperature[at] - ZERO_CELSIUS for at in (0, -1))
+        raise InputError(
+            f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
+            f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
+            f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
+            "frequencies do",
+            missing="shift",
+        )
+
+
+def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
+    """Return a rubber of one master curve with the shift that is stated, if one is."""
+    shift = _shift(source, resolve)
+    if shift is None:
+        return rubber
+    if rubber.reference_temperature is None:
+        where = source.name or source.measured_files[0]
+        raise InputError(
+            f"{where}: reference_temperature must be given with shift, such as "
+            '"20 C": the master curve does not state what it holds for',
+            missing="reference_temperature",
+        )
+    return replace(rubber, shift=shift)
+
+
+def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
+    shift = source.shift
+    return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
+
+
+@about_keys("conditions")
+def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Conditions | None:
+    """Return the conditions of a case, or None where it asks for no effect.
+
+    `resolve` turns the name of a file into its path.
+
+    Raises `FileError` and `InputError` for files and numbers that cannot be used.
+    """
+    if table == ConditionsTable():
+        return None
+    source = table.softening
+    softening: SofteningLaw | None
+    if isinstance(source, StrainSweeps):
+        options: dict[str, Any] = {"strain_unit": source.strain_unit}
+        options |= {"amplitude": source.amplitude, **source.layout()}
+        sweeps = [read_strain_sweep(resolve(name), **options) for name in source.files]
+        softening = softening_of_sweeps(sweeps, measured_at=source.measured_at)
+    else:
+        softening = source
+    norm = table.strain_norm or "slope"
+    return Conditions(table.temperature, softening, norm, table.heat, table.shear_stress)
+
+
+@about_keys("below_measurement")
+def prepare_continuation(
+    file: CaseFile, *, down_to: float, hurst: float | None = None
+) -> ContinuedContact:
+    """Return the model of the roughness below the measurement, down to a wavelength [m].
+
+    `hurst` goes before what the case states. Raises `FileError` and `InputError` for what cannot be
+    used.
+    """
+    table = file.case.below_measurement
+    roughness: Roughness = OwnFaces()
+    exponent = table.hurst if hurst is None else hurst
+    if exponent is not None:
+        roughness = HurstExponent(exponent)
+    elif table.finer is not None:
+        roughness = FinerMeasurement(_face(table.finer, file.resolve))
+    conditions = prepare_conditions(file.case.conditions, file.resolve)
+    return ContinuedContact(
+        conditions=conditions, down_to=down_to, roughness=roughness, seed=table.seed
+    )
+
+
+def _face(table: FinerTable, resolve: Resolve) -> surfaces.Profile | surfaces.HeightMap:
+    """Read and level a finer measurement of a face."""
+    if table.file is not None:
+        line = surfaces.read_profile(resolve(table.file), **_options(table, surfaces.read_profile))
+        return surfaces.clean(line)[0]
+    raw = surfaces.read_map(resolve(table.map or ""), **_options(table, surfaces.read_map))
+    return surfaces.clean_map(raw if table.direction == "x" else raw.turned())[0]
+
+
+def case_chain(file: CaseFile) -> Chain:
+    """Return the chain of a case.
+
+    Raises `FileError` and `InputError` for conditions that cannot be used.
+    """
+    case = file.case
+    return Chain(
+        wave_solver(case.solver.model, case.solver.options()),
+        pressure_classes=case.chain.pressure_classes,
+        extrapolate=case.rubber.extrapolate,
+        conditions=prepare_conditions(case.conditions, file.resolve),
+    )

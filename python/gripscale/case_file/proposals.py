@@ -1,0 +1,411 @@
+"""What a case may say of measured files, proposed from their content, and what is doubtful of it.
+
+A file that states everything needs no proposal. What it does not state is proposed where the
+numbers tell (a unit with which heights are those of a texture, moduli those of a rubber), and each
+proposal is a doubt with a weight: how far the answer may be off if it is wrong.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from itertools import product
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+import numpy as np
+
+from gripscale.case_file.read import validate
+from gripscale.case_file.tables import SurfaceTable
+from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.io.text_table import EXCEL, read_lines
+from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
+from gripscale.rubber.blocks import blocks_in
+from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
+from gripscale.rubber.prony import largest_modulus
+from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
+from gripscale.surface import HeightMap, Profile, read_map, read_profile
+from gripscale.surface.plausibility import has_likely_units
+from gripscale.surface.read import TEXT_SUFFIXES
+from gripscale.surface.supports import road_between, support_plates
+
+Measurement = TypeVar("Measurement")
+
+SCALES = 8
+"""Waves of a surface that states none, as in `gripscale fit-surface`."""
+CUT_OFF = "instrument"
+"""Where its roughness ends: where the measurement does."""
+ROOM = 293.15
+"""Temperature taken where neither a file nor the caller states one [K]."""
+
+
+class Weight(IntEnum):
+    """How much a doubt may change the answer."""
+
+    SCATTER = 1
+    """By tens of per cent."""
+    FACTOR = 2
+    """By a factor."""
+    ANOTHER = 3
+    """It may be the answer of another road or rubber."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """A sentence on what was taken for granted, and its weight."""
+
+    weight: Weight
+    text: str
+
+
+@dataclass
+class Proposal:
+    """Keys of a table of a case, why some have their value, and what is doubtful."""
+
+    keys: dict[str, Any] = field(default_factory=dict)
+    reasons: dict[str, str] = field(default_factory=dict)
+    doubts: list[Doubt] = field(default_factory=list)
+
+    def add(self, key: str, value: Any, reason: str = "", weight: Weight | None = None) -> None:
+        """Propose a value; with a `weight` its reason is a doubt."""
+        self.keys[key] = value
+        if reason:
+            self.reasons[key] = reason
+        if weight is not None:
+            self.doubts.append(
+                Doubt(weight, f"{key} = {value!r}".replace("'", '"') + f": {reason}")
+            )
+
+
+LENGTHS = ("mm", "um", "m")
+SHORTEST, LONGEST = 1e-3, 20.0
+"""Lengths of profiles whose files state no unit [m]."""
+UNITS_OF_SURFACE = {"x_unit": LENGTHS[0], "z_unit": LENGTHS[0]}
+UNITS_OF_RUBBER = {
+    "frequency_unit": "Hz",
+    "modulus_unit": "MPa",
+    "modulus": "E",
+    "temperature_unit": "C",
+}
+"""What is tried first where a file does not state it."""
+
+
+def _read_with(
+    read: Callable[..., Measurement], path: Any, defaults: Mapping[str, str], **options: Any
+) -> tuple[Measurement, dict[str, str]]:
+    """Return what a file holds, and the keys without which it cannot be read, by default.
+
+    Raises what reading raises about anything but `defaults`.
+    """
+    asked: dict[str, str] = {}
+    while True:
+        try:
+            return read(path, **options, **asked), asked
+        except GripscaleError as error:
+            if error.missing not in defaults.keys() - asked:
+                raise
+            asked[error.missing] = defaults[error.missing]
+
+
+def surface_proposal(
+    paths: list[Path], names: list[str], *, step: str | list[str] | None = None
+) -> Proposal:
+    """Return the table [surface] for profiles, or for one map.
+
+    `names` are those of the files in the case; `step` is the distance between points, where a file
+    has none. Raises `FileError` and `InputError` as reading does.
+    """
+    proposal = Proposal()
+    options: dict[str, Any] = _step_option(step)
+    surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE)
+    if isinstance(surface, HeightMap):
+        if len(paths) > 1:
+            raise InputError(f"expected one map, or profiles; got {paths[0]} and {paths[1]}")
+        proposal.add("map", names[0])
+        sizes = " and ".join(in_mm(length, 4) for length in surface.length)
+        words = f"the sliding direction; the map is {sizes} long in x and y"
+        proposal.add("direction", "x", words, Weight.SCATTER)
+    else:
+        proposal.add("files", names)
+    if step is not None:
+        proposal.add("step", step)
+    read = read_map if isinstance(surface, HeightMap) else read_profile
+    units = _likely_units(read, paths[0], missing, options)
+    for key, unit in units.items():
+        words = f"{paths[0].name} names no unit; with this one the heights are a texture"
+        proposal.add(key, unit, words, Weight.ANOTHER)
+    if isinstance(surface, Profile):
+        options |= units
+        _add_crop(proposal, [read_profile(path, **options) for path in paths])
+    proposal.add("scales", SCALES, "sine waves of the chain")
+    words = "roughness below what the measurement carries is left out; it may add friction"
+    proposal.add("cut_off", CUT_OFF, words, Weight.SCATTER)
+    return proposal
+
+
+def _step_option(step: str | list[str] | None) -> dict[str, Any]:
+    """Return a step as an argument of readers [m]."""
+    if step is None:
+        return {}
+    table = validate(SurfaceTable, {"map": "map", "scales": 1, "step": step}, "step")
+    return {"step": tuple(table.step) if isinstance(table.step, list) else table.step}
+
+
+def open_surface(
+    path: Path,
+    step: str | list[str] | None = None,
+    defaults: Mapping[str, str] = MappingProxyType({}),
+    **units: str,
+) -> tuple[Profile | HeightMap, dict[str, str]]:
+    """Return the profile or the map of a file, and those of the `defaults` that it needs.
+
+    Further `units` are those of reading. Raises `FileError` and `InputError` as reading does.
+    """
+    options = _step_option(step) | units
+    # an instrument's map has profiles, too; a text with a distance and a height is no map
+    is_text = path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL)
+    readers = (read_profile, read_map) if is_text else (read_map, read_profile)
+    refusals = []
+    for read in readers:
+        try:
+            return _read_with(read, path, defaults, **options)
+        except GripscaleError as error:
+            refusals.append(error)
+    # a reader that only misses a key is the right one
+    raise next((error for error in refusals if error.missing), refusals[0])
+
+
+def _likely_units(
+    read: Callable[..., Profile | HeightMap],
+    path: Path,
+    missing: Mapping[str, str],
+    options: Mapping[str, Any],
+) -> dict[str, str]:
+    """Return the units that a file does not state with which its heights are those of a texture."""
+
+    def plausible(units: Mapping[str, str]) -> bool:
+        surface = read(path, **options, **units)
+        middle = surface.z.shape[-1] // 2
+        line = surface.line(middle) if isinstance(surface, HeightMap) else surface
+        return SHORTEST <= line.length <= LONGEST and has_likely_units(line)
+
+    choices = [
+        dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))
+    ]
+    return next(filter(plausible, choices), choices[0]) if missing else {}
+
+
+def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
+    """Propose what of the profiles is the road."""
+    parts = [part for profile in profiles if (part := road_between(profile)) is not None]
+    if not parts:
+        return
+    first, last = max(part[0] for part in parts), min(part[1] for part in parts)
+    supports = [
+        f"{profile.name} {' and '.join(map(str, plates))}"
+        for profile in profiles
+        if (plates := support_plates(profile))
+    ]
+    words = f"between plates or supports: {'; '.join(supports)}"
+    proposal.add("crop", [in_mm(first), in_mm(last)], words, Weight.FACTOR)
+
+
+def rubber_proposal(
+    paths: list[Path],
+    names: list[str],
+    *,
+    temperature: float | None = None,
+    shift: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] | None = None,
+) -> Proposal:
+    """Return the table [rubber] for a master curve or sweeps, to be used at a temperature [K].
+
+    `names` are those of the files in the case, and the `layout` what is stated of them. Raises
+    `FileError` and `InputError` as reading does.
+    """
+    proposal, settings = Proposal(), dict(layout or {})
+    proposal.add("file", names[0] if len(names) == 1 else names)
+    for key, value in settings.items():
+        proposal.add(key, value, "as stated")
+    measured, asked = open_rubber(paths, settings)
+    for key in asked:
+        settings[key], words = _likely(key, paths, settings | asked)
+        reason = f"{paths[0].name} does not state it; {words}"
+        proposal.add(key, settings[key], reason, Weight.ANOTHER)
+    if asked:
+        measured, _ = open_rubber(paths, settings)
+    _add_reference(proposal, measured, temperature)
+    if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
+        words = "the temperatures have no gaps: moduli are interpolated at multiples of this step"
+        proposal.add("temperature_step", NOMINAL_STEP, words, Weight.SCATTER)
+    if shift is not None:
+        proposal.add("shift", dict(shift), "as stated")
+    _add_bulk_modulus(proposal, float(measured.storage.max()))
+    return proposal
+
+
+def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
+    """Propose the bulk modulus of rubber, or what the largest measured modulus [Pa] needs."""
+    try:
+        largest_modulus(stiffest, BULK_MODULUS)
+    except InputError:
+        giga = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
+        words = (
+            f"for Poisson's ratio of 0.3 at the largest E', {stiffest / 1e9:.3g} GPa, which no "
+            "rubber has: is the unit of the moduli right? Leave bulk_modulus out once it is mended "
+            "by modulus_unit"
+        )
+        proposal.add("bulk_modulus", f"{giga:g} GPa", words, Weight.ANOTHER)
+    else:
+        words = "assumed: a DMA measurement does not give it"
+        proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
+
+
+def open_rubber(
+    paths: list[Path], layout: Mapping[str, Any]
+) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
+    """Return sweeps or a master curve, and the keys of the layout that nothing states.
+
+    Raises `FileError` and `InputError` as reading does.
+    """
+    if len(paths) > 1 or holds_sweeps(paths[0], FileLayout(**layout)):
+        return _read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
+    return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
+
+
+_SOFTEST, _STIFFEST = 2e4, 1e8
+"""Between these lies the smallest modulus of a measured rubber [Pa]."""
+_HOTTEST = ZERO_CELSIUS + 180.0
+"""Mean temperature that no sweeps have [K]."""
+
+
+def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str, str]:
+    """Return the likely value of a key of the layout, and why."""
+    if key == "frequency_unit":
+        return "Hz", "rad/s would move the curve by 0.8 decades"
+    if key == "modulus":
+        return "E", "shear moduli (G) would be a third"
+
+    def measured(unit: str) -> Any:
+        return open_rubber(paths, {**layout, key: unit})[0]
+
+    if key == "temperature_unit":
+        sweeps = measured("C")
+        warm = isinstance(sweeps, Sweeps) and float(sweeps.temperature.mean()) > _HOTTEST
+        return ("K" if warm else "C"), "so the temperatures are those of a laboratory"
+    units = ("MPa", "Pa", "kPa", "GPa")
+    likely = (u for u in units if _SOFTEST < float(measured(u).storage.min()) < _STIFFEST)
+    return next(likely, units[0]), "so the moduli are those of a rubber"
+
+
+def _add_reference(
+    proposal: Proposal, measured: MasterCurve | Sweeps, temperature: float | None
+) -> None:
+    """Propose the temperature that the master curve holds for."""
+    target = ROOM if temperature is None else temperature
+    if isinstance(measured, MasterCurve):
+        if measured.reference_temperature is None:
+            words = (
+                "the file states no temperature; the moduli are assumed to be measured at this one"
+            )
+            if temperature is None:
+                words += ", as is the contact; --temperature states another"
+            proposal.add("reference_temperature", celsius(target), words, Weight.ANOTHER)
+        return
+    kelvin = measured.temperature
+    if np.ptp(kelvin) <= _ONE_SWEEP:
+        return
+    reference = float(np.clip(target, kelvin.min(), kelvin.max()))
+    words = f"sweeps from {celsius(kelvin.min())} to {celsius(kelvin.max())} are shifted to it"
+    weight = None if reference == target or temperature is None else Weight.FACTOR
+    proposal.add("reference_temperature", celsius(reference), words, weight)
+    if temperature is None:
+        text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
+        proposal.doubts.append(Doubt(Weight.FACTOR, f"{text}; --temperature states another"))
+
+
+NOMINAL_STEP = "5 K"
+"""Step of nominal temperatures of ramps at several frequencies."""
+
+
+def _runs_on(sweeps: Sweeps) -> bool:
+    """Return whether temperatures have no gaps between sweeps."""
+    try:
+        replace(sweeps, tolerance=TOLERANCE)
+    except InputError:
+        return True
+    return False
+
+
+_ONE_SWEEP = 3.0
+"""Span of temperatures of one sweep [K]."""
+
+
+def celsius(kelvin: float) -> str:
+    """Return a temperature [K] as a case states it, such as `20 C`."""
+    return f"{kelvin - ZERO_CELSIUS:.4g} C"
+
+
+def has_shift(paths: list[Path], proposal: Proposal) -> bool:
+    """Return whether the rubber of a proposal can be had at other temperatures."""
+    if "shift" in proposal.keys or len(paths) > 1:
+        return True
+    layout = {k: v for k, v in proposal.keys.items() if k in FileLayout.__dataclass_fields__}
+    if not holds_sweeps(paths[0], FileLayout(**layout)):
+        return False
+    sweeps = read_sweeps(paths, tolerance=0.0, **layout)
+    several = float(np.ptp(sweeps.temperature)) > _ONE_SWEEP
+    return several or read_shift_of_sweeps(paths[0], layout) is not None
+
+
+ENOUGH_LINES = 400
+"""Lines that tell what a file holds."""
+
+
+def holds_moduli(path: Path, layout: FileLayout | None = None) -> bool:
+    """Return whether a file is one of moduli, by its titles, its numbers or its first line.
+
+    A `layout` may state which columns hold them.
+    """
+    layout = layout or FileLayout()
+    try:
+        lines = read_lines(path)[:ENOUGH_LINES]
+        blocks = blocks_in(path, lines, layout, temperature_unit="C")
+    except GripscaleError:
+        return False
+    return any(_are_moduli(block.table, layout) for block in blocks)
+
+
+def _are_moduli(table: Any, layout: FileLayout) -> bool:
+    """Return whether a table has titles of moduli, or three columns as of a master curve."""
+    try:
+        if layout.suffices(table):
+            return True
+    except InputError:  # several titles mean one modulus, or columns are stated of another file
+        return layout.columns is None
+    if any(table.names) or len(table.columns) != 3:
+        return False
+    frequency, *moduli = (table.numbers(at, "a number", missing=True) for at in range(3))
+    rising = bool((np.diff(frequency) > 0.0).all()) and frequency[0] > 0.0
+    return rising and all(float(np.nanmin(column)) > 0.0 for column in moduli)
+
+
+def conditions_proposal(rubber: Proposal, paths: list[Path], temperature: float | None) -> Proposal:
+    """Return the table [conditions] with a temperature [K], or the doubt that it is not reached."""
+    proposal = Proposal()
+    if temperature is None:
+        return proposal
+    if has_shift(paths, rubber):
+        proposal.add("temperature", celsius(temperature), "of the rubber before the contact")
+    elif "reference_temperature" not in rubber.keys:
+        text = (
+            f"the rubber has one temperature and no shift, and cannot be brought to "
+            f"{celsius(temperature)}: state [rubber] shift and [conditions] temperature"
+        )
+        proposal.doubts.append(Doubt(Weight.FACTOR, text))
+    return proposal

@@ -1,0 +1,135 @@
+"""Reading a case file; what is wrong becomes one sentence: file, key, value, expectation."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from gripscale.case_file.schema import first_complaint, sentence
+from gripscale.case_file.tables import Case
+from gripscale.core.errors import FileError, InputError, about_keys
+from gripscale.core.provenance import COMMAND, software, versions
+from gripscale.core.units import DISPLAY_UNITS, stated_units
+from gripscale.io.text_table import read_bytes
+
+M = TypeVar("M", bound=BaseModel)
+
+
+@dataclass(frozen=True)
+class CaseFile:
+    """A case with the file it came from: `text` is kept word for word for the results folder."""
+
+    case: Case
+    path: Path
+    text: str
+    units: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """The units the case states, by key, in which results are shown."""
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """What every result of the case carries: its text, the units it states, the command."""
+        command = {"command": COMMAND.get()} if COMMAND.get() else {}
+        return {"case": self.text, DISPLAY_UNITS: json.dumps(self.units)} | command
+
+    def resolve(self, name: str) -> Path:
+        """Return the path of a file named in the case, relative to the case file."""
+        return (self.path.parent / Path(name).expanduser()).resolve()
+
+
+def read_case(path: str | Path) -> CaseFile:
+    """Read and validate the case file at `path`.
+
+    Raises `FileError` if it cannot be read or is not TOML, `InputError` if it says something
+    unusable.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError as error:
+        raise FileError(f"case file {path} does not exist") from error
+    except (OSError, UnicodeDecodeError) as error:
+        undecodable = isinstance(error, UnicodeDecodeError)
+        reason = "it is not UTF-8 text" if undecodable else getattr(error, "strerror", "") or error
+        raise FileError(f"case file {path} cannot be read: {reason}") from error
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        if path.suffix.lower() != ".toml":
+            raise FileError(
+                f"{path} is no case file (TOML); `gripscale new ROAD RUBBER` makes one of measured "
+                "files"
+            ) from error
+        raise FileError(
+            f"case file {path} is not valid TOML: {error}{_hint(text, error)}"
+        ) from error
+    except (ValueError, RecursionError) as error:  # numbers of 4300 digits, a thousand brackets
+        raise FileError(f"case file {path} is beyond reading: {error}") from error
+    if not tables:
+        raise InputError(
+            f"{path}: an empty case; expected at least [surface], [rubber] and [load], as "
+            "`gripscale init FOLDER` writes them"
+        )
+    return CaseFile(validate(Case, tables, str(path)), path, text, stated_units(tables))
+
+
+def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
+    """Return `values` as a `model`; an `InputError` begins with `where` and says why not."""
+    try:
+        return model.model_validate(dict(values))
+    except ValidationError as error:
+        whole = model is Case
+        refused = InputError(f"{where}: {sentence(error, model, in_table=whole)}")
+        if whole:
+            with about_keys(_table_of(error)):
+                raise refused from error
+        raise refused from error
+
+
+def _table_of(error: ValidationError) -> str:
+    """Return which table of a case the first complaint is about, empty for the whole case."""
+    from gripscale.case_file.keys import TABLES  # all tables with it: not for reading a case
+
+    names = {name for name, _, _ in TABLES}
+    location = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
+    longer_first = (".".join(location[:count]) for count in range(len(location), 0, -1))
+    return next((name for name in longer_first if name in names), "")
+
+
+def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
+    """Return what is usually meant by a line that is no TOML, with a semicolon before it."""
+    number = re.search(r"at line (\d+)", str(error))
+    line = text.splitlines()[int(number[1]) - 1] if number else ""
+    if "\\" in line:
+        return "; a path is written with / or in 'single quotation marks'"
+    if re.search(r"=\s*[-+]?[\d.]+,\d", line):
+        return "; the decimal sign is the point"
+    if re.search(r"=\s*[-+]?[\d.]+\s*[^\s\d#]", line):
+        return '; a number with its unit stands in "quotation marks"'
+    return ""
+
+
+def prediction_key(file: CaseFile, name: str) -> str:
+    """Return the key of the prediction `name` ("dynamic" or "static") of a case.
+
+    It is a hash of all the prediction depends on: the text of the case, the bytes of the files it
+    names and the software that solves it. Equal keys mean equal results, to the last bit.
+
+    Raises `FileError` if a file it names cannot be read.
+    """
+    contents = [read_bytes(file.resolve(named)) for _, named in file.case.named_files()]
+    inputs = {
+        "software": software(),
+        "versions": versions(),
+        "prediction": name,
+        "case": file.text,
+        "files": [hashlib.sha256(content).hexdigest() for content in contents],
+    }
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]

@@ -1,0 +1,187 @@
+"""[rubber] and [conditions] of a case: a measured or named rubber, and what changes it on the way.
+
+Once read, pressures are in Pa, temperatures in K and energies of the area term in eV. Laws are
+those of the package: their fields say which keys a case states them with.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, InstanceOf, model_validator
+
+from gripscale.case_file.schema import (
+    Column,
+    Columns,
+    Pressure,
+    Reading,
+    Strain,
+    Table,
+    Temperature,
+    TemperatureDifference,
+    by_kind,
+    stated_law,
+    unit_of_file,
+)
+from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
+from gripscale.conditions.flash_temperature import ThermalProperties
+from gripscale.io.text_table import MOST_LINES
+from gripscale.rubber.shift import SHIFTS, Shift, ShiftTable
+from gripscale.rubber.softening import Kraus
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
+
+NAMED_RUBBERS = ("styrene_butadiene",)
+
+SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
+"""Shifts a case states with their numbers; a table of factors is a file."""
+
+OF_ANY_RUBBER = {"file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift"}
+"""Keys of [rubber] that a named rubber may have."""
+
+
+FILES = "the name of a file, or a list of names"
+
+
+def _files(value: Any) -> Any:
+    """Accept a name or a list of them."""
+    names = value if isinstance(value, list) else [value]
+    if value is not None and not (names and all(isinstance(name, str) for name in names)):
+        raise ValueError(f"expected {FILES}")
+    return value
+
+
+def _warn_or_refuse(value: Any) -> Any:
+    if value == "say":  # the word of older cases
+        raise ValueError('"say" is called "warn" now')
+    return value
+
+
+class LayoutKeys(Table):
+    """Where the numbers of a measured file stand and what they are, as `FileLayout` takes them."""
+
+    columns: Columns | None = None
+    """Columns of frequency, storage and loss modulus, where their titles do not tell."""
+    sheet: Column | None = None
+    """Sheet of an Excel file, where several hold numbers."""
+    header: int | None = Field(default=None, ge=0, le=MOST_LINES)
+    """Number of lines above the rows, where there are numbers among them."""
+    frequency_unit: Annotated[str, unit_of_file("frequency")] | None = None
+    """Unit of frequencies where the file does not name it."""
+    modulus_unit: Annotated[str, unit_of_file("modulus")] | None = None
+    """Unit of moduli where the file does not name it."""
+    modulus: Literal["E", "G"] | None = None
+    """Young's or shear moduli, where the file does not say."""
+    temperature_unit: Annotated[str, unit_of_file("temperature")] | None = None
+    """Unit of temperatures where the file does not name it."""
+
+    def layout(self) -> dict[str, Any]:
+        """Return what is stated as keyword arguments of a reader."""
+        return {name: getattr(self, name) for name in LayoutKeys.model_fields}
+
+
+class RubberSource(LayoutKeys):
+    """Measured moduli, with what their file does not state, or a rubber known by name.
+
+    The file is a master curve, or sweeps at several temperatures to make one of.
+    """
+
+    file: Annotated[str | list[str] | None, Reading(FILES, _files)] = None
+    """A measured master curve, or sweeps at several temperatures, in one file or several."""
+    name: Literal["styrene_butadiene"] | None = None
+    """A rubber known by name, in place of a file."""
+    temperature_step: TemperatureDifference | None = None
+    """Of temperature ramps: moduli are interpolated at multiples of this."""
+    reference_temperature: Temperature | None = None
+    """Temperature the master curve holds for, or sweeps are shifted to."""
+    shift: Annotated[InstanceOf[Shift] | str, by_kind(SHIFT_LAWS, or_file=True)] | None = None
+    """Time-temperature shift, needed away from the reference temperature."""
+    vertical: bool = False
+    """Find a vertical shift of sweeps, too."""
+    source: str = ""
+    """Where the rubber comes from, carried into the results."""
+    terms: int | None = Field(default=None, ge=1, le=200)
+    """Number of Maxwell elements; chosen from the data by default."""
+    outlier_threshold: float | None = Field(default=None, gt=0.0)
+    """Times the typical scatter beyond which a measured row is left out of the fit."""
+    bulk_modulus: Pressure | None = None
+    """Bulk modulus, which a DMA measurement does not give."""
+    extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
+    """Waves beyond the measured frequencies: solved with a warning, or refused."""
+    strain_energy: Annotated[InstanceOf[StrainEnergy], by_kind(STRAIN_ENERGIES)] = NeoHookean()
+    """Law of the permanent network at large strain."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> RubberSource:
+        if (self.file is None) == (self.name is None):
+            raise ValueError(
+                f"expected either file (a master curve) or name ({', '.join(NAMED_RUBBERS)})"
+            )
+        foreign = self.model_fields_set - OF_ANY_RUBBER
+        if self.name is not None and foreign:
+            raise ValueError(f"{min(foreign)} belongs to a measured file, not to a named rubber")
+        if self.vertical and self.shift is not None:
+            raise ValueError("expected either shift (given) or vertical (found from the sweeps)")
+        return self
+
+    @property
+    def measured_files(self) -> list[str]:
+        """Names of the files with its moduli."""
+        return [self.file] if isinstance(self.file, str) else self.file or []
+
+    @property
+    def files(self) -> list[str]:
+        """Names of the files it was measured in."""
+        shift = [self.shift] if isinstance(self.shift, str) else []
+        return [*self.measured_files, *shift]
+
+
+class StrainSweeps(LayoutKeys):
+    """Measured strain sweeps, with what their files do not state."""
+
+    kind: Literal["table"]
+    """Measured strain sweeps."""
+    files: list[str] = Field(min_length=1)
+    """Files of strain sweeps."""
+    measured_at: Strain
+    """Strain of the DMA measurement, where nothing is softened."""
+    amplitude: Literal["single", "peak-to-peak"] | None = None
+    """What the strain column holds, where its title does not say."""
+    strain_unit: Annotated[str, unit_of_file("strain")] | None = None
+    """Unit of strains where the file does not name it."""
+
+
+SOFTENING: dict[str, type] = {"kraus": Kraus, "table": StrainSweeps}
+"""How a case states softening: a law with its numbers, or where one was measured."""
+
+
+class ConditionsTable(Table):
+    """Effects beside the rubber as measured, each off unless asked for."""
+
+    temperature: Temperature | None = None
+    """Temperature of the rubber before the contact; that of the master curve by default."""
+    softening: Annotated[InstanceOf[Kraus] | StrainSweeps, by_kind(SOFTENING)] | None = None
+    """Softening by strain."""
+    strain_norm: Literal["slope", "stretch"] | None = None
+    """Half the rms slope in the contact (the default), or the largest stretch less one."""
+    heat: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = None
+    """The rubber warms by its own friction."""
+    shear_stress: Annotated[InstanceOf[InterfacialShearStress], by_kind(SHEAR_STRESSES)] | None = (
+        None
+    )
+    """The area term: the real contact area sheared at this stress."""
+
+    @model_validator(mode="after")
+    def _norm_of_softening(self) -> ConditionsTable:
+        if self.strain_norm is not None and self.softening is None:
+            raise ValueError("strain_norm belongs to softening, which is not asked for")
+        return self
+
+    @property
+    def iterated(self) -> bool:
+        """Whether the rubber depends on what is solved."""
+        return self.softening is not None or self.heat is not None
+
+    @property
+    def files(self) -> list[str]:
+        """Names of the files it was measured in."""
+        return list(self.softening.files) if isinstance(self.softening, StrainSweeps) else []

@@ -1,0 +1,501 @@
+"""What a case file may say: its tables together; the large ones have files of their own."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource
+from gripscale.case_file.schema import (
+    Column,
+    Duration,
+    Length,
+    Position,
+    Pressure,
+    Reading,
+    Speed,
+    Table,
+    TemperatureDifference,
+    unit_of_file,
+)
+from gripscale.core.units import in_mm, parse_quantity, such_as, unit_of
+from gripscale.model import MOST_CLASSES, Load
+from gripscale.rubber.strain_energy import NeoHookean
+
+CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
+
+
+def _cut_off(value: Any) -> Any:
+    """Accept a length, "instrument" or a table such as { rms_slope = 1.3, of = "surface" }."""
+    from gripscale.surface.cut_off import cut_off_rule  # scipy with it: not for reading a case
+
+    return None if value is None else cut_off_rule(value)
+
+
+STEP = 'a length such as "0.1 mm", or a list of 2, along x and y'
+
+
+def _step(value: Any) -> Any:
+    """Accept a length above zero, or two."""
+    if value is None:
+        return None
+    lengths = value if isinstance(value, list | tuple) else [value]
+    if len(lengths) > 2 or not lengths:
+        raise ValueError(f"expected {STEP}")
+    numbers = [parse_quantity(length, "length") for length in lengths]
+    if min(numbers) <= 0.0:
+        raise ValueError("expected a value greater than zero")
+    return numbers if isinstance(value, list | tuple) else numbers[0]
+
+
+class WaveTable(Table):
+    """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
+
+    wavelength: Length
+    """Length of the wave."""
+    amplitude: Length
+    """Half its peak-to-valley height."""
+
+
+MAP_KEYS = ("crop_across", "trim", "form")
+PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
+"""Keys of [surface] that only a map, or only profiles have."""
+
+
+class SurfaceTable(Table):
+    """Measured profiles or a map and how they become sine waves, or the waves themselves."""
+
+    files: list[str] | None = Field(default=None, min_length=1)
+    """Measured profiles of one road; several are pooled."""
+    map: str | None = None
+    """A measured map, in place of files."""
+    sines: list[WaveTable] | None = Field(default=None, min_length=1)
+    """Waves stated by hand, in place of files; longest first."""
+    x_unit: Annotated[str, unit_of_file("length")] | None = None
+    """Unit of distances where the file does not name it."""
+    z_unit: Annotated[str, unit_of_file("length")] | None = None
+    """Unit of heights where the file does not name it."""
+    z_axis: Literal["up", "down"] | None = None
+    """Which way the numbers of heights count: down turns depths over; by default up."""
+    direction: Literal["x", "y"] = "x"
+    """The way of sliding in a map."""
+    reader: Literal["auto", "text", "instrument"] = "auto"
+    """How to read the files; auto goes by the suffix."""
+    channel: Column | None = None
+    """Channel of an instrument's file that has several of heights."""
+    sheet: Column | None = None
+    """Sheet of an Excel file, where several hold numbers."""
+    step: Annotated[Any, Reading(STEP, _step)] = None
+    """Distance between points, or those of a map along x and y, where the file has none."""
+    crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    """First and last distance to keep along x; all by default."""
+    crop_across: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    """The same along y, of a map."""
+    valid_range: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    """Lowest and highest height to believe; others become missing."""
+    trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
+    """Share of missing heights above which a border line of a map is cut off."""
+    remove_spikes: bool = True
+    """Spikes become missing heights."""
+    spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
+    """Change of height per step at which neighbours are a spike (ISO 13473-1: 3)."""
+    across_gaps: bool = False
+    """Hold the points on both sides of a gap of a profile to that slope, too."""
+    detrend: Literal["linear", "mean", "none"] = "linear"
+    """Trend subtracted from a profile."""
+    form: int = Field(default=1, ge=0, le=8)
+    """Order of the polynomial subtracted from a map: 0 the mean, 1 a plane, 2 a paraboloid."""
+    top_height_fraction: float = Field(default=1.0, gt=0.0, le=1.0, allow_inf_nan=False)
+    """Share of the heights, from the highest down, that counts in the correlation."""
+    max_lag: Length | None = None
+    """Largest lag of the correlation; a quarter of the shortest profile by default."""
+    scales: int | None = Field(default=None, ge=1, le=24)
+    """Number of waves."""
+    smallest_wavelength: Length | None = None
+    """Wavelength of the last wave."""
+    cut_off: Annotated[Any, Reading(CUT_OFF, _cut_off)] = None
+    """Where the roughness ends, in place of smallest_wavelength."""
+    s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
+    """Factor from one wavelength to the next, if given instead of fitted."""
+    s_amplitude: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
+    """Factor from one amplitude to the next, if given instead of fitted."""
+    first_wavelength: Length | None = None
+    """The first wavelength, if given instead of fitted."""
+    first_amplitude: Length | None = None
+    """The first amplitude, if given instead of fitted."""
+    single_factor: bool = False
+    """One factor for wavelength and amplitude, which Lind and Wangenheim show to fail."""
+    smallest_lag: Length | None = None
+    """Smallest lag that counts in the fit."""
+    largest_lag: Length | None = None
+    """Largest lag that counts in the fit."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> SurfaceTable:
+        if sum(source is not None for source in (self.files, self.map, self.sines)) != 1:
+            raise ValueError(
+                "expected either files (measured profiles), map (a measured map) or "
+                "sines (waves by hand)"
+            )
+        ends = [self.smallest_wavelength, self.cut_off]
+        if self.sines is None and self.scales is None and ends == [None, None]:
+            raise ValueError(
+                "expected scales (number of waves), smallest_wavelength or cut_off (where they "
+                "end), or both"
+            )
+        if None not in ends:
+            raise ValueError(
+                "expected either smallest_wavelength (the last wave) or cut_off (where the "
+                "roughness ends)"
+            )
+        if self.sines is not None and self.cut_off is not None:
+            raise ValueError("cut_off belongs to a measured surface, not to waves by hand")
+        foreign, owner = (MAP_KEYS, "map") if self.map is None else (PROFILE_KEYS, "files")
+        for name in foreign:
+            if getattr(self, name) != type(self).model_fields[name].default:
+                raise ValueError(f"{name} belongs to a surface from {owner}")
+        if self.map is None and isinstance(self.step, list):
+            raise ValueError("step of a profile is one length; two are those of a map")
+        for name in ("crop", "crop_across", "valid_range"):
+            limits = getattr(self, name)
+            if limits is not None and limits[0] >= limits[1]:
+                raise ValueError(
+                    f"{name} runs from {in_mm(limits[0])} to {in_mm(limits[1])}; "
+                    "expected its start before its end"
+                )
+        if self.sines is not None:
+            lengths = [wave.wavelength for wave in self.sines]
+            if any(b >= a for a, b in pairwise(lengths)):
+                raise ValueError("expected sines in order of falling wavelength")
+        return self
+
+    @property
+    def measured_files(self) -> list[str]:
+        """Names of the files it was measured in."""
+        return [self.map] if self.map is not None else self.files or []
+
+
+LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
+
+
+def _load_time(value: Any) -> float | str:
+    """Accept "passage", "infinite" or a time."""
+    if value == "passage":
+        return "passage"
+    if value in ("infinite", math.inf):
+        return math.inf
+    try:
+        seconds = parse_quantity(value, "time")
+    except ValueError as error:
+        raise ValueError(f'{error}, or "passage", or "infinite"') from error
+    if seconds <= 0.0:
+        raise ValueError("expected a time greater than zero")
+    return seconds
+
+
+class LoadTable(Table):
+    """How hard, how fast and over what length the rubber is pressed and slid."""
+
+    pressure: Pressure
+    """Nominal pressure."""
+    speed: Speed
+    """Sliding speed; 0 is the relaxed rubber at rest."""
+    footprint: Length
+    """Length of the nominal contact: how long the largest wave is loaded."""
+    static: bool = False
+    """The relaxed rubber at rest, too."""
+    load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
+    """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
+
+    @property
+    def nominal(self) -> Load:
+        """The load on the whole surface, at the speed stated."""
+        return Load(self.pressure, self.speed, self.footprint, self.load_time)
+
+
+class SolverTable(Table):
+    """The model of one wave and its mesh; what is not stated stays at the solver's default."""
+
+    model: Literal["finite_strain", "half_plane"] = "finite_strain"
+    """What solves a wave: the block at finite strain or the half-plane at small strain."""
+    columns: int | None = Field(default=None, ge=4, le=4096, multiple_of=2)
+    """Elements along the block, doubled where the two frictions differ."""
+    rows: int | None = Field(default=None, ge=2, le=256)
+    """Elements across the block."""
+    depth: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
+    """Height of the block over the wavelength."""
+    element_order: Literal[1, 2] | None = None
+    """Order of the elements."""
+    tolerance: float | None = Field(default=None, gt=0.0, lt=1.0, allow_inf_nan=False)
+    """The mesh is refined until the estimated errors are below this."""
+    time_limit: Duration | None = None
+    """A wave that takes longer is given up."""
+    points: int | None = Field(default=None, ge=16, le=8192)
+    """Points of the half-plane."""
+
+    @model_validator(mode="after")
+    def _options_of_the_model(self) -> SolverTable:
+        mesh = ["columns", "rows", "depth", "element_order", "tolerance", "time_limit"]
+        foreign = ["points"] if self.model == "finite_strain" else mesh
+        for name in foreign:
+            if getattr(self, name) is not None:
+                raise ValueError(f'{name} is not an option of model = "{self.model}"')
+        return self
+
+    def options(self) -> dict[str, Any]:
+        """Return the stated options as keyword arguments of the solver."""
+        return self.model_dump(exclude={"model"}, exclude_none=True)
+
+
+class ChainOptions(Table):
+    """What goes on from wave to wave."""
+
+    pressure_classes: int = Field(default=1, ge=1, le=MOST_CLASSES)
+    """Classes of equal load in which the pressure is handed down; 1: its mean."""
+
+
+FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED = 10, 100_000, 2**32 - 1
+
+SourceName = Literal[
+    "height_noise",
+    "cleaning",
+    "profile",
+    "grid",
+    "modulus",
+    "bulk_modulus",
+    "equilibrium_modulus",
+    "temperature",
+    "pressure",
+    "load_time",
+    "cut_off",
+    "waves",
+]
+"""What may be taken to be uncertain."""
+
+FACTOR = "factor"
+"""Kind of values that have no unit."""
+
+
+def _values(kind: str) -> Reading:
+    """Return what reads values of a source: quantities of one kind, or factors."""
+    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
+    words = f"a list of two ends or of equally likely values, each {each}"
+
+    def number(value: Any) -> float:
+        if kind != FACTOR:
+            return parse_quantity(value, kind)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ValueError(f"expected {words}")
+        return float(value)
+
+    def read(value: Any) -> list[float]:
+        if not isinstance(value, list) or not value:
+            raise ValueError(f"expected {words}")
+        numbers = [number(item) for item in value]
+        if numbers[0] <= 0.0 or any(b <= a for a, b in pairwise(numbers)):
+            raise ValueError("expected rising values greater than zero")
+        return numbers
+
+    return Reading(words, read)
+
+
+Moduli = Annotated[list[float], _values("pressure")]
+Lengths = Annotated[list[float], _values("length")]
+Factors = Annotated[list[float], _values(FACTOR)]
+
+PRESSURE_ERROR = 'a share such as "3 %", or a pressure such as "0.1 bar"'
+
+
+def pressure_error(value: Any, pressure: float) -> float:
+    """Return the relative error [-] that a share or a pressure [Pa] is of a nominal pressure.
+
+    Raises `ValueError` for what is neither, or not above zero.
+    """
+    relative = unit_of(value, "strain") == "%"
+    try:
+        error = parse_quantity(value, "strain" if relative else "pressure")
+    except ValueError as wrong:
+        raise ValueError(f"expected {PRESSURE_ERROR}") from wrong
+    if error <= 0.0:
+        raise ValueError("expected a value greater than zero")
+    return error if relative else error / pressure
+
+
+def _pressure_error(value: Any) -> Any:
+    """Accept what `pressure_error` does, as it is written: the pressure is in another table."""
+    pressure_error(value, 1.0)
+    return value
+
+
+class RangesTable(Table):
+    """What is known of a source: two ends, equally likely values, or a standard error."""
+
+    height_noise: Length | None = None
+    """Standard error of each measured height, independent of its neighbours; none by default."""
+    cleaning: Factors | None = None
+    """Change of height per step that is a spike; by default half to 3.3 times that of the case."""
+    bulk_modulus: Moduli | None = None
+    """Bulk modulus of the rubber; by default 1.5 times less to 1.5 times more."""
+    equilibrium_modulus: Moduli | None = None
+    """Modulus of the rubber after infinite time; not sampled by default."""
+    temperature: TemperatureDifference | None = None
+    """Standard error of the temperature before the contact; none by default."""
+    pressure: Annotated[Any, Reading(PRESSURE_ERROR, _pressure_error)] = None
+    """Standard error of the nominal pressure, a share of it or a pressure; none by default."""
+    load_time: Factors | None = None
+    """How long waves are loaded, over the time of the case; by default 0.5 to 2."""
+    cut_off: Lengths | None = None
+    """Where the roughness ends; by default an octave about that of the case."""
+    waves: Annotated[list[int], Field(min_length=1)] | None = None
+    """Numbers of sine waves, among those that follow the correlation; all of these by default."""
+
+
+class UncertaintyTable(Table):
+    """What `gripscale uncertainty` samples; its options go before what is stated here."""
+
+    samples: int = Field(default=200, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
+    """Samples of all that is not known at once."""
+    seed: int = Field(default=0, ge=0, le=MOST_SEED)
+    """Seed of the random numbers."""
+    model: Literal["chain", "direct", "both"] | None = None
+    """What predicts each sample; direct where profiles were measured by default, else the chain."""
+    without: list[SourceName] = Field(default=[])
+    """Sources that are taken to be known."""
+    ranges: RangesTable | None = None
+    """What is known of a source, in place of its default."""
+    block_length: Length | None = None
+    """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
+    tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
+    """Estimated relative error of each direct contact; that of its first full grid by default."""
+
+
+FigureKind = Literal["png", "pdf", "svg"]
+
+
+class OutputTable(Table):
+    """Where the results go."""
+
+    folder: str = "results"
+    """Folder of the results, from the case file."""
+    figures: list[FigureKind] = Field(default=["png"], min_length=1)
+    """What each figure is written as."""
+
+
+class MeasuredTable(Table):
+    """Friction measured elsewhere: a table of speed and friction, drawn over what is predicted."""
+
+    friction: str | None = None
+    """A table of speed and friction, drawn over what is predicted."""
+
+
+class FinerTable(Table):
+    """A finer measurement of a face of a stone: a line or a map, with its units."""
+
+    file: str | None = None
+    """A measured line."""
+    map: str | None = None
+    """A measured map, in place of file."""
+    x_unit: Annotated[str, unit_of_file("length")] | None = None
+    """Unit of distances where the file does not name it."""
+    z_unit: Annotated[str, unit_of_file("length")] | None = None
+    """Unit of heights where the file does not name it."""
+    direction: Literal["x", "y"] = "x"
+    """The way of sliding in a map."""
+    step: Annotated[Any, Reading(STEP, _step)] = None
+    """Distance between points, or those of a map along x and y, where the file has none."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> FinerTable:
+        if (self.file is None) == (self.map is None):
+            raise ValueError("expected either file (a measured line) or map (a measured map)")
+        return self
+
+
+class BelowMeasurementTable(Table):
+    """Roughness below the measured profiles; without down_to there is none."""
+
+    down_to: Length | None = None
+    """Shortest wavelength to continue the roughness to."""
+    hurst: float | None = Field(default=None, gt=0.0, le=1.0, allow_inf_nan=False)
+    """Hurst exponent of the continued roughness; by default it is that of the faces that touch."""
+    finer: FinerTable | None = None
+    """A finer measurement of a face, in place of the faces of the profiles."""
+    seed: int = Field(default=0, ge=0, le=MOST_SEED)
+    """Seed of the random waves."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> BelowMeasurementTable:
+        if self.hurst is not None and self.finer is not None:
+            raise ValueError("expected either hurst (a power law) or finer (a measurement)")
+        return self
+
+
+class CompareTable(Table):
+    """What `gripscale compare` puts beside the models: fits of a theory."""
+
+    layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
+    """Thickness of the strained layer over penetration depth, in Klueppel and Heinrich's theory."""
+    penetration_depth: Length | None = None
+    """Mean penetration depth in that theory."""
+
+    @model_validator(mode="after")
+    def _both_or_none(self) -> CompareTable:
+        if (self.layer_ratio is None) != (self.penetration_depth is None):
+            raise ValueError(
+                "expected layer_ratio and penetration_depth together: Klueppel and Heinrich's "
+                "theory needs both"
+            )
+        return self
+
+
+class Case(Table):
+    """A whole case file."""
+
+    surface: SurfaceTable
+    """What is slid on."""
+    rubber: RubberSource
+    """What slides."""
+    load: LoadTable
+    """How it is pressed and slid."""
+    solver: SolverTable = SolverTable()
+    """What solves one wave."""
+    chain: ChainOptions = ChainOptions()
+    """What goes on from wave to wave."""
+    conditions: ConditionsTable = ConditionsTable()
+    """Effects beside the rubber as measured."""
+    below_measurement: BelowMeasurementTable = BelowMeasurementTable()
+    """Roughness below the measurement."""
+    measured: MeasuredTable = MeasuredTable()
+    """Friction measured elsewhere."""
+    output: OutputTable = OutputTable()
+    """Where results go."""
+    compare: CompareTable = CompareTable()
+    """Further inputs of a comparison."""
+    uncertainty: UncertaintyTable = UncertaintyTable()
+    """What is not known of all that."""
+
+    @model_validator(mode="after")
+    def _energy_of_the_model(self) -> Case:
+        if self.solver.model == "half_plane" and self.rubber.strain_energy != NeoHookean():
+            raise ValueError(
+                "strain_energy of [rubber] has no effect at small strain; expected "
+                'model = "finite_strain" with it'
+            )
+        return self
+
+    def named_files(self) -> list[tuple[str, str]]:
+        """Return role and name of every file it names."""
+        friction = [self.measured.friction] if self.measured.friction is not None else []
+        finer = self.below_measurement.finer
+        faces = [name for name in ((finer and (finer.file, finer.map)) or ()) if name is not None]
+        roles = (
+            ("surface", self.surface.measured_files),
+            ("below_measurement", faces),
+            ("rubber", self.rubber.files),
+            ("conditions", self.conditions.files),
+            ("measured", friction),
+        )
+        return [(role, name) for role, names in roles for name in names]

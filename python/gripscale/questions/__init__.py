@@ -1,0 +1,5 @@
+"""Questions about a case, each a room: answer, comparison, uncertainty and so on."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,1 @@
+"""What is the answer: friction and contact area with their intervals."""

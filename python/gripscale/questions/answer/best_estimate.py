@@ -1,0 +1,308 @@
+"""A best estimate: the profile as measured, times what else is known to matter.
+
+    A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
+
+and friction likewise. The first factor is a ratio of two models on the same windows; where nobody
+has computed it, it is assumed to be 1 within what windows and blocks of other roads showed. The
+second is a law measured on synthetic surfaces (`gripscale.half_space.line_to_map`). The interval
+(`intervals`) is for the mean over the road with the roughness down to the
+cut-off, from the sampling of the road and the errors of grids and factors.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gripscale.experiment.design import Index, attributes, stack
+from gripscale.half_space import line_to_map, location
+from gripscale.model import BASIS, STATUS
+from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
+from gripscale.questions.answer.samples import (
+    QUANTITIES,
+    SMOOTH,
+    estimated_error,
+    ratio,
+    sampling_error,
+    usable,
+)
+from gripscale.questions.compare.ladder import DIRECT
+from gripscale.questions.vary.study import UPPER_HEIGHT
+
+
+class LogNormalValue(NamedTuple):
+    """A number and the standard deviation of its logarithm; NaN where that is not known."""
+
+    value: float
+    uncertainty: float = math.nan
+
+
+UNKNOWN_VALUE = LogNormalValue(math.nan)
+"""Of a factor nobody has computed."""
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A factor on contact fraction and friction, known from elsewhere."""
+
+    name: str
+    label: str
+    contact_fraction: LogNormalValue = UNKNOWN_VALUE
+    friction: LogNormalValue = UNKNOWN_VALUE
+    freedom: float = math.inf
+    """Degrees of freedom of its uncertainties."""
+
+
+class FactorOf(NamedTuple):
+    """A factor of the best estimate: its name, and which rungs it is the ratio of."""
+
+    name: str
+    label: str
+    over: str
+    under: str
+    assumed: Factor
+    """Where the rungs were not solved."""
+
+
+FINITE_STRAIN = FactorOf(
+    "finite_strain",
+    "finite strain",
+    "windows_finite_strain",
+    "windows_half_plane",
+    Factor(
+        "finite_strain",
+        "finite strain, assumed",
+        LogNormalValue(1.0, 0.03),
+        LogNormalValue(1.0, 0.05),
+    ),
+)
+
+
+@dataclass(frozen=True)
+class IsotropicSurface:
+    """The factor from measured lines to the isotropic surface they lie on."""
+
+    name: ClassVar[str] = "isotropic_surface"
+    label: ClassVar[str] = "step from lines to a surface"
+
+    upper_height: float
+    """Of the lines, see `gripscale.half_space.line_to_map`."""
+
+
+class SampledErrors(NamedTuple):
+    """Errors of a best estimate that samples of its inputs show."""
+
+    errors: Mapping[str, Sequence[LogError]]
+    """Of each estimated quantity."""
+    of_road: bool
+    """Whether they hold the sampling of the road, which then counts here and nowhere else."""
+
+
+SHARES = ("steep_share", "missing_share")
+"""What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
+
+AnyFactor = FactorOf | IsotropicSurface | Factor
+
+ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
+"""What is estimated, and of which number of the samples its factors are ratios: of the two
+frictions the one that a coarse grid changes least."""
+
+
+def best_estimate(
+    samples: xr.Dataset,
+    supplied: Sequence[Factor] = (),
+    *,
+    upper_height: float | None = None,
+    sampled: SampledErrors | None = None,
+) -> xr.Dataset:
+    """Return the best estimate of the solved rungs.
+
+    `upper_height` is that of measured lines (`gripscale.half_space.line_to_map`); None for a map.
+    `sampled` adds what is not known of the inputs to the interval.
+
+    `best_contact_fraction` and `best_friction` with their relative standard `_uncertainty` and the
+    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
+    interval where the profiles are too short to tell how well they represent the road
+    (`_sampling_error`, the relative standard error; `_grid_error` is that of the grid).
+    `best_steep_share`, `best_missing_share`, and over `slope` `best_friction_by_slope`,
+    `best_load_by_slope`, `best_contact_by_slope` (`gripscale.half_space.shares_by_slope`). Over
+    `factor` the `_factor` on each with its `_factor_uncertainty`, NaN where it is not included, and
+    `factor_label`. No factors without the rung of the direct contact. A `supplied` factor with the
+    name of ours replaces it.
+    """
+    has_direct = DIRECT in samples["rung"].values
+    ours: list[AnyFactor] = [FINITE_STRAIN]
+    if upper_height is not None:
+        ours.append(IsotropicSurface(upper_height))
+    factors = {factor.name: factor for factor in (*ours, *supplied)} if has_direct else {}
+    status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
+    unknown = xr.full_like(status, math.nan, dtype=float)
+    solved = [_numbers(factor, samples, unknown) for factor in factors.values()]
+    labels = [label for label, _ in solved]
+    data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
+    direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
+    for share in SHARES:
+        data[f"best_{share}"] = unknown
+        if direct is not None and share in direct:
+            data[f"best_{share}"] = usable(direct, share).mean("sample")
+    for share in location.SHARES:
+        if direct is not None and share in direct:
+            data[f"best_{share}"] = usable(direct, share).mean("sample")
+    for name in ESTIMATED:
+        mean, road, grid = unknown, LogError(unknown, unknown), unknown
+        if direct is not None:
+            mean, road = usable(direct, name).mean("sample"), sampling_error(direct, name)
+            # even within the estimated error, and the same for all profiles
+            grid = estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
+        errors = [road, _certain(grid)]
+        if sampled is not None:
+            errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
+        data[f"best_{name}_sampling_error"] = road.sigma
+        data[f"best_{name}_grid_error"] = grid
+        value = uncertainty = unknown.expand_dims(factor=0)
+        if solved:
+            value = xr.concat([numbers[name][0] for _, numbers in solved], "factor")
+            every = [numbers[name][1] for _, numbers in solved]
+            uncertainty = xr.concat([error.sigma for error in every], "factor")
+            errors += [LogError(error.sigma.fillna(0.0), error.freedom) for error in every]
+        mean, error = mean * value.prod("factor"), combined(errors)
+        data[f"best_{name}"] = mean
+        data[f"best_{name}_uncertainty"] = error.sigma.where(mean.notnull())
+        data[f"best_{name}_half_width"] = half_width(error).where(mean.notnull())
+        data[f"best_{name}_factor"] = value
+        data[f"best_{name}_factor_uncertainty"] = uncertainty
+    return data
+
+
+def _certain(sigma: xr.DataArray) -> LogError:
+    """Return an error that is itself certain."""
+    return LogError(sigma, xr.full_like(sigma, math.inf))
+
+
+def _of_surface(
+    factor: IsotropicSurface, samples: xr.Dataset
+) -> dict[str, tuple[xr.DataArray, LogError]]:
+    """Return the step from lines to their surface at the contact area of the lines."""
+    lines = usable(samples.sel(rung=DIRECT, drop=True), "contact_fraction").mean("sample")
+    freedom = xr.full_like(lines, line_to_map.FREEDOM)
+    laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio
+    numbers = {}
+    for name, law in zip(ESTIMATED, laws, strict=True):
+        surface = law(factor.upper_height, lines.values)
+        sigma = lines.copy(data=surface.uncertainty)
+        numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
+    return numbers
+
+
+def _numbers(
+    factor: AnyFactor, samples: xr.Dataset, unknown: xr.DataArray
+) -> tuple[str, dict[str, tuple[xr.DataArray, LogError]]]:
+    """Return the label of a factor, and the factor on each quantity with its error.
+
+    NaN where it is not known of all quantities: then it is not included. Of a ratio of rungs the
+    error is the scatter of their samples and, evenly, as much again as it changes, for what the
+    samples leave out.
+    """
+    numbers: dict[str, tuple[xr.DataArray, LogError]] = {}
+    if isinstance(factor, IsotropicSurface):
+        numbers = _of_surface(factor, samples)
+    if isinstance(factor, FactorOf):
+        if {factor.over, factor.under} <= set(samples["rung"].values.tolist()):
+            over, under = (
+                samples.sel(rung=rung, drop=True) for rung in (factor.over, factor.under)
+            )
+            for name, measure in ESTIMATED.items():
+                value, error = ratio(over, under, measure)
+                changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
+                numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
+        if any(bool(value.isnull().any()) for value, _ in numbers.values()) or not numbers:
+            factor, numbers = factor.assumed, {}
+    if isinstance(factor, Factor):
+        for name in ESTIMATED:
+            number: LogNormalValue = getattr(factor, name)
+            sigma = xr.full_like(unknown, number.uncertainty)
+            error = LogError(sigma, xr.full_like(unknown, factor.freedom))
+            numbers[name] = xr.full_like(unknown, number.value), error
+    there = np.logical_and.reduce([value.notnull() for value, _ in numbers.values()])
+    return factor.label, {
+        name: (value.where(there), LogError(error.sigma.where(there), error.freedom))
+        for name, (value, error) in numbers.items()
+    }
+
+
+WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
+OF_A_POINT = {
+    "": "best estimate of the {}",
+    "_low": "low end of the 90 % interval of the {}",
+    "_high": "high end of the 90 % interval of the {}",
+    "_half_width": "relative half width of the 90 % interval of the {}",
+    "_sampling_error": "relative standard error of the {} from the sampling of the road",
+    "_factor": "factor on the {} of the direct contact, NaN if not included",
+    "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
+}
+"""What is kept of the best estimate of a prediction: end of its name, and meaning."""
+
+
+def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
+    """Return predictions of the direct contact with the best estimate of each.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        A study (`gripscale.questions.Study`); one of another model is returned as it is.
+
+    Returns
+    -------
+    xarray.Dataset
+        With `best_contact_fraction` and `best_friction` over the axes of the study, the ends `_low`
+        and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of rubber
+        at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
+        result, or the surface is too short for an interval.
+    """
+    if UPPER_HEIGHT not in data:
+        return data
+    data = data.drop_dims("factor", errors="ignore")
+    for prefix in ("", "static_"):
+        total = data.get(f"{prefix}total_contact_fraction")
+        if total is None:
+            continue
+        parts: dict[Index, xr.Dataset] = {}
+        for index in np.ndindex(total.shape):
+            row = data.isel(dict(zip(total.dims, index, strict=True)))
+            parts[index] = _of_prediction(row, prefix)
+        sizes = {str(dim): size for dim, size in total.sizes.items()}
+        stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
+        data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
+        label = parts[(0,) * total.ndim]["factor_label"]
+        data["factor_label"] = label.assign_attrs(attributes("factors of the best estimate"))
+    return data
+
+
+def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
+    """Return the best estimate of one prediction of a study, a sample of all its profiles."""
+    names = [*QUANTITIES, *(f"{name}_error" for name in SMOOTH)]
+    names += [name.removeprefix("total_") for name in BASIS]
+    numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
+    if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
+        numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
+    sample = xr.Dataset({name: (("rung", "sample"), [[value]]) for name, value in numbers.items()})
+    sample[STATUS] = ("rung", "sample"), np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object)
+    sample = sample.assign_coords(
+        rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
+    )
+    height = float(row[UPPER_HEIGHT])
+    best = best_estimate(sample, upper_height=None if math.isnan(height) else height)
+    kept = best[["factor_label"]]
+    for name in ("contact_fraction",) if prefix else ESTIMATED:
+        value = best[f"best_{name}"]
+        ends = interval_ends(value, best[f"best_{name}_half_width"])
+        best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
+        for end, text in OF_A_POINT.items():
+            part = best[f"best_{name}{end}"].reset_coords(drop=True)
+            kept[f"best_{name}{end}"] = part.assign_attrs(attributes(text.format(WORDS[name])))
+    return kept

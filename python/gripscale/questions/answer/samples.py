@@ -1,0 +1,353 @@
+"""Samples of a model: what is kept of each answer, their means, scatter and errors.
+
+Samples (profiles, seeds of random phases, windows, maps) are the dimension `sample` of a Dataset;
+only those whose `prediction_status` is "converged" count. Relative uncertainties are standard
+deviations of logarithms, which add in squares in products of independent log-normal numbers (J.
+Aitchison & J. A. C. Brown, The Lognormal Distribution (1957), sec. 2.3):
+
+    y = y_1^(+-1) y_2^(+-1) ...,      sigma^2 = sigma_1^2 + sigma_2^2 + ...
+
+A number between y exp(-sigma) and y exp(sigma) is within one standard uncertainty.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.conditions.conditions import Conditions
+from gripscale.core.arrays import Array, Mask
+from gripscale.experiment.design import CONVERGED
+from gripscale.experiment.task import Task
+from gripscale.half_space import location
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    BASIS,
+    CUT_OFF_EXPONENTS,
+    NOT_TOLD,
+    OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
+    WHY_NO_EXPONENT,
+    cut_off_exponents_of,
+    error_of_total,
+    extrapolation_of,
+    status_words,
+)
+from gripscale.questions.answer.intervals import LogError
+
+QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
+"""Totals every sample has, as `gripscale.model.TOTALS` without `total_`."""
+
+ROUNDING = 1e-6
+"""Relative difference below which two wavelengths are the same."""
+
+SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
+"""Contact fraction and friction of a smooth surface."""
+
+
+def sample_numbers(
+    answer: xr.Dataset, task: Task, conditions: Conditions | None = None
+) -> xr.Dataset:
+    """Return totals, their estimated errors, and curves by wavelength, of the answer of a task.
+
+    Totals are named without `total_`; `curve_contact_fraction` and `curve_friction` over `curve`
+    are those of all waves not shorter than `curve_wavelength`. At rest friction is zero: what
+    rounding leaves of it counts for nothing. Where the model does not know the area term of
+    `conditions`, it is that of its contact area at the temperature before the contact.
+    """
+    rest = float(answer["nominal_speed"]) == 0.0
+    numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
+    numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
+    for name in BASIS:
+        numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
+    for share in location.SHARES:
+        if f"total_{share}" in answer:
+            numbers[share] = answer[f"total_{share}"]
+    if rest:
+        numbers |= {name: 0.0 * numbers[name] for name in QUANTITIES if "friction" in name}
+        numbers["friction_error"] = math.nan
+    if ADHESIVE_FRICTION in answer or conditions is None:
+        numbers["adhesive_friction"] = float(answer.get(ADHESIVE_FRICTION, math.nan))
+    else:
+        load, kelvin = task.load, task.rubber.reference_temperature
+        numbers["adhesive_friction"] = conditions.adhesive_friction(
+            numbers["contact_fraction"], load.pressure, load.speed, kelvin
+        )
+    beyond, exponents = extrapolation_of(answer), cut_off_exponents_of(answer)
+    numbers |= {name: getattr(beyond, part) for name, (part, _) in OUTSIDE_BAND.items()}
+    numbers |= {name: getattr(exponents, part) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
+    numbers[WHY_NO_EXPONENT] = exponents.why_not
+    numbers[STATUS] = str(answer[STATUS].item())
+    numbers[STATUS_WORD] = str(status_words(answer).item())
+    return xr.Dataset(numbers | _curve(answer))
+
+
+def _curve(answer: xr.Dataset) -> dict[str, Any]:
+    """Return area and friction down to each wavelength; nothing where the model has none.
+
+    The chain adds a wave at a time, in steps. The direct contact splits its friction by octave
+    (its area is that of another contact, without the shorter waves), the theories integrate: both
+    are interpolated in the logarithm of the wavelength.
+    """
+    by_octave = "octave_running_friction" in answer
+    if by_octave:
+        names = ("contact_fraction_without_shorter", "octave_running_friction")
+        weight = answer["weight"].values
+        parts = (answer[name].transpose("profile", ...).values for name in names)
+        area, friction = (weight @ part for part in parts)
+    elif "running_friction" in answer:
+        friction = answer["running_friction"].values
+        area = np.full(friction.size, np.nan)
+        if "running_contact_fraction" in answer:
+            area = answer["running_contact_fraction"].values
+    else:
+        return {}
+    return {
+        "curve_wavelength": ("curve", answer["wavelength"].values),
+        "curve_contact_fraction": ("curve", area),
+        "curve_friction": ("curve", friction),
+        "curve_stepped": float("amplitude" in answer and not by_octave),
+    }
+
+
+def curve_at(
+    name: str, at: Array, wavelength: Array, values: Array, *, stepped: bool = False
+) -> Array:
+    """Return `contact_fraction` or `friction` of all waves not shorter than `at` [m].
+
+    Above the longest wave nothing of the surface counts yet; below the shortest no more is added;
+    NaN where the model has the wave and not the number. Of a curve of falling `wavelength` [m], NaN
+    beyond its end, and `values` [-], NaN where unknown; if `stepped` each wavelength is one wave,
+    and nothing lies between.
+    """
+    finite = np.isfinite(values) & np.isfinite(wavelength)
+    if not finite.any():
+        return np.full(at.size, np.nan)
+    first = wavelength[0] * (1.0 + ROUNDING)
+    waves, values = wavelength[finite], values[finite]
+    if stepped:
+        count = (waves[None, :] >= at[:, None] * (1.0 - ROUNDING)).sum(axis=1)
+        return np.asarray(np.append(SMOOTH[name], values)[count])
+    between = np.interp(-np.log(at), -np.log(waves), values)
+    between = np.where(at > waves[0] * (1.0 + ROUNDING), np.nan, between)
+    return np.where(at > first, SMOOTH[name], between)
+
+
+def octaves(longest: float, shortest: float, end: float) -> Array:
+    """Return the lower ends of octaves [m], falling, that hold both waves, `end` among them.
+
+    Empty where there are no waves (NaN).
+    """
+    if math.isnan(longest):
+        return np.empty(0)
+    first = np.floor(np.log2(longest / end) + ROUNDING)
+    last = np.floor(np.log2(shortest / end) + ROUNDING)
+    return np.asarray(end * 2.0 ** np.arange(first, last - 1.0, -1.0))
+
+
+def running(samples: xr.Dataset, name: str, wavelength: Array) -> xr.DataArray:
+    """Return the mean over the samples down to each wavelength [m].
+
+    NaN where a sample with a curve does not have it there.
+    """
+    dims = samples["prediction_status"].dims
+    values = np.full((*samples["prediction_status"].shape, wavelength.size), np.nan)
+    there = converged(samples)
+    if "curve_wavelength" in samples:
+        there = there & samples["curve_wavelength"].notnull().any("curve")
+        parts = samples[["curve_wavelength", f"curve_{name}"]].transpose(*dims, "curve")
+        for at in zip(*np.nonzero(there.values), strict=True):
+            curve = (parts[part].values[at] for part in ("curve_wavelength", f"curve_{name}"))
+            stepped = bool(samples["curve_stepped"].values[at])
+            values[at] = curve_at(name, wavelength, *curve, stepped=stepped)
+    curves = xr.DataArray(values, dims=(*dims, "wavelength"))
+    unknown = (curves.isnull() & there).any("sample")
+    return curves.where(there).mean("sample").where(~unknown)
+
+
+def converged(samples: xr.Dataset) -> xr.DataArray:
+    """Return which samples may be used."""
+    return samples["prediction_status"] == CONVERGED
+
+
+def usable(samples: xr.Dataset, name: str) -> xr.DataArray:
+    """Return a number of the samples, NaN where they may not be used."""
+    return samples[name].where(converged(samples))
+
+
+def spread(values: xr.DataArray) -> xr.DataArray:
+    """Return the standard deviation over the samples; NaN for fewer than two."""
+    count = values.count("sample")
+    squares = ((values - values.mean("sample")) ** 2).sum("sample")
+    return (squares / (count - 1).where(count > 1)) ** 0.5
+
+
+def log_error_of_mean(values: xr.DataArray) -> xr.DataArray:
+    """Return the standard deviation of the logarithm of the mean over `sample`, by their scatter.
+
+    NaN for fewer than two values and for values not above zero.
+    """
+    positive = ((values > 0.0) | values.isnull()).all("sample")
+    error = spread(values) / values.count("sample") ** 0.5 / values.mean("sample")
+    return error.where(positive)
+
+
+def in_quadrature(*parts: xr.DataArray) -> xr.DataArray:
+    """Return the root of the sum of squares of what is not NaN; NaN if everything is."""
+    squares = xr.concat([part**2 for part in parts], "part")
+    return squares.sum("part", min_count=1) ** 0.5
+
+
+def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the mean error of the samples as their models estimate it, relative."""
+    error = usable(samples, f"{name.removesuffix('_from_dissipation')}_error").mean("sample")
+    mean = usable(samples, name).mean("sample")
+    return error / abs(mean).where(mean != 0.0)
+
+
+def sampling_error(samples: xr.Dataset, name: str) -> LogError:
+    """Return how well the mean of a number stands for its road, with its degrees of freedom.
+
+    From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
+    else from the scatter of the samples, of several subjects (profiles) from that of their means,
+    because samples of one of them say nothing of the others. `samples` is of one rung, with the
+    coordinate `subject` over `sample`; NaN where neither is known.
+    """
+    values, there = usable(samples, name), converged(samples)
+    of_piece = f"{name.removesuffix('_from_dissipation')}_sampling_error"
+    if of_piece in samples and bool((samples[of_piece].notnull() | ~there).all() and there.any()):
+        total = values.sum("sample")
+        error = ((values * usable(samples, of_piece)) ** 2).sum("sample") ** 0.5
+        return LogError(error / total.where(total > 0.0), usable(samples, "freedom").sum("sample"))
+    means = [
+        values.isel(sample=(samples["subject"] == subject).values).mean("sample")
+        for subject in np.unique(samples["subject"].values[_present(samples)])
+    ]
+    error, count = log_error_of_mean(values), values.count("sample")
+    if len(means) > 1:
+        by_subject = xr.concat(means, "sample")
+        several = by_subject.count("sample") > 1
+        error = log_error_of_mean(by_subject).where(several, error)
+        count = by_subject.count("sample").where(several, count)
+    return LogError(error, count - 1.0)
+
+
+def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the relative standard uncertainty of a mean: `sampling_error` and estimated errors."""
+    return in_quadrature(sampling_error(samples, name).sigma, estimated_error(samples, name))
+
+
+def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
+    """Return the ratio of the means of two rungs, and its relative standard error.
+
+    Where both have one sample each of the same subjects, only subjects that both have count, and
+    the error is from the scatter of their ratios; else from the scatter of both. The truth is taken
+    to lie evenly within the errors that the models estimate.
+    """
+    if not paired(over, under):
+        means = [usable(samples, name).mean("sample") for samples in (over, under)]
+        uncertainties = (relative_uncertainty(samples, name) for samples in (over, under))
+        first, second = (sampling_error(samples, name).freedom for samples in (over, under))
+        fewest = first.where(first < second, second)
+        value = means[0] / means[1].where(means[1] != 0.0)
+        return value, LogError(in_quadrature(*uncertainties), fewest)
+    both = converged(over) & converged(under)
+    upper, lower = over[name].where(both), under[name].where(both)
+    mean, scatter = lower.mean("sample"), pair_scatter(over, under, name)
+    errors = (
+        estimated_error(samples, name).where(both.any("sample")) / math.sqrt(3.0)
+        for samples in (over, under)
+    )
+    sigma = in_quadrature(scatter.sigma, *errors)
+    return upper.mean("sample") / mean.where(mean != 0.0), LogError(sigma, scatter.freedom)
+
+
+def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
+    """Return what the scatter of the ratios of the same subjects says of the ratio of the means.
+
+    Only subjects that converged in both count; NaN for fewer than two, or values not above zero.
+    """
+    both = converged(over) & converged(under)
+    upper, lower = over[name].where(both), under[name].where(both)
+    scatter = log_error_of_mean(upper / lower).where(((lower > 0.0) | ~both).all("sample"))
+    return LogError(scatter, both.sum("sample") - 1.0)
+
+
+def paired(first: xr.Dataset, second: xr.Dataset) -> bool:
+    """Return whether two rungs have one sample each of the same two subjects or more."""
+    subjects, others = (
+        samples["subject"].values[_present(samples)].tolist() for samples in (first, second)
+    )
+    return len(subjects) > 1 and subjects == others and len(set(subjects)) == len(subjects)
+
+
+def _present(samples: xr.Dataset) -> Mask:
+    """Return which places along `sample` hold one, at whatever load."""
+    there = samples["prediction_status"] != ""
+    return np.asarray(there.any([dim for dim in there.dims if dim != "sample"]).values)
+
+
+def outside_band(samples: xr.Dataset) -> xr.Dataset:
+    """Return what of the mean friction rests on the rubber beyond its measured frequencies."""
+    share, below, above = (usable(samples, name) for name in OUTSIDE_BAND)
+    weight, there = abs(usable(samples, "friction")), converged(samples)
+    total = _sum(weight, there)
+    # a sample without friction has no share, and adds none
+    mean = _sum(weight * share.where(weight > 0.0, 0.0), there) / total.where(total > 0.0)
+    mean = mean.where(((share != 0.0) & there).any("sample"), 0.0)
+    parts = (mean, below.max("sample"), above.max("sample"))
+    return xr.Dataset(dict(zip(OUTSIDE_BAND, parts, strict=True))).where(there.any("sample"))
+
+
+def _sum(values: xr.DataArray, there: xr.DataArray) -> xr.DataArray:
+    """Return the sum over the samples that may be used, NaN if one of them is."""
+    return values.where(there, 0.0).sum("sample", skipna=False)
+
+
+def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
+    """Return how the means change with the smallest wavelength.
+
+    d ln(sum x_i) = sum x_i d ln x_i / sum x_i.
+    """
+    there = converged(samples)
+    data: dict[str, Any] = {}
+    for name, (quantity, _) in CUT_OFF_EXPONENTS.items():
+        weight = usable(samples, quantity)
+        total = _sum(weight, there)
+        mean = _sum(weight * samples[name], there) / total.where(total != 0.0)
+        data[name] = mean.where(there.any("sample"))
+    texts = samples[WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
+    first = texts.isel(sample=0).copy(deep=True)
+    for at in np.ndindex(first.shape):
+        first.values[at] = next(filter(None, texts.values[at]), "")
+    data[WHY_NO_EXPONENT] = first.where(there.any("sample"), NOT_TOLD.why_not)
+    return xr.Dataset(data)
+
+
+def status(samples: xr.Dataset) -> xr.DataArray:
+    """Return "converged", or how many samples did not and what the first of them says."""
+    texts = samples[STATUS].transpose(..., "sample")
+    words = np.empty(texts.shape[:-1], dtype=object)
+    for at in np.ndindex(words.shape):
+        present = [text for text in texts.values[at] if text]
+        bad = [text for text in present if text != CONVERGED]
+        words[at] = next(iter(bad), CONVERGED)
+        if bad and len(present) > 1:
+            words[at] = f"{len(bad)} of {len(present)} samples failed: {bad[0]}"
+    return xr.DataArray(words, dims=texts.dims[:-1])
+
+
+def status_word(samples: xr.Dataset) -> xr.DataArray:
+    """Return the word of the status of the first sample that did not converge, or "converged"."""
+    texts = samples[STATUS].transpose(..., "sample")
+    of_samples = status_words(samples).transpose(..., "sample")
+    words = np.empty(texts.shape[:-1], dtype=object)
+    for at in np.ndindex(words.shape):
+        pairs = zip(texts.values[at], of_samples.values[at], strict=True)
+        bad = (str(word) for text, word in pairs if text not in ("", CONVERGED))
+        words[at] = next(bad, CONVERGED)
+    return xr.DataArray(words, dims=texts.dims[:-1])

@@ -1,0 +1,1 @@
+"""Does the answer agree with measured friction."""

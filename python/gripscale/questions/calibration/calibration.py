@@ -1,0 +1,432 @@
+"""Fitting the area term to measured friction; the hysteresis is never fitted.
+
+mu_measured = mu_hysteresis(v, T, p) + tau_f(v, T; theta) A_r/(A_0 p)
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy
+import xarray as xr
+
+from gripscale.case_file.read import CaseFile
+from gripscale.case_file.results import CaseResults
+from gripscale.case_file.run import prepare_case
+from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
+from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.experiment.design import solve_design
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.half_space.model import DirectContact
+from gripscale.model import STATUS, STATUS_WORD
+from gripscale.questions.calibration import calibration_law as fit
+from gripscale.questions.calibration import profile_likelihood as likelihood
+from gripscale.questions.calibration.measured_comparison import (
+    Predicted,
+    friction_of_case,
+    in_spread,
+    points_of,
+    predicted_of,
+)
+from gripscale.questions.vary.inputs import default_model
+from gripscale.rubber.extrapolation import require_measured
+from gripscale.wave.result import labelled
+
+FACTORS_SHOWN = 3.0
+"""How far the profile of an end that is not determined is kept, in the numbers of the search."""
+
+NO_INFLUENCE = 1e-12
+"""Relative size of a singular value below which its direction changes nothing."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A fitted parameter, in the unit of the law."""
+
+    name: str
+    unit: str
+    value: float
+    standard_error: float
+    """From the Jacobian: what a parabola would say."""
+    low: float
+    """Lower end of the interval by profile likelihood; NaN where the data do not determine it."""
+    high: float
+    """Upper end; NaN likewise."""
+
+    @property
+    def determined(self) -> bool:
+        """Whether both ends are."""
+        return math.isfinite(self.low) and math.isfinite(self.high)
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """A law of the area term fitted to measured friction beside a predicted hysteresis."""
+
+    measured: MeasuredFriction
+    predicted: Predicted
+    """The hysteresis and the contact at the measured points, which are not fitted."""
+    problem: fit.Problem
+    """What was fitted: the points that have an answer, and the law with its free parameters."""
+    optimum: fit.Optimum
+    """The least sum of squares."""
+    ends: tuple[tuple[float, float], ...]
+    """Of each interval in the numbers of the search; infinite where not determined."""
+    held_out: tuple[likelihood.HeldOut, ...] = ()
+    """What the law says of points it was not fitted to, where asked for."""
+    held_out_by: str = ""
+    """Whether a temperature or a decade of speed was left out; empty for neither."""
+
+    @property
+    def law(self) -> InterfacialShearStress:
+        """The law with the best parameters."""
+        return self.problem.family.law(self.optimum.theta)
+
+    @property
+    def spread_known(self) -> bool:
+        """Whether the spread was stated, and not taken from the residuals."""
+        return self.problem.points.spread is not None
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom: points less parameters."""
+        return self.problem.points.speed.size - len(self.problem.family.free)
+
+    @property
+    def scatter(self) -> float:
+        """Root of the sum of squares over the degrees of freedom.
+
+        In units of the spread where it is stated, else the spread the residuals imply [-].
+        """
+        return math.sqrt(self.optimum.sum_of_squares / self.freedom)
+
+    @property
+    def chance(self) -> float:
+        """Probability of a sum of squares so large if law, hysteresis and spreads were right.
+
+        NaN where no spread is stated.
+        """
+        if not self.spread_known:
+            return math.nan
+        return float(scipy.special.chdtrc(self.freedom, self.optimum.sum_of_squares))
+
+    @property
+    def threshold(self) -> float:
+        """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
+        return likelihood.threshold_of(self.optimum, spread_known=self.spread_known) / self._unit
+
+    @property
+    def estimates(self) -> list[Estimate]:
+        """The free parameters."""
+        estimates = []
+        for at, parameter in enumerate(self.problem.family.free):
+            value = parameter.value(float(self.optimum.theta[at]))
+            error = float(self._errors[at]) * (value if parameter.log else 1.0)
+            low, high = (
+                parameter.value(end) if math.isfinite(end) else math.nan for end in self.ends[at]
+            )
+            estimates.append(Estimate(parameter.name, parameter.unit, value, error, low, high))
+        return estimates
+
+    @property
+    def correlation(self) -> Array:
+        """Of the estimates, shape (free, free), of logarithms where they are positive."""
+        return np.asarray(self._covariance / np.outer(self._errors, self._errors))
+
+    @property
+    def area_term(self) -> Array:
+        """Friction of the area term at the measured points [-], NaN without an answer."""
+        return self.predicted.area_term(self.law, self.measured.speed)
+
+    @property
+    def friction(self) -> Array:
+        """Hysteresis and area term at the measured points [-]."""
+        return self.predicted.friction + self.area_term
+
+    @property
+    def friction_error(self) -> Array:
+        """Standard error of that by the fit [-]: the root of the diagonal of the hat matrix."""
+        directions, sizes, _ = np.linalg.svd(self.optimum.jacobian, full_matrices=False)
+        felt = directions[:, sizes > NO_INFLUENCE * sizes.max()]
+        share = np.sqrt((felt**2).sum(axis=1))
+        spread = self.problem.points.spread
+        error = np.full(self.measured.speed.size, np.nan)
+        error[self.predicted.has_answer] = share * (self.scatter if spread is None else spread)
+        return error
+
+    @property
+    def band(self) -> Array:
+        """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
+        tail = 0.5 * (1.0 + likelihood.LEVEL)
+        return self.friction_error * float(
+            scipy.special.ndtri(tail)
+            if self.spread_known
+            else scipy.special.stdtrit(self.freedom, tail)
+        )
+
+    @cached_property
+    def profiles(self) -> dict[str, tuple[Array, Array]]:
+        """Values of each free parameter and how much the sum of squares exceeds its least there.
+
+        In units of what one standard error adds: over the interval and a little beyond, and a
+        factor of 20 where an end is not determined.
+        """
+        profiles = {}
+        for at, parameter in enumerate(self.problem.family.free):
+            centre, limits = float(self.optimum.theta[at]), parameter.limits
+            ends = []
+            for way, end in zip((-1, 1), self.ends[at], strict=True):
+                away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
+                ends.append(float(np.clip(centre + way * away, *limits)))
+            values, excess = likelihood.Profile(self.problem, self.optimum, at).curve(*ends)
+            in_units = np.array([parameter.value(float(value)) for value in values])
+            profiles[parameter.name] = in_units, excess / self._unit
+        return profiles
+
+    @property
+    def _unit(self) -> float:
+        """Sum of squares that one standard error adds."""
+        return 1.0 if self.spread_known else self.scatter**2
+
+    @property
+    def _covariance(self) -> Array:
+        return self._unit * likelihood.covariance(self.optimum.jacobian)
+
+    @property
+    def _errors(self) -> Array:
+        return np.sqrt(np.diag(self._covariance))
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return the calibration as a labelled Dataset.
+
+        Over `measurement`: what was measured, the hysteresis, the area term, their sum and its
+        band. Over `parameter`: estimate, standard error, interval (NaN where not determined),
+        profile. Over `left_out`: the errors of the law fitted to the other points.
+        """
+        return calibration_dataset(self)
+
+
+def calibrate(
+    measured: MeasuredFriction,
+    predicted: Predicted,
+    *,
+    law: str = "gaussian",
+    fixed: Mapping[str, float] | None = None,
+    hold_out: str | None = None,
+) -> Calibration:
+    """Fit a law of the interfacial shear stress to measured friction.
+
+    Weighted with the spread of the measurement; without any, all points weigh the same and the
+    scatter of the residuals is taken for it.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        What was measured.
+    predicted : Predicted
+        The hysteresis and the real contact area at its points, in their order, see
+        `predictions_at`.
+    law : str
+        "constant", "gaussian" or "le_gal_klueppel", see `gripscale.conditions`.
+    fixed : mapping of str to float, optional
+        Parameters of the law that are known [SI units, eV], by name.
+    hold_out : str, optional
+        "temperature" or "speed": predict each temperature, or each decade of speed, from the
+        others.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, points are too few for the law, or the hysteresis alone exceeds
+        what was measured at more than half of the points.
+    """
+    checks.instance("measured", measured, MeasuredFriction)
+    checks.instance("predicted", predicted, Predicted)
+    held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
+    points = fit.points_of(measured, predicted)
+    problem = fit.Problem(points, fit.family_of(law, points, held))
+    groups = None
+    if hold_out is not None:
+        groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
+        groups = groups[predicted.has_answer]
+
+    def intervals(optimum: fit.Optimum) -> list[tuple[float, float]]:
+        threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
+        profiles = [
+            likelihood.Profile(problem, optimum, at) for at in range(len(problem.family.free))
+        ]
+        return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
+
+    optimum, ends = likelihood.settled(problem, fit.best(problem), intervals)
+    groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
+    return Calibration(
+        measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
+    )
+
+
+MODELS = ("direct", "chain")
+"""Models whose hysteresis an area term can be put beside."""
+
+
+def calibrate_case(
+    case: CaseResults | CaseFile | str | Path,
+    *,
+    model: str | None = None,
+    law: str = "gaussian",
+    fixed: Mapping[str, float] | None = None,
+    hold_out: str | None = None,
+    measured: MeasuredFriction | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Calibration:
+    """Predict the hysteresis of a case at every measured point and fit an area term beside it.
+
+    Parameters
+    ----------
+    case : path, CaseFile or CaseResults
+        The case; `prepare_case` gives one with its inputs prepared. An area term of its own has no
+        part in it.
+    model : str, optional
+        "direct" or "chain": what predicts the hysteresis and the real contact area; by default
+        `gripscale.questions.vary.inputs.default_model` of the case.
+    law, fixed, hold_out
+        As for `calibrate`.
+    measured : MeasuredFriction, optional
+        What was measured; what `[measured] friction` of the case names by default.
+    folder : path, optional
+        Keeps each answer as soon as it is there, in `predictions`; what it has is not solved again.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Raises
+    ------
+    InputError, FileError
+        As `calibrate` and the models do; if the case names no measured friction; if it refuses
+        extrapolation and a point excites the rubber beyond its measured frequencies.
+    """
+    if model is not None:
+        checks.one_of("model", model, MODELS)
+    fit.check_names(law, fixed or ())
+    results = case if isinstance(case, CaseResults) else prepare_case(case)
+    model = model or default_model(results.file)
+    friction = measured or measured_of(results.file)
+    fit.refuse_unfit(friction, law, fixed or {})
+    if hold_out is not None:
+        likelihood.groups_of(hold_out, friction.speed, friction.temperature)
+    rubber, surface = results.rubber.rubber, results.surface
+    if results.file.case.rubber.extrapolate == "refuse":
+        for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
+            warm = results.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
+            require_measured(warm, surface.sines.wavelength, float(speed))
+    predicting = results.chain if model == "chain" else DirectContact(conditions=results.conditions)
+    with bench_in(folder, workers, client, on_task) as bench:
+        design = points_of(friction, predicting, rubber, surface, results.load)
+        predicted = predicted_of(solve_design(design, bench))
+    return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+
+
+def measured_of(file: CaseFile) -> MeasuredFriction:
+    """Return the friction a case names; raise `InputError` if it names none."""
+    measured = friction_of_case(file)
+    if measured is None:
+        raise InputError(
+            f"{file.path}: [measured] friction must name a table of measured friction; got none"
+        )
+    return measured
+
+
+SOURCE = "gripscale calibrate"
+
+ESTIMATE = {
+    "estimate": "best value of the parameter, in its unit",
+    "standard_error": "its standard error by the Jacobian",
+    "low": "lower end of its interval by profile likelihood, NaN where not determined",
+    "high": "upper end of it, NaN where not determined",
+}
+"""Numbers of a parameter, with their meaning."""
+
+HELD_OUT = {
+    "points": "measured points left out",
+    "rms_inside": "rms residual of the points that were fitted",
+    "rms_outside": "rms error at the points left out",
+    "rms_outside_in_spread": "the same, over the spread",
+    "why_not": "why the other points cannot predict them, empty where they can",
+    "value": "temperature [K] or decade [m/s]",
+}
+"""Numbers of what was left out, with their meaning."""
+
+
+def calibration_dataset(calibration: Calibration) -> xr.Dataset:
+    """Return what `Calibration.to_dataset` promises."""
+    predicted, measured = calibration.predicted, calibration.measured
+    estimates, profiles = calibration.estimates, calibration.profiles
+    apart = calibration.friction - measured.friction
+    data: dict[str, xr.Variable] = measured_variables(measured)
+
+    def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
+        data[name] = labelled(dims, values, unit, text, SOURCE)
+
+    at = "measurement"
+    add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
+    add("contact_temperature", at, predicted.temperature, "temperature in the contact", "K")
+    add("contact_fraction", at, predicted.contact_fraction, "real over nominal contact area")
+    add("hysteresis", at, predicted.friction, "friction of the hysteresis")
+    beyond = "share of it that rests on the rubber outside the measured frequencies"
+    add("friction_outside_band", at, predicted.outside_band, beyond)
+    status, words = (
+        np.array(texts, dtype=object) for texts in (predicted.status, predicted.status_word)
+    )
+    add(STATUS, at, status, "converged, or why")
+    add(STATUS_WORD, at, words, "word of the status")
+    add("area_term", at, calibration.area_term, "friction of the area term")
+    add("friction", at, calibration.friction, "hysteresis and area term")
+    add("friction_band", at, calibration.band, "half of its interval by the fit")
+    add("difference", at, apart, "predicted less measured friction")
+    add("difference_in_spread", at, in_spread(apart, measured.spread), "the same over the spread")
+    for name, text in ESTIMATE.items():
+        field = "value" if name == "estimate" else name
+        add(name, "parameter", [getattr(estimate, field) for estimate in estimates], text)
+    units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
+    add("unit", "parameter", units, "its unit")
+    square = ("parameter", "other_parameter")
+    add("correlation", square, calibration.correlation, "of the estimates")
+    values, excess = zip(*(profiles[estimate.name] for estimate in estimates), strict=True)
+    steps = ("parameter", "step")
+    add("profile_value", steps, values, "value at which the parameter is held")
+    text = "rise of the sum of squares, NaN where another parameter has no room"
+    add("profile_excess", steps, excess, text)
+    if calibration.held_out:
+        for name, text in HELD_OUT.items():
+            column = [getattr(group, name) for group in calibration.held_out]
+            add("left_out" if name == "value" else name, "left_out", column, text)
+    names = [estimate.name for estimate in estimates]
+    return xr.Dataset(
+        data,
+        coords=dict.fromkeys(square, names),
+        attrs={
+            "title": "Area term fitted to measured friction",
+            "law": json.dumps(shear_stress_to_dict(calibration.law)),
+            "held": json.dumps(dict(calibration.problem.family.held)),
+            "measured_source": calibration.measured.source,
+            "level": likelihood.LEVEL,
+            "threshold": calibration.threshold,
+            "held_out_by": calibration.held_out_by,
+            "spread_known": int(calibration.spread_known),
+            "sum_of_squares": calibration.optimum.sum_of_squares,
+            "degrees_of_freedom": calibration.freedom,
+            "scatter": calibration.scatter,
+            **provenance.attributes(),
+        },
+    )

@@ -1,0 +1,150 @@
+"""A calibration in words: its notes, the table of a case file, and parameters from a text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from gripscale.conditions.area_term import shear_stress_to_dict
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, parse_quantity
+from gripscale.questions.calibration.calibration import Calibration, Estimate
+from gripscale.questions.calibration.profile_likelihood import LEVEL
+from gripscale.rubber.extrapolation import WORTH_SAYING
+
+KINDS_OF_QUANTITY = {
+    "stress_0": "pressure",
+    "speed_0": "speed",
+    "critical_speed": "speed",
+    "activation_energy": "bond energy",
+    "reference_temperature": "temperature",
+}
+"""What the parameters of the laws are, those that are no plain numbers."""
+
+
+def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
+    """Return parameters stated as "width=0.1" or "stress_0=5 MPa" [SI units, eV].
+
+    Raises `InputError` if one cannot be understood.
+    """
+    parameters: dict[str, float] = {}
+    for text in texts:
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not sign or not name or name in parameters:
+            raise InputError(
+                f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
+            )
+        try:
+            if name in KINDS_OF_QUANTITY:
+                parameters[name] = parse_quantity(value, KINDS_OF_QUANTITY[name])
+            else:
+                parameters[name] = float(value)
+        except ValueError as error:
+            why = str(error) if name in KINDS_OF_QUANTITY else "expected a number"
+            raise InputError(f"fixed {name} = {checks.short_repr(value)}: {why}") from error
+    return parameters
+
+
+UNLIKELY = 0.01
+"""Chance of the sum of squares below which something must be wrong."""
+
+
+def notes(calibration: Calibration) -> Iterator[str]:
+    """Yield a sentence on each thing to know before the numbers are used."""
+    if not calibration.spread_known:
+        yield (
+            f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
+            "takes its place, whatever its cause."
+        )
+    elif calibration.chance < UNLIKELY:
+        yield (
+            f"The residuals are {calibration.scatter:.2g} times the stated spread: law, hysteresis "
+            "or spread is wrong, and the intervals are too narrow."
+        )
+    yield (
+        "The intervals hold for the spread of the measurement alone: an error of the predicted "
+        "contact area is an error of the shear stress."
+    )
+    held = calibration.problem.family.held
+    if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
+        yield (
+            "No activation energy: the temperatures in the contact are only "
+            f"{calibration.problem.points.temperature_range:.2g} K apart and do not determine it. "
+            "The law holds at the measured temperature."
+        )
+    for estimate in calibration.estimates:
+        ends = {"lower": estimate.low, "upper": estimate.high}
+        missing = [word for word, end in ends.items() if not np.isfinite(end)]
+        if len(missing) == 2:
+            yield f"{estimate.name} is not determined by the data."
+        elif missing:
+            yield f"The {missing[0]} end of {estimate.name} is not determined by the data."
+    predicted = calibration.predicted
+    without = int((~predicted.has_answer).sum())
+    if without:
+        why = next(s for s, k in zip(predicted.status, predicted.has_answer, strict=True) if not k)
+        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
+    below = int((calibration.problem.points.difference < 0.0).sum())
+    if below:
+        yield f"Measured points below the hysteresis alone: {below}."
+    beyond = int((predicted.outside_band > WORTH_SAYING).sum())
+    if beyond:
+        yield (
+            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
+            f"outside its measured frequencies: {beyond}."
+        )
+
+
+WRITTEN = {"Pa": DisplayUnit("MPa", 1e6), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
+"""How a number in a unit of the law is written, if not in this unit."""
+
+_LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
+HELD_UNITS = {name: _LAW_UNITS[kind] for name, kind in KINDS_OF_QUANTITY.items()}
+"""Units of parameters that may be held; the others have none."""
+
+
+def shear_stress_table(calibration: Calibration) -> str:
+    """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
+    law = shear_stress_to_dict(calibration.law)
+    estimates = {estimate.name: estimate for estimate in calibration.estimates}
+    source = Path(calibration.measured.source).name or "a measurement"
+    lines = [
+        f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
+        f"# intervals of {LEVEL:.0%} by profile likelihood, for this rubber on this surface.",
+        "[conditions.shear_stress]",
+        f'kind = "{law.pop("kind")}"',
+    ]
+    if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
+        del law["activation_energy"], law["reference_temperature"]
+        lines.insert(2, "# No activation energy: the law holds at the measured temperature.")
+    for name, value in law.items():
+        estimate = estimates.get(name)
+        unit = HELD_UNITS.get(name, "") if estimate is None else estimate.unit
+        text = written(float(value), unit)
+        text = f'"{text}"' if unit else text
+        lines.append(f"{name} = {text}  # {'held' if estimate is None else interval(estimate)}")
+    return "\n".join(lines) + "\n"
+
+
+def written(value: float, unit: str, digits: int | None = None) -> str:
+    """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
+    display_unit = WRITTEN.get(unit, DisplayUnit(unit))
+    number = float(display_unit.of(value))
+    text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
+    return f"{text} {display_unit.unit}".strip()
+
+
+def interval(estimate: Estimate) -> str:
+    """Return the interval of a parameter in words, in the unit it is written in."""
+    low, high = (f"{written(end, estimate.unit, 3)}" for end in (estimate.low, estimate.high))
+    if estimate.determined:
+        return f"{low} to {high}"
+    if math.isfinite(estimate.low):
+        return f"from {low}, upper end not determined"
+    if math.isfinite(estimate.high):
+        return f"up to {high}, lower end not determined"
+    return "not determined"

@@ -1,0 +1,363 @@
+"""What a model predicts at the points of a measurement: its speeds, temperatures and pressures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gripscale.case_file.read import CaseFile
+from gripscale.conditions.area_term import InterfacialShearStress
+from gripscale.conditions.conditions import Conditions
+from gripscale.core import checks
+from gripscale.core.arrays import Array, Mask, Vector
+from gripscale.core.checks import Checked, checked
+from gripscale.core.errors import InputError, about_keys
+from gripscale.core.units import ZERO_CELSIUS, plain
+from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
+from gripscale.experiment.measured_friction import (
+    MeasuredFriction,
+    TemperatureProbe,
+    measured_variables,
+    read_measured_friction,
+)
+from gripscale.experiment.solve import Bench, OnTask
+from gripscale.experiment.task import Store, Task
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    FRICTION_OUTSIDE_BAND,
+    STATUS,
+    Load,
+    Model,
+    status_words,
+    word_of,
+)
+from gripscale.rubber import Rubber
+from gripscale.wave.result import labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gripscale.surface import Surface
+
+
+class Predicted(Checked, eq=False):
+    """Contact and friction at the points of a measurement, arrays of shape (n,) in its order.
+
+    Parameters
+    ----------
+    friction : array_like
+        Of the hysteresis [-]; NaN where the model has no answer.
+    contact_fraction : array_like
+        A_r/A_0 [-].
+    pressure : array_like
+        Nominal [Pa], above zero.
+    temperature : array_like
+        In the contact [K], the mean over the real contact area; NaN where not known.
+    outside_band : array_like, optional
+        Share of the friction that rests on the rubber outside its measured frequencies [-].
+    status : sequence of str, optional
+        "converged", or why there is no answer.
+    status_word : sequence of str, optional
+        Words of these statuses, empty where there is none.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ, or a pressure is not above zero.
+    """
+
+    friction: Vector = checked(checks.vector, missing=True, repr=False)
+    contact_fraction: Vector = checked(checks.vector, missing=True, repr=False)
+    pressure: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    temperature: Vector = checked(checks.vector, missing=True, repr=False)
+    outside_band: Vector = checked(checks.vector, missing=True, default=None, repr=False)
+    status: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
+    status_word: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        size = self.friction.size
+        if self.outside_band is None:
+            self._set(outside_band=np.full(size, np.nan))
+        if self.status is None:
+            self._set(status=[CONVERGED] * size)
+        if self.status_word is None:
+            self._set(status_word=[word_of(text) for text in self.status])
+        names = (
+            "pressure",
+            "friction",
+            "contact_fraction",
+            "temperature",
+            "outside_band",
+            "status",
+            "status_word",
+        )
+        sizes = {name: len(getattr(self, name)) for name in names}
+        if len(set(sizes.values())) > 1:
+            counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
+            raise InputError(
+                f"a prediction needs equally many values of each quantity; got {counts}"
+            )
+
+    def require_points_of(self, measured: MeasuredFriction, name: str = "predicted") -> None:
+        """Raise `InputError` unless it has the number and the pressures of the points measured."""
+        if self.friction.size != measured.speed.size:
+            raise InputError(
+                f"{name} must be predicted at the {measured.speed.size} points measured; "
+                f"got {self.friction.size}"
+            )
+        # a measurement without pressures is predicted at that of the load
+        apart = ~np.isclose(self.pressure, measured.pressure, rtol=1e-6, atol=0.0)
+        apart &= np.isfinite(measured.pressure)
+        if apart.any():
+            at = int(np.argmax(apart))
+            raise InputError(
+                f"{name} must be predicted at the points measured, in their order; at index {at} "
+                f"{measured.pressure[at]:g} Pa was measured and {self.pressure[at]:g} Pa predicted"
+            )
+
+    @property
+    def has_answer(self) -> Mask:
+        """Where the model has an answer."""
+        return np.isfinite(self.friction) & (self.contact_fraction > 0.0)
+
+    @property
+    def leverage(self) -> Array:
+        """A_r/(A_0 p) [1/Pa]: the friction of the area term for each pascal of shear stress."""
+        return self.contact_fraction / self.pressure
+
+    def area_term(self, law: InterfacialShearStress, speed: Array) -> Array:
+        """Return the friction of the area term [-] under `law` at the speeds [m/s] of the points.
+
+        NaN where the model has no answer.
+        Raises `InputError` if it depends on a temperature that is not known.
+        """
+        out, answers = np.full(self.friction.size, np.nan), self.has_answer
+        kelvin = self.temperature[answers]
+        at = None if np.isnan(kelvin).all() else kelvin
+        out[answers] = self.leverage[answers] * law.stress(speed[answers], at)
+        return out
+
+
+def averaged(parts: Sequence[Predicted]) -> Predicted:
+    """Return the mean of the predictions of several samples of one model at the same points.
+
+    A point at which one of them has no answer has none. Temperatures are weighted by the contact
+    area, which the area term is the sum over.
+
+    Raises `InputError` if there is none, or their points differ in number or pressure.
+    """
+    checks.instances("parts", parts, Predicted)
+    pressure = parts[0].pressure
+    if any(not np.array_equal(part.pressure, pressure) for part in parts):
+        raise InputError("parts must be predicted at the same pressures; got others")
+    area = np.array([part.contact_fraction for part in parts])
+    kelvin = np.array([part.temperature for part in parts])
+    first = [
+        next((part for part in parts if part.status[point] != CONVERGED), parts[0])
+        for point in range(pressure.size)
+    ]
+    return Predicted(
+        np.mean([part.friction for part in parts], axis=0),
+        area.mean(axis=0),
+        pressure,
+        (area * kelvin).sum(axis=0) / area.sum(axis=0),
+        np.mean([part.outside_band for part in parts], axis=0),
+        [part.status[point] for point, part in enumerate(first)],
+        [part.status_word[point] for point, part in enumerate(first)],
+    )
+
+
+def predictions_at(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: Surface,
+    load: Load,
+    store: Store,
+    *,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Predicted:
+    """Return what `model` predicts at each measured speed, temperature and pressure.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        The points. A missing temperature is that of the model's conditions or, without one, of the
+        rubber; a missing pressure is that of the load.
+    model : Model
+        What predicts. Where it has `conditions` they get the temperature and a shear stress that
+        tells the temperature in the contact; else the rubber is brought to the temperature.
+    rubber, surface, load
+        What slides on what, and the load of the case.
+    store : Store
+        Keeps each answer as soon as it is there; what it has is not solved again.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Raises
+    ------
+    InputError, FileError
+        As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
+    """
+    bench = Bench(store, workers, client, on_task)
+    return predicted_of(solve_design(points_of(measured, model, rubber, surface, load), bench))
+
+
+def points_of(
+    measured: MeasuredFriction,
+    model: Model,
+    rubber: Rubber,
+    surface: Surface,
+    load: Load,
+    label: str = "",
+) -> Design:
+    """Return the design over `measurement` that `predictions_at` solves; labels begin with one."""
+    pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
+    case = (model.conditions or Conditions()).temperature_of(rubber)
+    kelvin = np.where(
+        np.isnan(measured.temperature), math.nan if case is None else case, measured.temperature
+    )
+    points = []
+    for at, (p, v, t) in enumerate(zip(pressure, measured.speed, kelvin, strict=True), start=1):
+        point_load = replace(load, pressure=float(p), speed=float(v))
+        temperature = None if math.isnan(t) else float(t)
+        other = temperature is not None and temperature != case
+        if model.takes_conditions:
+            conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
+            if other:
+                conditions = replace(conditions, temperature=temperature)
+            task = Task(rubber, surface, point_load, model.with_conditions(conditions))
+        else:
+            met = rubber.at(temperature) if other and temperature else rubber
+            task = Task(met, surface, point_load, model)
+        celsius = "" if temperature is None else f", {t - ZERO_CELSIUS:.4g} C"
+        words = f"speed {plain(v, 4)} m/s{celsius}, pressure {p / 1e5:.4g} bar"
+        points.append(Point((at - 1,), f"{label}point {at}, {words}", task))
+    coords = {
+        "nominal_pressure": ("measurement", pressure, {"units": "Pa"}),
+        "temperature": ("measurement", kelvin, {"units": "K"}),
+    }
+    return Design({"measurement": len(points)}, points, coords)
+
+
+def predicted_of(data: xr.Dataset) -> Predicted:
+    """Return the predictions in the solved Dataset of `points_of`."""
+    area, pressure = data["total_contact_fraction"], data["nominal_pressure"]
+    kelvin = data["temperature"]
+    if ADHESIVE_FRICTION in data:  # what the probe says
+        term = data[ADHESIVE_FRICTION]
+        contact = (term * pressure / area.where(area > 0.0)).where(lambda t: t > 0.0)
+        kelvin = contact.where(term.notnull(), kelvin)
+    return Predicted(
+        data["total_friction"].values,
+        area.values,
+        pressure.values,
+        kelvin.values,
+        data.get(FRICTION_OUTSIDE_BAND, area * math.nan).values,
+        data[STATUS].values.tolist(),
+        status_words(data).values.tolist(),
+    )
+
+
+SOURCE = "gripscale residuals"
+
+
+def residuals(
+    measured: MeasuredFriction,
+    predicted: Mapping[str, Predicted],
+    shear_stress: InterfacialShearStress | None = None,
+) -> xr.Dataset:
+    """Return predicted friction beside measured friction, over `model` and `measurement`.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        What was measured.
+    predicted : mapping of str to Predicted
+        What each model says at its points, in their order, by the model's name.
+    shear_stress : InterfacialShearStress, optional
+        Law of an area term that the total friction has beside the hysteresis.
+
+    Returns
+    -------
+    xarray.Dataset
+        `hysteresis`, `area_term` where there is a law, `friction` (their sum), `difference`
+        (predicted less measured) and `difference_in_spread` (NaN where no spread is known) over
+        `model` and `measurement`; `rms_difference` and `rms_difference_in_spread` over `model`,
+        of the points that have an answer; and what was measured.
+
+    Raises
+    ------
+    InputError
+        If a prediction has another number of points or other pressures than the measurement, there
+        is none, or the law needs a temperature that is not known.
+    """
+    import xarray as xr
+
+    checks.instance("measured", measured, MeasuredFriction)
+    if not isinstance(predicted, Mapping) or not predicted:
+        short = checks.short_repr(predicted)
+        raise InputError(f"predicted must hold the prediction of at least one model; got {short}")
+    if shear_stress is not None and not isinstance(shear_stress, InterfacialShearStress):
+        raise InputError(
+            "shear_stress must be a law of gripscale.conditions; "
+            f"got {checks.short_repr(shear_stress)}"
+        )
+    for name, prediction in predicted.items():
+        checks.instance("each of predicted", prediction, Predicted)
+        prediction.require_points_of(measured, name)
+    grid = ("model", "measurement")
+    predictions = predicted.values()
+    hysteresis = np.array([prediction.friction for prediction in predictions])
+    columns: dict[str, Any] = {"hysteresis": (grid, hysteresis, "friction of the hysteresis")}
+    total = hysteresis
+    if shear_stress is not None:
+        law, speed = shear_stress, measured.speed
+        terms = np.array([prediction.area_term(law, speed) for prediction in predictions])
+        columns["area_term"] = (grid, terms, "friction of the area term")
+        total = hysteresis + terms
+    difference = total - measured.friction
+    relative = in_spread(difference, measured.spread)
+    about = "predicted less measured friction"
+    columns |= {
+        "friction": (grid, total, "predicted friction coefficient"),
+        "difference": (grid, difference, about),
+        "difference_in_spread": (grid, relative, f"{about}, over its spread"),
+        "rms_difference": ("model", rms(difference), f"rms of {about}"),
+        "rms_difference_in_spread": ("model", rms(relative), f"rms of {about}, over its spread"),
+    }
+    data = {
+        name: labelled(dims, values, "1", text, SOURCE)
+        for name, (dims, values, text) in columns.items()
+    }
+    return xr.Dataset(data | measured_variables(measured), coords={"model": list(predicted)})
+
+
+def in_spread(difference: Array, spread: Array) -> Array:
+    """Return differences over the spread [-]; NaN where it is not known or zero."""
+    return difference / np.where(spread > 0.0, spread, np.nan)
+
+
+def rms(values: Array) -> Array:
+    """Return the root mean square over the last axis of what is known, NaN where nothing is."""
+    finite = np.isfinite(values)
+    count = finite.sum(axis=-1)
+    squares = np.where(finite, values, 0.0) ** 2
+    return np.asarray(np.sqrt(squares.sum(axis=-1) / np.where(count > 0, count, np.nan)))
+
+
+@about_keys("measured")
+def friction_of_case(file: CaseFile) -> MeasuredFriction | None:
+    """Return what `[measured] friction` of a case names, None if it names nothing.
+
+    Raises `FileError` if it cannot be read.
+    """
+    name = file.case.measured.friction
+    return None if name is None else read_measured_friction(file.resolve(name))

@@ -1,0 +1,186 @@
+"""The calibrated area term: its parameters, its misfit, and what it predicts of points left out.
+
+Everything is read from the result, for the terminal and for the page alike.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.io.table import Column, Table, digits, percent, significant
+from gripscale.model import INPUT_DOUBTS, STATUS, status_words
+from gripscale.questions.calibration.calibration import Estimate
+from gripscale.questions.calibration.calibration_text import HELD_UNITS, interval, written
+from gripscale.questions.calibration.page_of_measured import residual_table
+from gripscale.questions.chain.view import CONVERGED
+from gripscale.report.elements import Card, Facts
+from gripscale.report.notices import Failure
+
+PARAMETERS = {
+    "stress_0": "shear stress τ_0",
+    "width": "width factor c",
+    "speed_0": "speed v_0 of the largest stress",
+    "activation_energy": "activation energy",
+    "ratio": "gain of stress at high speed",
+    "critical_speed": "critical speed v_c",
+    "exponent": "exponent n of the speed",
+}
+"""Words for the parameters of the laws, which a case states by their names."""
+
+
+def calibration_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield the fitted area term with its intervals, and what it does to friction."""
+    values = [
+        f"{PARAMETERS[e.name]} = {written(e.value, e.unit, 3)} ({interval(e)})"
+        if e.determined
+        else f"{PARAMETERS[e.name]} not determined by the data"
+        for e in estimates(data)
+    ]
+    level = round(100 * data.attrs["level"])
+    doubts = data.attrs.get(INPUT_DOUBTS)
+    lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
+    yield f"Answer: {lead} with {', '.join(values)} ({level} % intervals)."
+    if not bool(data["area_term"].notnull().any()):
+        return
+    term, hysteresis = (_range(data[name]) for name in ("area_term", "hysteresis"))
+    share = float((data["area_term"] / data["friction"]).mean())
+    yield (
+        f"  It adds {term} to a hysteresis friction of {hysteresis}: {percent(share)} of the "
+        "friction in the mean of the points."
+    )
+    missed, without = (
+        float(np.sqrt((part**2).mean()))
+        for part in (data["difference"], data["difference"] - data["area_term"])
+    )
+    yield (
+        f"  Friction with it misses the measured friction by {significant(missed, 2)} (rms), "
+        f"without it by {significant(without, 2)}."
+    )
+
+
+def _range(values: xr.DataArray) -> str:
+    low, high = (significant(float(end)) for end in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def calibration_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield tables and sentences of a calibration."""
+    yield misfit_table(data)
+    yield parameter_table(data)
+    yield from filter(None, [correlations(data)])
+    if "left_out" in data.coords:
+        yield held_out_table(data)
+    yield from str(data.attrs.get("notes", "")).splitlines()
+
+
+def misfit_table(data: xr.Dataset) -> Table:
+    """Return the fitted friction beside the measured one, point by point."""
+    names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
+    model = str(data.attrs.get("model", "fit"))
+    table = data[[*names, *(n for n in data.data_vars if str(n).startswith("measured_"))]]
+    table = table.assign({name: data[name].expand_dims(model=[model]) for name in names})
+    rms = {f"rms_{n}": np.sqrt((table[n] ** 2).mean("measurement")) for n in names[3:]}
+    return residual_table(table.assign(rms))
+
+
+def estimates(data: xr.Dataset) -> Iterator[Estimate]:
+    """Yield the fitted parameters, in the units of the law."""
+    for name in data.parameter.values:
+        part = data.sel(parameter=name)
+        unit = str(part.unit.item())
+        numbers = (float(part[key]) for key in ("estimate", "standard_error", "low", "high"))
+        yield Estimate(str(name), "" if unit == "1" else unit, *numbers)
+
+
+def parameter_table(data: xr.Dataset) -> Table:
+    """Return value, standard error and interval of each fitted parameter."""
+    fitted, level = list(estimates(data)), round(100 * data.attrs["level"])
+    errors = [written(e.standard_error, e.unit, 2) if e.determined else "" for e in fitted]
+    columns = [
+        Column("parameter", [e.name for e in fitted]),
+        Column("value", [written(e.value, e.unit, 4) for e in fitted], words=False),
+        Column("standard_error", errors, "standard error", words=False),
+        Column("interval", [interval(e) for e in fitted], f"{level} % by profile likelihood"),
+    ]
+    bad = [not e.determined for e in fitted]
+    return Table("parameters", columns, "Parameters of the law", bad=bad)
+
+
+def correlations(data: xr.Dataset) -> str:
+    """Return the correlations of the estimates in a sentence, empty for a single one."""
+    names = data.parameter.values.tolist()
+    pairs = [
+        f"{name} and {names[b]} {float(data.correlation[a, b]):+.2f}"
+        for a, name in enumerate(names)
+        for b in range(a + 1, len(names))
+    ]
+    return f"Correlations: {', '.join(pairs)}." if pairs else ""
+
+
+def held_out_table(data: xr.Dataset) -> Table:
+    """Return the errors of the law at each group of points, fitted to the others."""
+    by_temperature = data.attrs["held_out_by"] == "temperature"
+    names = [
+        f"{value - ZERO_CELSIUS:.0f} °C" if by_temperature else f"{value:g} to {10.0 * value:g} m/s"
+        for value in data.left_out.values
+    ]
+    columns = [
+        Column("left_out", names, "left out"),
+        Column("points", data.points.values, format="{:.0f}".format),
+        Column("rms_inside", data.rms_inside.values, "rms inside", format=digits(2)),
+        Column("rms_outside", data.rms_outside.values, "rms outside", format=digits(2)),
+    ]
+    if np.isfinite(data.rms_outside_in_spread).any():
+        relative = data.rms_outside_in_spread.values
+        columns.append(
+            Column("rms_outside_in_spread", relative, "outside / spread", format=digits(2))
+        )
+    if any(data.why_not.values):
+        columns.append(Column("why_not", data.why_not.values, "why not"))
+    return Table("held-out", columns, "The law at points that were left out")
+
+
+def calibration_cards(data: xr.Dataset) -> list[Card]:
+    """Return a card for each parameter, with its interval."""
+    return [
+        Card(PARAMETERS[e.name], written(e.value, e.unit, 3), interval(e), not e.determined)
+        for e in estimates(data)
+    ]
+
+
+def law_facts(data: xr.Dataset) -> Facts:
+    """Return the law, what was held and how well it fits."""
+    attrs = data.attrs
+    law, values = json.loads(attrs["law"]), json.loads(attrs["held"])
+    held = [f"{name} = {written(x, HELD_UNITS.get(name, ''))}" for name, x in values.items()]
+    pairs = [
+        ("Law", str(law.get("kind", "")).replace("_", " ")),
+        ("Held", ", ".join(held).replace("_", " ") or "nothing"),
+        ("Measurement", str(attrs["measured_source"]).replace("\\", "/").rpartition("/")[2]),
+        ("Points", str(data.sizes["measurement"])),
+        ("Sum of squares", f"{float(attrs['sum_of_squares']):.3g}"),
+        ("Degrees of freedom", str(attrs["degrees_of_freedom"])),
+        ("Residuals over the spread", f"{float(attrs['scatter']):.3g}"),
+    ]
+    if not attrs["spread_known"]:
+        pairs[-1] = ("Scatter of the residuals", f"{float(attrs['scatter']):.3g}")
+    return Facts("The fit", pairs)
+
+
+def failures(data: xr.Dataset) -> Failure | None:
+    """Return how many measured points have no prediction and why the first; None if none."""
+    statuses = zip(data[STATUS].values, status_words(data).values, strict=True)
+    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED]
+    if not failed:
+        return None
+    why, word = failed[0]
+    return Failure(
+        f"{len(failed)} of {data.sizes['measurement']} measured points have no prediction; "
+        f"the first: {why}",
+        word,
+    )

@@ -1,0 +1,249 @@
+"""Profile likelihood: how far a parameter can go while all others do their best to follow.
+
+    E(x) = min over the others of S(x, others) - S_min
+
+An interval holds every x with E(x) below a threshold: chi^2_1 where the spreads are known, and
+F_(1, n - k) times S_min/(n - k) where the scatter of the residuals stands for them. Unlike the
+standard error it follows a curved valley, and finds an end that is not there.
+
+Source: S. M. Murphy & A. W. van der Vaart, J. Am. Stat. Assoc. 95 (2000) 449,
+doi:10.1080/01621459.2000.10474219; D. M. Bates & D. G. Watts, Nonlinear Regression Analysis and
+its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.questions.calibration.calibration_law import (
+    Optimum,
+    Points,
+    Problem,
+    best,
+    family_of,
+    refined,
+)
+from gripscale.questions.calibration.measured_comparison import rms
+
+LEVEL = 0.9
+"""Share of measurements like this one whose interval holds the true value."""
+REACH = 2.0
+"""How much further each step of a search for an end goes."""
+FINE = 1e-3
+"""Relative accuracy of the distance to an end."""
+LESS = 1e-6
+"""Relative decrease of the sum of squares beyond which another minimum has been met."""
+CURVE = 25
+"""Values of a parameter at which its profile is kept."""
+
+
+class BetterMinimumFound(Exception):
+    """A profile has met a smaller sum of squares than the fit."""
+
+    def __init__(self, theta: Array) -> None:
+        super().__init__()
+        self.theta = theta
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The profile of one parameter, in the numbers the search works with."""
+
+    problem: Problem
+    optimum: Optimum
+    index: int
+    """Of the free parameter."""
+
+    @property
+    def centre(self) -> float:
+        """Where the sum of squares is least."""
+        return float(self.optimum.theta[self.index])
+
+    def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
+        """Return E at a value, and what the others are there.
+
+        Raises `BetterMinimumFound` where E is below zero.
+        """
+        held = self.problem.holding(self.index, scaled)
+        others = np.delete(self.optimum.theta, self.index) if start is None else start
+        optimum = refined(held, others)
+        apart = optimum.sum_of_squares - self.optimum.sum_of_squares
+        if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
+            raise BetterMinimumFound(np.insert(optimum.theta, self.index, scaled))
+        return max(apart, 0.0), optimum.theta
+
+    def end(self, way: int, threshold: float) -> float:
+        """Return where E reaches `threshold` below (`way` -1) or above (1) the centre.
+
+        Infinite where it does not before the limit of the search, or only because another
+        parameter is held back by its own.
+        """
+        limit = self.problem.family.free[self.index].limits[(way + 1) // 2]
+        near, others = self.centre, np.delete(self.optimum.theta, self.index)
+        below = 0.0
+        if way * (limit - near) <= 0.0:
+            return way * math.inf
+        # how far the end would be on a parabola, within reason
+        error = np.sqrt(np.diag(covariance(self.optimum.jacobian)))[self.index]
+        low, high = self.problem.family.free[self.index].limits
+        step = float(np.clip(error * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
+        while True:
+            far = near + way * step
+            far = limit if way * (far - limit) >= 0.0 else far
+            excess, met = self.excess(far, others)
+            if excess >= threshold:
+                return self._crossing({near: (below, others), far: (excess, met)}, threshold)
+            if far == limit:
+                return way * math.inf
+            near, below, others, step = far, excess, met, REACH * step
+
+    def curve(self, low: float, high: float) -> tuple[Array, Array]:
+        """Return values from `low` to `high` and E there, each from its neighbour's others.
+
+        NaN where another parameter is held back by its own limit.
+        """
+        values = np.linspace(low, high, CURVE)
+        excess = np.empty(CURVE)
+        middle = int(np.argmin(np.abs(values - self.centre)))
+        for way in (range(middle, CURVE), range(middle - 1, -1, -1)):
+            others = None
+            for at in way:
+                rise, others = self.excess(float(values[at]), others)
+                held_back = self.problem.holding(self.index, values[at]).at_limit(others)
+                excess[at] = math.nan if held_back else rise
+        return values, excess
+
+    def _crossing(self, solved: dict[float, tuple[float, Array]], threshold: float) -> float:
+        """Return where E crosses the threshold between two values, before and behind it.
+
+        By its root, nearly a straight line; `solved` holds E and the others at the two values.
+        """
+        near, far = solved
+        start = solved[near][1]
+
+        def above(scaled: float) -> float:
+            if scaled not in solved:
+                solved[scaled] = self.excess(scaled, start)
+            return math.sqrt(solved[scaled][0]) - math.sqrt(threshold)
+
+        fine = FINE * abs(far - self.centre)
+        end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
+        above(end)
+        if self.problem.holding(self.index, end).at_limit(solved[end][1]):
+            return math.copysign(math.inf, far - near)
+        return end
+
+
+def threshold_of(optimum: Optimum, *, spread_known: bool) -> float:
+    """Return the excess that ends an interval, with spreads known or taken from the residuals."""
+    if spread_known:
+        return float(scipy.special.chdtri(1, 1.0 - LEVEL))
+    points, free = optimum.jacobian.shape
+    ratio = float(scipy.special.fdtri(1, points - free, LEVEL))
+    return ratio * optimum.sum_of_squares / float(points - free)
+
+
+def covariance(jacobian: Array) -> Array:
+    """Return (J^T J)^-1; directions without any influence count as hardly having one."""
+    _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
+    least = np.finfo(float).eps * max(float(sizes.max()), np.finfo(float).tiny)
+    scaled = rows / np.maximum(sizes, least)[:, None]
+    return np.asarray(scaled.T @ scaled)
+
+
+def settled(
+    problem: Problem, optimum: Optimum, find: Callable[[Optimum], list[tuple[float, float]]]
+) -> tuple[Optimum, list[tuple[float, float]]]:
+    """Return the optimum and what `find` makes of it, begun again where a better one is met."""
+    while True:
+        try:
+            return optimum, find(optimum)
+        except BetterMinimumFound as better:
+            optimum = refined(problem, better.theta)
+
+
+WAYS = ("temperature", "speed")
+"""What can be left out: a temperature to the kelvin, or a decade of speed."""
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """One group of points left out: the errors of the law fitted to the others.
+
+    All in friction [-]; NaN where the others cannot predict it.
+    """
+
+    value: float
+    """Temperature [K], or lower end of the decade of speed [m/s]."""
+    points: int
+    """How many were left out."""
+    rms_inside: float
+    """Root mean square residual of the points that were fitted."""
+    rms_outside: float
+    """Root mean square error at those that were left out."""
+    rms_outside_in_spread: float
+    """The same over the spread; NaN where none is stated."""
+    why_not: str = ""
+    """Why the others cannot predict it; empty where they can."""
+
+
+def held_out(
+    points: Points, groups: Array, kind: str, fixed: Mapping[str, float]
+) -> tuple[HeldOut, ...]:
+    """Return what each group of points is predicted to be by the others.
+
+    `groups` holds the value by which each point belongs to a group; `kind` and `fixed` are of the
+    law, as for `family_of`. Raises `InputError` if there is only one group.
+    """
+    values = np.unique(groups)
+    if values.size < 2:
+        raise InputError(
+            f"hold_out needs at least two groups to leave one of them out; got {values.size}"
+        )
+    wanted = {parameter.name for parameter in family_of(kind, points, fixed).free}
+    results = []
+    for value in values:
+        chosen = groups == value
+        count, rest, some = int(chosen.sum()), points.only(~chosen), points.only(chosen)
+        unknown = HeldOut(float(value), count, math.nan, math.nan, math.nan)
+        try:
+            family = family_of(kind, rest, fixed)
+        except InputError as error:
+            results.append(replace(unknown, why_not=str(error)))
+            continue
+        missing = wanted - {parameter.name for parameter in family.free}
+        if missing:
+            why = f"the other points do not determine {', '.join(sorted(missing))}"
+            results.append(replace(unknown, why_not=why))
+            continue
+        theta = best(Problem(rest, family)).theta
+        inside, outside = (
+            Problem(part, family).friction(theta) - part.difference for part in (rest, some)
+        )
+        relative = np.full(count, np.nan) if some.spread is None else outside / some.spread
+        within, beyond, over = (float(rms(errors)) for errors in (inside, outside, relative))
+        results.append(HeldOut(float(value), count, within, beyond, over))
+    return tuple(results)
+
+
+def groups_of(way: str, speed: Array, temperature: Array) -> Array:
+    """Return the group of each point: its temperature to the kelvin, or its decade of speed.
+
+    Raises `InputError` if `way` is none of `WAYS`, or a temperature is not known.
+    """
+    if checks.one_of("hold_out", way, WAYS) == "speed":
+        return np.asarray(10.0 ** np.floor(np.log10(speed) + 1e-9))
+    if np.isnan(temperature).any():
+        raise InputError(
+            "hold_out = temperature needs the temperature of every point; got "
+            f"{np.isnan(temperature).sum()} without one"
+        )
+    return np.asarray(np.round(temperature))

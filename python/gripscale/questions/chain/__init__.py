@@ -1,0 +1,1 @@
+"""What does the chain of waves say, for comparison."""

@@ -1,0 +1,524 @@
+"""Charts of waves and chains: area, friction and load by wavelength, evidence, heat, effects.
+
+Contact area and friction against falling wavelength are figures 5 and 8 of LW.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import chart, draw, style
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    Bars,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    Series,
+    Sheet,
+    ValueMap,
+)
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
+from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
+from gripscale.half_space.result import RoughContact
+from gripscale.model import with_adhesive
+from gripscale.questions.chain.view import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, PredictionView
+from gripscale.questions.compare.charts_of_ladder import measured_points
+from gripscale.questions.vary.axis import EFFECTS, MODELS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Views = Sequence[PredictionView]
+
+
+def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw real contact area and friction of each named prediction, such as dynamic and static.
+
+    Filled symbols are the running values, open symbols and thin lines those of each wave; a model
+    without waves is a level line at its total, with its best estimate as a band if it has one.
+    Friction leaves out what is at rest, which has none;
+    of a prediction without a single converged wave the legend says that there is nothing to draw.
+    Lines are dashed beyond the measured band of the rubber.
+    """
+    return draw.on_paper(contact_sheet(predictions))
+
+
+def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
+    """Describe what `contact_figure` draws; arguments and errors are its own."""
+    views = [PredictionView(data, name) for name, data in predictions.items()]
+    return Sheet([_total_panel(views, name) for name in AXIS_TITLES])
+
+
+def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
+    """Return area, friction, pressure, modulus and the pressure along the waves.
+
+    The totals of `direct`, what judges the predictions, are level lines. Waves that did not
+    converge are red crosses.
+    """
+    judged = [*predictions, *([] if direct is None else [PredictionView(direct, JUDGE)])]
+    area, friction = (_total_panel(judged, name) for name in AXIS_TITLES)
+    panels = [area.with_marks(_failed(predictions, "contact_fraction"))]
+    moving = [view for view in predictions if view.moving]
+    if moving:
+        panels.append(friction.with_marks(_failed(moving, "friction")))
+    abscissa, pressure_unit = _wavelengths(predictions), predictions[0].display_unit("pressure")
+    panels.append(Panel(
+        abscissa,
+        Axis(f"pressure, modulus [{pressure_unit.unit}]", log=True),
+        _pairs(
+            predictions,
+            {"mean pressure": "pressure_received", "|E*|": "modulus"},
+            lambda view, name: pressure_unit.of(view.column(name)),
+        ),
+        name="load",
+        caption="Mean pressure on each wave (filled), and modulus of the rubber at its frequency "
+        "(open).",
+        alt="Mean pressure and modulus against wavelength.",
+    ))  # fmt: skip
+    if any(view.shows("max_stretch") for view in predictions):
+        columns = {"largest": "max_stretch", "smallest": "min_stretch"}
+        panels.append(Panel(
+            abscissa,
+            Axis("principal stretch [-]"),
+            _pairs(predictions, columns, PredictionView.usable),
+            name="stretch",
+            caption="Largest and smallest principal stretch in the block; where strains are small, "
+            "both are near one.",
+            alt="Largest and smallest principal stretch against wavelength.",
+        ))  # fmt: skip
+    panels += [_pressure_panel(view) for view in predictions if view.has("surface_pressure")]
+    return draw.on_page(panels)
+
+
+def _total_panel(views: Views, name: str) -> Panel:
+    """Return the panel of the contact fraction or the friction, of and down to each wave."""
+    if name == "contact_fraction":
+        words, sum_of, title = "real contact area", "A_r/A_0", "contact-area"
+        axis = Axis(f"{words} $A_r/A_0$ [-]", log=True, high=1.15)
+    else:
+        words, sum_of, title = HEADINGS[name], "sum", name
+        least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
+        axis = Axis(f"{words} [-]", low=min(0.0, *least, 0.0))
+    abscissa = _wavelengths(views)
+    return Panel(
+        abscissa,
+        axis,
+        [mark for view, colour in zip(views, COLOURS, strict=False)
+         if view.moving or name != "friction"
+         for mark in (*_running_and_each(view, name, colour), *_answer(view, name, abscissa))],
+        name=title,
+        caption=f"{words.capitalize()}: {sum_of} down to each wave (filled), and of each wave "
+        "(open); dashed beyond the measured band.",
+        alt=f"{words.capitalize()} against wavelength, which falls to the right.",
+    )  # fmt: skip
+
+
+def _wavelengths(views: Views) -> Axis:
+    """Return the axis of the wavelengths of all predictions."""
+    columns = [view.column("wavelength") / MILLI for view in views if view.waves]
+    return chart.wavelength_axis(np.concatenate([*columns, []]))
+
+
+def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Iterator[Mark]:
+    """Yield the running value and that of each wave, or the total of a model without waves."""
+    if not view.waves:
+        total = view.total(quantity)
+        if np.isfinite(total):
+            yield CrossLine(total, colour, f"{view.name}, total", "dotted", 1.4)
+        return
+    if not view.converged.any():
+        label = f"{view.name}: {view.why(view.waves - 1)}"
+        yield Series([], [], colour, label, dash="")
+        return
+    x, beyond = view.column("wavelength") / MILLI, style.waves_beyond(view.data)
+    running, each = view.usable(f"running_{quantity}"), view.usable(quantity)
+    yield Series(
+        x, running, colour, f"{view.name}, running total", marker="o", beyond=style.down_to(beyond)
+    )
+    yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond, width=0.8,
+                 filled=False)  # fmt: skip
+
+
+def _answer(view: PredictionView, quantity: str, along: Axis) -> Iterator[Mark]:
+    """Yield the best estimate with its interval, if there is one."""
+    best, low, high = view.answer(quantity)
+    if not np.isfinite(best):
+        return
+    measured = np.isfinite(low)
+    yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)
+    if measured:
+        ends = (0.0, 1.0) if along.low is None or along.high is None else (along.low, along.high)
+        yield Band(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
+
+
+def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:
+    """Yield the waves that did not converge."""
+    for view in views:
+        x = view.number if by_number else view.column("wavelength") / MILLI
+        y = view.column(quantity)
+        bad = ~view.converged & np.isfinite(x) & np.isfinite(y)
+        if bad.any():
+            yield Series(x[bad], y[bad], RED, "not converged", "", 2.3, marker="x", size=8.0)
+
+
+def _pairs(
+    views: Views, columns: dict[str, str], values: Callable[[PredictionView, str], Array]
+) -> list[Mark]:
+    """Return two labelled columns over wavelength: filled and solid, open and dotted."""
+    looks = tuple(zip(columns.items(), ("solid", "dotted"), strict=True))
+    return [
+        Series(view.column("wavelength") / MILLI, values(view, name), colour,
+               f"{view.name}, {label}", dash, marker="o", filled=dash == "solid")
+        for view, colour in zip(views, COLOURS, strict=False)
+        for (label, name), dash in looks
+    ]  # fmt: skip
+
+
+def _pressure_panel(view: PredictionView) -> Panel:
+    pressure_unit, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
+    marks: list[Mark] = []
+    for i, colour in enumerate(style.shades(view.waves)):
+        phase, pressure = view.pressure_along(i)
+        good = view.converged[i]
+        label = f"{i + 1}: {wavelength[i]:.3g} mm{'' if good else ', not converged'}"
+        marks.append(
+            Series(phase, pressure_unit.of(pressure), colour if good else RED, label, width=1.2)
+        )
+    return Panel(
+        Axis("$x/\\lambda$, crest at 0 [-]"),
+        Axis(f"contact pressure [{pressure_unit.unit}]"),
+        marks,
+        name=f"pressure-{view.name}",
+        caption=f"{view.title}: contact pressure along each wave. Click a wave to hide it.",
+        alt=f"Contact pressure along each wave of the {view.name} prediction.",
+        height=380,
+    )
+
+
+def verification_charts(predictions: Views) -> list[Chart]:
+    """Return the figures that say how far the numbers may be trusted."""
+    panels: list[Panel] = []
+    for view in predictions:
+        if view.moving:
+            traction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
+            panels.append(Panel(
+                _wave_axis([view]),
+                Axis("friction coefficient of the wave [-]"),
+                [
+                    Series(view.number, traction, BLUE, "from the contact traction", "",
+                           marker="o", size=7.0, filled=False),
+                    Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+",
+                           size=7.0),
+                    *_failed([view], "friction", by_number=True),
+                ],
+                name=f"two-frictions-{view.name}",
+                caption="The two measures of friction, found independently; a cross in its circle "
+                "means they agree.",
+                alt="Friction coefficient of each wave from traction and from dissipation.",
+            ))  # fmt: skip
+            if view.shows("friction_mismatch"):
+                panels.append(_errors_panel(view))
+    if any((view.column("residual") > 0.0).any() for view in predictions):
+        residuals: list[Mark] = [
+            Series(view.number, view.column("residual"), colour, view.name, marker="o")
+            for view, colour in zip(predictions, COLOURS, strict=False)
+        ]
+        panels.append(Panel(
+            _wave_axis(predictions),
+            Axis("residual force / applied force [-]", log=True),
+            [*residuals, *_failed(predictions, "residual", by_number=True)],
+            name="residual",
+            caption="Residual of the equations at the end of Newton's iteration.",
+            alt="Residual of each wave on a logarithmic axis.",
+        ))  # fmt: skip
+    return draw.on_page([*panels, _iterations_panel(predictions)])
+
+
+def _wave_axis(views: Views) -> Axis:
+    most = max(view.waves for view in views)
+    return Axis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
+
+
+def _errors_panel(view: PredictionView) -> Panel:
+    """Return the mismatch, and the solver's error estimates where it gives them."""
+    friction = np.abs(view.usable("friction"))
+    errors = [("mismatch of the two frictions", BLUE, view.usable("friction_mismatch"))]
+    if view.has("friction_error"):
+        share = np.abs(view.usable("friction_error")) / np.where(friction > 0, friction, np.nan)
+        errors.append(("estimated error of friction", ORANGE, share))
+    if view.has("contact_fraction_error"):
+        error = np.abs(view.usable("contact_fraction_error"))
+        errors.append(("estimated error of contact fraction", GREEN, error))
+    return Panel(
+        _wave_axis([view]),
+        Axis("error [%]", log=True),
+        [Series(view.number, 100.0 * v, colour, label, marker="o") for label, colour, v in errors],
+        name=f"errors-{view.name}",
+        caption="Errors of the discretisation: friction relative, contact fraction absolute (of "
+        "the wavelength).",
+        alt="Mismatch of the two frictions and estimated errors of each wave in per cent.",
+    )
+
+
+def _iterations_panel(views: Views) -> Panel:
+    width = 0.8 / len(views)
+    marks: list[Mark] = []
+    for i, (view, colour) in enumerate(zip(views, COLOURS, strict=False)):
+        start, good = view.number + (i - 0.5 * len(views)) * width, view.converged
+        count = view.column("newton_iterations")
+        for rows, shade, label in ((good, colour, view.name), (~good, RED, "not converged")):
+            if rows.any():
+                ends = start[rows], start[rows] + 0.9 * width
+                marks.append(Bars(*ends, 0.0, count[rows], shade, label))
+    return Panel(
+        _wave_axis(views),
+        Axis("Newton iterations [-]", low=0.0),
+        marks,
+        name="iterations",
+        caption="Newton iterations over all load steps; red where the wave did not converge.",
+        alt="Newton iterations of each wave.",
+    )
+
+
+def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
+    """Return measured friction with the totals of `predictions`, each at its speed."""
+    speed_unit = predictions[0].display_unit("speed") if predictions else display_unit("speed")
+    marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), speed_unit)]
+    for view, colour in zip(predictions, COLOURS, strict=False):
+        both = with_adhesive(view.data)
+        totals = [("hysteresis", float(view.data.total_friction), True)]
+        totals += [] if both is None else [("with the area term", float(both), False)]
+        marks += [
+            Series(speed_unit.of([view.speed]), [friction], colour, f"{view.name}, {words}", "",
+                   marker="*", size=11.0, filled=filled)
+            for words, friction, filled in totals
+            if np.isfinite(friction)
+        ]  # fmt: skip
+    panel = Panel(
+        Axis(f"speed [{speed_unit.unit}]", log=True),
+        Axis("friction coefficient [-]", low=0.0),
+        marks,
+        name="measured-friction",
+        caption="Measured friction over speed, with what is predicted at the speed of the case. "
+        "Bars are the standard deviation of the measurement.",
+        alt="Measured friction against speed, and predicted friction at one speed.",
+        height=400,
+    )
+    return draw.on_page([panel])[0]
+
+
+PARTS = {
+    "flash_temperature_rise_uniform": ("all waves, spread evenly", SKY),
+    "flash_temperature_rise_larger_waves": ("in the contact of larger waves", BLUE),
+    "flash_temperature_rise_own": ("the wave's own", ORANGE),
+}
+"""What warms a wave where it loses energy: name in results, in legends, and colour."""
+BAR = 1.25
+"""Left end of a bar over its wavelength, and that over its right end."""
+
+
+def require_warming(data: xr.Dataset) -> None:
+    """Raise `InputError` unless a chain's Dataset has temperatures of its waves."""
+    if not set(PARTS) <= set(data.data_vars) or "scale" not in data.dims:
+        raise InputError("data must be of a chain solved with heat; got one without temperatures")
+
+
+def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
+    """Draw by how much each wave of a chain is warmer than the rubber before the contact.
+
+    Bars are the temperature where the wave loses its energy, in the parts that add to it, those
+    that cool it below zero: heat that comes up from the depth when the contact has passed. Dots are
+    at the surface, in the contact of the wave. Waves without solution are left out.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of `Prediction.to_dataset`, with heat.
+    title : str
+        Above the panel.
+
+    Raises
+    ------
+    InputError
+        If there are no temperatures in it.
+    """
+    return draw.on_paper(heat_sheet(data, title))
+
+
+def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
+    """Describe what `heat_figure` draws; arguments and errors are its own."""
+    require_warming(data)
+    data = data.isel(scale=np.isfinite(data.flash_temperature_rise_own.values))
+    length = data.wavelength.values / MILLI
+    above, below = np.zeros(length.size), np.zeros(length.size)
+    marks: list[Mark] = [CrossLine(0.0, INK, width=0.7)]
+    for name, (label, colour) in PARTS.items():
+        part = data[name].values
+        start = np.where(part > 0.0, above, below)
+        marks.append(Bars(length / BAR, length * BAR, start, start + part, colour, label))
+        above, below = above + np.maximum(part, 0.0), below + np.minimum(part, 0.0)
+    before = (json.loads(data.attrs.get("conditions", "null")) or {}).get("temperature")
+    if before is None:
+        # the least that is left of any wave's without what warms it: of the temperature a wave was
+        # solved at and the warming it found, which agree to some tenths of a kelvin
+        rest = data.temperature - sum(data[name] for name in PARTS)
+        before = float(rest.mean()) if rest.size else math.nan
+    surface = data.contact_temperature - before
+    marks.append(Series(length, surface, INK, "at the surface, in contact", "", marker="o",
+                        size=4.0, filled=False))  # fmt: skip
+    label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
+    panel = Panel(chart.wavelength_axis(length), Axis(label, margin=0.08), marks)
+    look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
+    return Sheet([panel], 1, NARROW, 3.4, **look)
+
+
+def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
+    """Draw by how much the rubber is warmer than before a direct contact.
+
+    On one side where the octaves of wavelengths lose their energy; on the other at the surface, of
+    a line with its contact marked below.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        Solved with heat, sliding.
+    title : str
+        Above the panels.
+
+    Raises
+    ------
+    InputError
+        If it has no temperatures.
+    """
+    if contact.surface_warming is None or contact.scales is None:
+        raise InputError("contact must be solved with heat and slide; got one without temperatures")
+    length = 2.0 * math.pi / contact.scales.wavenumber / MILLI
+    top = 1.1 * float(contact.scales.warming.max())
+    octaves = Panel(
+        chart.wavelength_axis(length),
+        Axis("warming where the octave loses energy [K]", low=0.0, high=top),
+        [Series(length, contact.scales.warming, ORANGE, marker="o")],
+    )
+    x, warming = contact.x / MILLI, contact.surface_warming
+    along = Axis("along the way of sliding $x$ [mm]", margin=0.0)
+    if contact.height.ndim == 1:
+        top = float(np.max(warming))
+        level = float(np.average(warming, weights=contact.pressure))
+        touching = np.where(contact.active, -0.06 * top, np.nan)
+        surface = Panel(
+            along,
+            Axis("warming of the surface [K]", low=-0.12 * top, high=1.25 * top),
+            [
+                Series(x, warming, ORANGE, width=0.9, coarse=True),
+                CrossLine(level, GREY, "mean in the contact, by pressure", "dashdot"),
+                Series(x, touching, GREEN, "contact", width=4.0),
+            ],
+            legend="upper right",
+        )
+    else:
+        field = ValueMap(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
+        surface = Panel(Axis(along.label, grid=False), Axis("$y$ [mm]", grid=False), [field])
+    layout = {"width_ratios": [1.0, 1.5]}
+    return draw.on_paper(
+        Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout)
+    )
+
+
+HEIGHT, ROW = 1.5, 0.32
+"""Of the figure without rows, and of each [inch]."""
+INSIDE = 0.45
+"""Share of the longest bar; in one longer than that its number stands inside."""
+SHARE = 0.6
+"""Share of the height of a row that the bars of all models take."""
+PANELS = {
+    "total_contact_fraction": f"{AXIS_TITLES['contact_fraction']} [-]",
+    "total_friction": "friction, hysteresis $\\mu$ [-]",
+    WITH_AREA_TERM: "friction with area term [-]",
+}
+PER_CENT = "at a bar: change by the effects that are left out"
+
+
+def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
+    """Draw A_r/A_0 and friction as bars: with all effects, without each in turn, without any.
+
+    A dotted line goes on from the answer with all effects. At each other bar stands what the
+    effects left out change, in per cent of it. Where an area term was asked for, friction with it
+    has a panel of its own.
+
+    Parameters
+    ----------
+    *results : xarray.Dataset
+        As `effects` returns them, one for each model, one at least; all of the
+        same conditions.
+    title : str
+        Above the panels.
+    """
+    return draw.on_paper(effects_sheet(*results, title=title))
+
+
+def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
+    """Describe what `effects_figure` draws; arguments and errors are its own."""
+    names = [str(name) for name in results[0].effect.values]
+    ticks = {float(i): EFFECTS.get(name, name) for i, name in enumerate(names)}
+    rows = Axis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
+    panels = []
+    for name, label in PANELS.items():
+        values = [result[name].values for result in results if name in result]
+        if not values:
+            continue
+        longest = float(np.nanmax(np.concatenate(values), initial=0.0))
+        marks = [
+            mark
+            for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False))
+            if name in result
+            for mark in _effect_bars(result, name, colour, longest, (k, len(results)))
+        ]
+        high = 1.3 * longest or None
+        panels.append(Panel(Axis(label, low=0.0, high=high, numbers=4), rows, marks))
+    return Sheet(
+        panels,
+        len(panels),
+        height=HEIGHT + ROW * len(names) * max(len(results), 1.5),
+        legend_columns=len(results),
+        legend_title="\n".join(filter(None, [title, PER_CENT])),
+        gap=0.04,
+        layout={"sharey": True},
+    )
+
+
+def _effect_bars(
+    result: xr.Dataset, name: str, colour: str, longest: float, model: tuple[int, int]
+) -> Iterator[Mark]:
+    """Yield the bars of one of several models, and at each what the effects left out change."""
+    number, count = model
+    values, changes = result[name].values, result[CHANGES[name]].values
+    rows = np.arange(values.size) + SHARE * ((number + 0.5) / count - 0.5)
+    half = 0.45 * SHARE / count
+    model_name = str(result.attrs["model"])
+    yield Bars(0.0, np.nan_to_num(values), rows - half, rows + half, colour,
+               MODELS.get(model_name, model_name))  # fmt: skip
+    if np.isfinite(values[0]):
+        yield CrossLine(values[0], colour, "", "dotted", upright=True, order=0.9)
+    for at, value, change in zip(rows, values, changes, strict=True):
+        if np.isfinite(value) and not np.isfinite(change):
+            continue
+        text = f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged"
+        x, y = float(np.nan_to_num(value)), float(at)
+        if value > INSIDE * longest:
+            yield Note(x, y, text, "white", (-3.0, 0.0), "right")
+        else:  # a short bar may end just before the dotted line, which then passes behind
+            yield Note(x, y, text, INK, (3.0, 0.0), boxed=True)

@@ -1,0 +1,102 @@
+"""The deformed rubber block of each wave on its rigid sine, with the contact pressure above it.
+
+Described once, as charts are; `gripscale.questions.chain.charts_on_paper` draws the description.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from gripscale.charts import draw
+from gripscale.charts.chart import Block, Blocks
+from gripscale.charts.page_elements import Image, Picture
+from gripscale.charts.style import WIDE
+from gripscale.core import checks
+from gripscale.core.units import MILLI
+from gripscale.questions.chain.view import PredictionView
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
+    """Draw one wave: contact pressure above the deformed mesh and the rigid sine.
+
+    Parameters
+    ----------
+    prediction
+        Dataset over `scale`, of a prediction or of `gripscale.wave.result.waves_to_dataset`.
+    wave
+        Number of the wave, from 1.
+
+    Raises
+    ------
+    InputError
+        If there is no such wave.
+    """
+    view = PredictionView(prediction)
+    number = checks.whole("wave", wave, least=1, most=max(view.waves, 1))
+    return draw.on_paper(_described(view, [number - 1], columns=1, width=4.2))
+
+
+def blocks_figure(prediction: xr.Dataset) -> Figure:
+    """Draw every wave of a prediction, largest first, four side by side."""
+    return draw.on_paper(all_blocks(prediction))
+
+
+def all_blocks(prediction: xr.Dataset) -> Blocks:
+    """Describe every wave of a prediction, largest first, four side by side."""
+    view = PredictionView(prediction)
+    return _described(view, range(view.waves), columns=4, width=WIDE)
+
+
+def _described(view: PredictionView, waves: Iterable[int], columns: int, width: float) -> Blocks:
+    blocks = [_block(view, i) for i in waves]
+    return Blocks(blocks, view.display_unit("pressure").unit, columns, width)
+
+
+def _block(view: PredictionView, i: int) -> Block:
+    """Describe wave `i`; what a failed wave ended with is no result."""
+    unit, solved = view.display_unit("pressure"), bool(view.converged[i])
+    pressure = None
+    if solved:
+        x, pascal = view.pressure_along(i)
+        pressure = x, unit.of(pascal)
+    return Block(
+        caption=_caption(view, i),
+        steepness=float(view.column("amplitude")[i] / view.column("wavelength")[i]),
+        mean=float(unit.of(view.column("pressure_received")[i])),
+        pressure=pressure,
+        mesh=view.mesh_along(i) if solved else None,
+        slides=bool(view.column("sliding_speed")[i] > 0.0),
+    )
+
+
+def _caption(view: PredictionView, i: int) -> str:
+    def value(name: str, unit: float) -> str:
+        return f"{view.column(name)[i] / unit:.3g}"
+
+    pressure_unit = view.display_unit("pressure")
+    contact = f", contact {view.column('contact_fraction')[i]:.2f}"
+    return (
+        f"λ = {value('wavelength', MILLI)} mm\n"
+        f"A = {value('amplitude', MILLI)} mm\n"
+        f"p = {value('pressure_received', pressure_unit.divisor)} {pressure_unit.unit}"
+        + (contact if view.converged[i] else f"\n{textwrap.fill(view.why(i), 30)}")
+    )
+
+
+def blocks_image(prediction: PredictionView) -> Image:
+    """Draw the blocks of `prediction`."""
+    picture = Picture(
+        f"blocks_{prediction.name}",
+        blocks_figure(prediction.data),
+        f"{prediction.title}: deformed rubber on each rigid wave, contact pressure above. Lengths "
+        "in wavelengths, to scale.",
+        f"{prediction.waves} panels, largest wave first: contact pressure and deformed mesh of the "
+        f"{prediction.name} prediction.",
+    )
+    return draw.image(picture)

@@ -1,0 +1,332 @@
+"""Charts of a comparison: from rung to rung, down to each wavelength, over a varied input.
+
+Roads and compounds side by side are in `gripscale.questions.vary.charts_side_by_side`.
+"""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.charts import chart, draw, style
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
+from gripscale.core.arrays import Array
+from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
+from gripscale.half_space.model import DirectContact
+from gripscale.model import with_adhesive
+from gripscale.questions.chain.view import AXIS_TITLES
+from gripscale.questions.compare import charts_of_ladder as ladder
+from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
+from gripscale.questions.vary.axis import axis_label, axis_shown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+LEAST_RANGE = 3.0
+"""Largest over smallest number of an axis, at least: less has no numbers of a log axis in it."""
+HALF = 0.27
+"""Half the height of a bar, in rows."""
+ROW = 44
+"""Height of a row of the ladder on the page [px]."""
+LINE = 24
+"""Letters of a line of a label beside the ladder: the frame keeps its width on a telephone."""
+
+
+def comparison_figure(comparison: xr.Dataset) -> Figure:
+    """Draw area and friction of each rung and the factor from the rung it follows.
+
+    A bar runs from one rung to the next: blue where the number falls, orange where it rises, the
+    factor beside it. Marks carry one standard uncertainty of the mean, dots are the samples. The
+    direct contact of the measured surface judges the others; below it stand the theories,
+    the factors of the best estimate and the estimate itself, and what was measured at this speed. A
+    rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
+    band.
+    """
+    panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
+    labels = list((panels[0].y.ticks or {}).values())
+    star = any(label.endswith(STAR) for label in labels)
+    return draw.on_paper(
+        Sheet(
+            panels,
+            height=0.95 + 0.33 * len(labels),
+            gap=0.05,
+            legend="below" if star else "",
+            keys=[Series([], [], INK, BEYOND, dash="", marker="$*$")] if star else (),
+            layout={"sharey": True},
+        )
+    )
+
+
+def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
+    """Return the steps from rung to rung, and the rungs down to each wavelength."""
+    panels = []
+    for name in _quantities(comparison):
+        panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
+        texts = (
+            row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
+        )
+        ticks = {float(at): textwrap.fill(text, LINE) for at, text in enumerate(texts)}
+        panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
+    on_surface = ladder.on_the_surface(comparison)
+    if np.isfinite(on_surface.running_friction.values).any():
+        panels += [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
+    return draw.on_page(panels)
+
+
+def _quantities(comparison: xr.Dataset) -> list[str]:
+    """Return what is drawn of a comparison of one load: no friction at rest."""
+    moving = float(comparison.nominal_speed) > 0.0
+    return [name for name in AXIS_TITLES if moving or name != "friction"]
+
+
+def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
+    rows = list(ladder.rows_of(comparison, name))
+    numbers = [
+        end
+        for row in rows
+        for end in (row.value, row.before, *row.samples, *row.ends)
+        if math.isfinite(end) and end > 0.0
+    ] or [0.1, 1.0]
+    low, high = min(numbers), max(numbers)
+    widen = max(LEAST_RANGE * low / high, 1.0) ** 0.5
+    low, high = low / widen, high * widen
+    room = (high / low) ** 0.13
+    theories = int((comparison.group == "theory").sum())
+    rungs = ladder.on_the_surface(comparison).sizes["rung"]
+    borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
+    marks: list[Mark] = [CrossLine(at, FAINT, order=0.0) for at in borders]
+    for at, (row, follower) in enumerate(pairwise(rows)):
+        if math.isfinite(follower.before) and follower.before == row.value:
+            marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
+    marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
+    labels = zip(comparison.rung.values, comparison.label.values, strict=True)
+    strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DirectContact.name
+                       for end in ("", STAR)}  # fmt: skip
+    words, capital = _words(name)
+    return Panel(
+        Axis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
+        Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
+             ticks={float(at): row.label for at, row in enumerate(rows)}),
+        marks,
+        name=f"ladder-{name}",
+        caption=f"{capital} from rung to rung: a bar runs from the rung before, blue "
+        "where the number falls, orange where it rises; lines are one standard uncertainty, a "
+        "star is for friction partly beyond the measured band.",
+        alt=f"{words} of each model, with the step from the one before.",
+        height=90 + ROW * len(rows),
+        legend="none",
+    )  # fmt: skip
+
+
+def _words(name: str) -> tuple[str, str]:
+    """Return what a quantity is called within a sentence, and at its beginning."""
+    words = chart.spelled_out(AXIS_TITLES[name])
+    return words, words[0].upper() + words[1:]
+
+
+def _row_marks(at: int, row: Row) -> Iterator[Mark]:
+    if not (math.isfinite(row.value) and row.value > 0.0):
+        yield Note(0.03, at, row.note, GREY, frame="x", italic=True)
+        return
+    factor = ""
+    if math.isfinite(row.before):
+        shade = ORANGE if row.value > row.before else BLUE
+        least, most = sorted((row.before, row.value))
+        yield Bars(least, most, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
+        factor = f"×{row.factor:.2f}"
+        yield Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
+    if row.samples:
+        yield Series(row.samples, [at] * len(row.samples), GREY, dash="", width=0.8, marker="|",
+                     size=6.0)  # fmt: skip
+    low, high = ([end] if math.isfinite(end) else None for end in row.ends)
+    label, size = f"{row.label} {factor}".strip(), 9.0 if row.marker == "*" else 4.8
+    yield Series([row.value], [at], row.colour, label, "", marker=row.marker, size=size,
+                 filled=row.filled, low=low, high=high, level_bars=True, order=4.0)  # fmt: skip
+    numbers = (*row.samples, *row.ends, row.before, row.value)
+    rightmost = max(end for end in numbers if math.isfinite(end))
+    text = f"{row.value:#.2g}".rstrip(".")  # two significant digits, zeros too
+    yield Note(rightmost, at, text, offset=(5.0, 0.0))
+
+
+def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
+    """Draw area and friction of each rung down to each wavelength.
+
+    Wavelengths that excite the rubber beyond its measured band are dashed.
+    Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
+    contact do that. Their area is that of the contact without the shorter waves.
+    """
+    on_surface = ladder.on_the_surface(comparison)
+    panels = [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
+    return draw.on_paper(Sheet(panels, height=3.5))
+
+
+def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
+    data = comparison.isel(wavelength=ladder.worth_drawing(comparison))
+    length = data.wavelength.values / MILLI
+    beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
+    marks: list[Mark] = []
+    for rung, look in _rungs(data):
+        values = rung[f"running_{name}"].values
+        solved = np.isfinite(values)
+        if solved.any():
+            marks.append(_curve(length[solved], values[solved], rung, look, beyond[solved]))
+    area, (words, capital) = name == "contact_fraction", _words(name)
+    return Panel(
+        chart.wavelength_axis(length),
+        Axis(f"{AXIS_TITLES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
+        marks,
+        name=f"by-wavelength-{name}",
+        caption=f"{capital} down to each wavelength, of every model: where area is lost "
+        "and friction made. Dashed is beyond the measured band.",
+        alt=f"Running {words} of each model against wavelength, which falls to the right.",
+        height=400,
+    )
+
+
+def _rungs(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
+    names = [str(name) for name in data["rung"].values]
+    for at, look in enumerate(ladder.looks(names)):
+        yield data.isel(rung=at), look
+
+
+def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
+    """Return the curve of a rung; the one the others are judged by is drawn stronger."""
+    strong = str(rung.rung.item()) == DirectContact.name
+    width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
+    return Series(x, y, look.colour, str(rung.label.item()), look.dash, width, look.marker, size,
+                  beyond=beyond, order=order, clip=False)  # fmt: skip
+
+
+def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
+    """Draw area and friction of all rungs over the axis of a comparison.
+
+    Bands are the standard deviation over the samples. Dashed is what rests on the rubber beyond its
+    measured band. Where a sample failed the mark is open. The
+    best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
+    with its own.
+    """
+    return draw.on_paper(Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7))
+
+
+def axis_charts(comparison: xr.Dataset) -> list[Chart]:
+    """Return area and friction of every rung over the axis of a comparison."""
+    return draw.on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
+
+
+MARGIN = 0.03
+"""Room beside the values of an axis, over its extent."""
+
+
+def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
+    comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
+    x = axis_shown(comparison, axis).of(comparison[axis].values)
+    area, (words, capital) = name == "contact_fraction", _words(name)
+    marks: list[Mark] = []
+    for rung, look in _rungs(comparison):
+        values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
+        if not np.isfinite(values).any():
+            continue
+        curve = _curve(x, values, rung, look, style.predictions_beyond(rung))
+        marks.append(replace(curve, filled=(rung.converged_samples == rung.samples).values))
+        if np.isfinite(spread).any():
+            # A spread above the number itself has no end on a logarithmic axis.
+            low = np.maximum(values - spread, 1e-3 * values)
+            marks.append(Band(x, low, values + spread, look.colour, curve.label, alpha=0.18))
+    if np.isfinite(comparison[f"best_{name}_factor"]).any():
+        best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
+        ends = {
+            "low": best * np.exp(-np.arcsinh(width)),
+            "high": best * np.exp(np.arcsinh(width)),
+        }
+        marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
+    adhesive = with_adhesive(comparison) if name == "friction" else None
+    for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,
+                                 strict=adhesive is not None):  # fmt: skip
+        if np.isfinite(values).any():
+            marks.append(Series(x, values, look.colour, "with the area term", "dashdot", width=0.9))
+    low, high = float(x.min()), float(x.max())
+    if axis == "speed" and name == "friction":
+        points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
+        marks += points
+        speeds = [speed for series in points for speed in np.asarray(series.x)]
+        low, high = min([low, *speeds]), max([high, *speeds])
+    log = low > 0.0 and high > 8.0 * low
+    # room for a marker at each end
+    extent = (high / low) ** MARGIN if log else MARGIN * (high - low)
+    low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
+    least = min(0.0, float(comparison.total_friction.min()))
+    text = axis.replace("_", " ")
+    return Panel(
+        Axis(axis_label(comparison, axis), log=log, low=low, high=high),
+        Axis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
+        marks,
+        name=f"over-{axis}-{name}",
+        caption=f"{capital} of every model over {text}; bands are the standard deviation "
+        "over its samples, dashed is beyond the measured band.",
+        alt=f"{words} of each model against {text}.",
+        height=400,
+    )
+
+
+MOST_COLUMNS = 3
+MOST_PANELS = 9
+"""Series that are drawn; more would not be read."""
+LEAST_WIDTH = 4.5
+"""Width below which the legend has no room [inch]."""
+
+
+def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
+    """Draw measured friction with its spread, and the total of every model at the same points.
+
+    `data` is what `comparison` answers; `labels` are the models in words.
+    """
+    names = [str(name) for name in data.model.values]
+
+    def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
+        for name, look in zip(names, ladder.looks(names), strict=True):
+            values = data.friction.sel(model=name).values[series.rows]
+            if np.isfinite(values).any():
+                yield Series(speed_unit.of(series.speed), values, look.colour,
+                             labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
+
+    return draw.on_paper(measured_sheet(data, models, head=1.2))
+
+
+def measured_sheet(
+    data: xr.Dataset, marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]], head: float
+) -> Sheet:
+    """Return a panel for each measured series of `data`, its points over the marks of `marks_of`.
+
+    Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
+    """
+    speed_unit = display_unit_of(data.attrs, "speed")
+    panels = []
+    series = zip(ladder.measured(data), ladder.measured_points(data, speed_unit), strict=True)
+    for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
+        points = replace(points, marker="o", size=4.5, label="measured")
+        panels.append(Panel(
+            Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
+            Axis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
+            [*marks_of(values, speed_unit), points],
+            title=values.label.removeprefix("measured").removeprefix(", "),
+        ))  # fmt: skip
+    columns = min(len(panels), MOST_COLUMNS)
+    return Sheet(
+        panels,
+        columns,
+        width=max(WIDE * columns / MOST_COLUMNS, LEAST_WIDTH),
+        height=head + 2.2 * -(-len(panels) // columns),
+        legend_columns=3 if columns > 1 else 2,
+        gap=0.05,
+        layout={"sharex": True, "sharey": True},
+    )

@@ -1,0 +1,390 @@
+"""The ladder: from the chain to the profile as measured, one assumption given up on each rung.
+
+A new rung is a function that draws its samples, an entry in `LADDER`, and if it follows another,
+one in `STEPS`. What two rungs on the same surfaces say of an assumption may become a factor of the
+best estimate (`gripscale.questions.answer.best_estimate`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache, partial
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+from gripscale.chain.chain import Chain
+from gripscale.conditions.conditions import Conditions
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.half_space.continued import ContinuedContact
+from gripscale.half_space.finite_strain import spread_windows
+from gripscale.half_space.model import BlockOnProfile, DirectContact
+from gripscale.half_space.windows import random_phases, surface_of_sines
+from gripscale.model import Load, Model
+from gripscale.rubber import Rubber
+from gripscale.surface import (
+    HeightMap,
+    Measured,
+    Profile,
+    SineStack,
+    Surface,
+    fit_sines,
+    height_difference,
+)
+from gripscale.surface.isotropic_maps import STEPS_IN_WAVE
+from gripscale.surface.line_statistics import FEWEST_PERIODS
+from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.theory.models import KlueppelHeinrich, Persson
+from gripscale.wave.kernel import WaveSolver
+
+
+@dataclass(frozen=True, eq=False)
+class ComparisonSetup:
+    """What the models are compared over, and how finely."""
+
+    rubber: Rubber
+    surface: Surface
+    load: Load
+    solver: WaveSolver
+    """What solves one wave of the chain, as the case says."""
+    seeds: int = 3
+    """Random phases drawn of each surface."""
+    tolerance: float = 0.05
+    """Estimated relative error of each direct contact."""
+    klueppel_heinrich: KlueppelHeinrich | None = None
+    """That theory with its fitted parameters; without them it says nothing."""
+    pressure_classes: int = 1
+    """In how many classes of equal load the chain hands its pressure down, as the case says."""
+    windows: int = 3
+    """Windows of the profiles that are solved at finite strain."""
+    continuation: ContinuedContact | None = None
+    """Direct contact with roughness below the measurement, as the case says."""
+    conditions: Conditions | None = None
+    """What changes the rubber. Chain and direct contact know all of it, every other model only the
+    temperature."""
+
+    @property
+    def of_map(self) -> bool:
+        """Whether a map was measured."""
+        return self.surface.measured is not None and self.surface.measured.map is not None
+
+    @property
+    def lines(self) -> tuple[Profile, ...]:
+        """The cleaned profiles, or the lines of a map; none of waves stated by hand."""
+        return () if self.surface.measured is None else tuple(self.surface.measured.cleaned)
+
+    @property
+    def rubber_before(self) -> Rubber:
+        """The rubber at the temperature before the contact, for models that know no more."""
+        return self.rubber if self.conditions is None else self.conditions.before(self.rubber)
+
+    def rubber_for(self, model: Model) -> Rubber:
+        """Return the rubber as measured for a model with conditions, else `rubber_before`."""
+        return self.rubber_before if model.conditions is None else self.rubber
+
+    def chain(self, solver: WaveSolver) -> Chain:
+        """Return the chain of the case with a solver."""
+        return Chain(solver, pressure_classes=self.pressure_classes, conditions=self.conditions)
+
+    @property
+    def direct(self) -> DirectContact:
+        """The direct contact."""
+        return DirectContact(tolerance=self.tolerance, conditions=self.conditions)
+
+
+class SampleSpec(NamedTuple):
+    """One sample of a rung: a model to ask, and on which surface."""
+
+    model: Model
+    surface: Surface
+    subject: str = ""
+    """What it is a sample of, such as a profile; samples of the same are compared in pairs."""
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One model of the ladder."""
+
+    name: str
+    """Word for it in result files."""
+    label: str
+    """In words, for tables and figures."""
+    group: str
+    """Which rungs it belongs with, so that they can be asked for together."""
+    change: str
+    """What changes from the rung it follows, in words; empty where there is none."""
+    follows: str
+    """Name of the rung it is compared with; empty for none."""
+    draws: Callable[[ComparisonSetup], Sequence[SampleSpec]] = field(repr=False)
+    """From a setup to its samples; none where the model has nothing to say of it."""
+
+
+def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
+    """Return the waves of `surface` with nothing else measured."""
+    whole = measured if isinstance(measured, HeightMap) else [measured]
+    return Surface(surface.sines, measured.name, measured=Measured.of(whole))
+
+
+WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
+"""Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
+(those of the roughness that the measurement has), and how many windows at most."""
+
+MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
+"""Synthetic maps: least length over the largest sine wave, length over the smallest wave that is
+kept, how many, and how many lines of each are solved each way."""
+
+
+def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    # its error must not hide what a few per cent of finite strain change; it takes a second
+    return _on_windows(setup, DirectContact(tolerance=0.2 * setup.tolerance, periodic=True))
+
+
+def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    return _on_windows(setup, BlockOnProfile(periodic=True))
+
+
+def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
+    """Return the windows of the profiles, the same for both models."""
+    sines = setup.surface.sines
+    length = WINDOW * float(sines.wavelength[0])
+    return [
+        SampleSpec(
+            model,
+            with_single_measurement(setup.surface, line),
+            f"{line.name} from {line.x[0]:.4g} m",
+        )
+        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))[: setup.windows]
+    ]
+
+
+@lru_cache(maxsize=4)
+def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
+    """Return windows of the profiles that are long enough for one, with waves down to `end`.
+
+    The first few of them are spread over the profiles as well as all are.
+    """
+    enough = [line for line in lines if line.length > length]
+    if not enough:
+        return []
+    smallest = max(length / MOST_WAVES, end, 2.0 * max(line.step for line in enough))
+    spread = spread_windows(enough, length, MOST_WINDOWS, smallest)
+    return [spread[at] for at in np.argsort(_halving(len(spread)), kind="stable")]
+
+
+def _halving(count: int) -> list[int]:
+    """Return the rank of each of `count` places: the first, the middle, the quarters, ..."""
+    bits = max(count - 1, 1).bit_length()
+    return [int(f"{number:0{bits}b}"[::-1], 2) for number in range(count)]
+
+
+def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
+    """Return synthetic isotropic maps of the profiles, whole (0) or that many lines of each.
+
+    None of a surface that is a map, or whose profiles are too short.
+    """
+    from gripscale.half_space.maps import SyntheticMap
+
+    surface, sines = setup.surface, setup.surface.sines
+    if not setup.lines or setup.of_map:
+        return []
+    step = max(line.step for line in setup.lines)
+    smallest = max(
+        MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.cutoff_wavelength, STEPS_IN_WAVE * step
+    )
+    if sum(line.length for line in setup.lines) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
+        return []
+    models = [
+        SyntheticMap(seed, float(smallest), lines, tolerance=setup.tolerance)
+        for seed in range(MAPS)
+    ]
+    return [SampleSpec(model, surface, f"map {seed}") for seed, model in enumerate(models)]
+
+
+Measurement = TypeVar("Measurement", Profile, HeightMap)
+
+WINDOWS = "windows"
+"""The group of rungs that take a minute and more."""
+
+DIRECT = DirectContact.name
+"""The rung the chain is judged by, and the best estimate starts from."""
+
+LENGTH_OF_SINES = 10
+"""Period of a surface of sines over its largest wave."""
+
+WAVES_OF_UPPER_HALF, CLASSES = 4, 8
+"""Waves and pressure classes of the chain that comes nearest to direct contact on surfaces it was
+not chosen by, see docs/chain-and-direct-contact.md."""
+
+POINTS_OF_A_CLASS = 256
+"""Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
+
+
+ON_REQUEST = frozenset({"map", "below"})
+"""Groups of rungs that nothing but a comparison of them needs: synthetic maps, a minute each, and
+roughness below the measurement."""
+
+
+def chosen(names: Iterable[str]) -> list[Rung]:
+    """Return the rungs of the given names and groups in the order of the ladder.
+
+    Without any all but those on request. Raises `InputError` for an unknown one.
+    """
+    wanted = set(names)
+    groups = dict.fromkeys(rung.group for rung in LADDER)
+    checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
+    if not wanted:
+        return [rung for rung in LADDER if rung.group not in ON_REQUEST]
+    return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
+
+
+def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
+    """Return `surface` with one profile after the other, or its map, and what it is called."""
+    measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
+    return [
+        (part.name or f"profile {i}", with_single_measurement(surface, part))
+        for i, part in enumerate(measured, 1)
+    ]
+
+
+def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    if isinstance(setup.solver, HalfPlane):
+        return []
+    return [SampleSpec(setup.chain(setup.solver), setup.surface)]
+
+
+def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    solver = setup.solver if isinstance(setup.solver, HalfPlane) else HalfPlane()
+    return [SampleSpec(setup.chain(solver), setup.surface)]
+
+
+def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    surface = setup.surface
+    upper_already = surface.counted.get("top_height_fraction", 1.0) < 1.0
+    cut_off_already = surface.sines.cut_off is not None
+    if upper_already and cut_off_already and setup.pressure_classes > 1:
+        return []
+    end, max_lag = surface.cutoff_wavelength, surface.counted.get("max_lag")
+    sines = _of_upper_half(setup.lines, max_lag, end) if setup.lines else None
+    if sines is None:
+        return []
+    solver = HalfPlane(points=POINTS_OF_A_CLASS)
+    chain = Chain(solver, pressure_classes=CLASSES, conditions=setup.conditions)
+    return [SampleSpec(chain, Surface(sines, "waves of the upper half"))]
+
+
+@lru_cache(maxsize=4)
+def _of_upper_half(
+    lines: tuple[Profile, ...], max_lag: float | None, cut_off: float
+) -> SineStack | None:
+    """Return waves of the upper half of the heights; None where they cannot be fitted."""
+    try:
+        upper = height_difference(lines, top_height_fraction=0.5, max_lag=max_lag)
+        return fit_sines(upper, scales=WAVES_OF_UPPER_HALF, cut_off=cut_off)
+    except InputError:  # too few lags, or roughness that ends too near the first wave
+        return None
+
+
+def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
+    return [SampleSpec(setup.direct, with_single_measurement(setup.surface, x)) for x in lines]
+
+
+def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    surface = setup.surface
+    measured = [] if surface.measured is None else surface.measured.surfaces
+    return [
+        SampleSpec(setup.direct, with_single_measurement(surface, _shuffled(part, seed)), part.name)
+        for part in measured
+        for seed in range(setup.seeds)
+    ]
+
+
+def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
+
+
+def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    if setup.continuation is None:
+        return []
+    profiles = each_measured(setup.surface)
+    return [SampleSpec(setup.continuation, part, name) for name, part in profiles]
+
+
+def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    """Return each profile down to where the sine waves end, or its spectrum before them."""
+    specs = []
+    for name, part in each_measured(setup.surface):
+        spectra = [_spectrum(line) for line in part.measured.cleaned] if part.measured else []
+        ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
+        smallest = max(part.cutoff_wavelength, *ends)
+        specs.append(SampleSpec(Persson(smallest_wavelength=smallest), part, name))
+    return specs
+
+
+def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    theory = setup.klueppel_heinrich
+    if theory is None:
+        return []
+    return [SampleSpec(theory, part, name) for name, part in each_measured(setup.surface)]
+
+
+@lru_cache(maxsize=16)
+def _of_sines(sines: SineStack, seed: int) -> Profile:
+    return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
+
+
+@lru_cache(maxsize=16)
+def _spectrum(line: Profile) -> ArealSpectrum:
+    return areal_spectrum(profile_spectrum(line))
+
+
+@lru_cache(maxsize=64)
+def _shuffled(measured: Measurement, seed: int) -> Measurement:
+    """Draw once what is met at every load."""
+    return random_phases(measured, seed)
+
+
+STEPS = {
+    "chain_half_plane": ("small strain assumed", "chain"),
+    "chain_upper": ("heights that touch, pressure as it is distributed", "chain_half_plane"),
+    "sines": ("all scales together", "chain_half_plane"),
+    "random_phases": ("the whole spectrum", "sines"),
+    DIRECT: ("the measured phases", "random_phases"),
+    ContinuedContact.name: ("roughness below the measurement", DIRECT),
+    "persson": ("", DIRECT),
+    "klueppel_heinrich": ("", DIRECT),
+    "windows_finite_strain": ("finite strain", "windows_half_plane"),
+    "map": ("a map for its lines", "map_lines"),
+}
+"""What changes from the rung that a rung follows, and that rung."""
+
+
+def _rung(
+    name: str, label: str, group: str, draws: Callable[[ComparisonSetup], Sequence[SampleSpec]]
+) -> Rung:
+    return Rung(name, label, group, *STEPS.get(name, ("", "")), draws)
+
+
+LADDER: tuple[Rung, ...] = (
+    _rung("chain", "chain, finite strain", "waves", _chain),
+    _rung("chain_half_plane", "chain, small strain", "waves", _chain_half_plane),
+    _rung("chain_upper", "chain of the upper half, pressure in classes", "waves", _chain_upper),
+    _rung("sines", "direct contact, sine waves of the chain", "waves", _sines),
+    _rung("random_phases", "direct contact, random phases", "measured", _random_phases),
+    _rung(DIRECT, "direct contact, measured surface", "measured", _direct),
+    _rung(
+        ContinuedContact.name,
+        "direct contact, continued below the measurement",
+        "below",
+        _continued,
+    ),
+    _rung("persson", "Persson, isotropic surface", "theory", _persson),
+    _rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", _klueppel_heinrich),
+    _rung("windows_half_plane", "small-strain windows", WINDOWS, _windows_half_plane),
+    _rung("windows_finite_strain", "finite-strain windows", WINDOWS, _windows_block),
+    _rung("map_lines", "lines of a synthetic map", "map", partial(_on_maps, lines=LINES)),
+    _rung("map", "synthetic map", "map", partial(_on_maps, lines=0)),
+)

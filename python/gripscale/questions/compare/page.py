@@ -1,0 +1,239 @@
+"""Models side by side: the ladder, its best estimate, and the chain against the direct contact."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+import xarray as xr
+
+from gripscale.io.table import Column, Table, digits, fixed, percent, significant
+from gripscale.model import (
+    CUT_OFF_EXPONENTS,
+    FRICTION_OUTSIDE_BAND,
+    status_words,
+    with_adhesive,
+)
+from gripscale.questions.answer.intervals import LEVEL
+from gripscale.questions.answer.page import answer_cards, has_answer, no_answer
+from gripscale.questions.chain.view import CONVERGED, HEADINGS, SYMBOLS, PredictionView
+from gripscale.questions.compare.charts_of_ladder import flawed, varied
+from gripscale.questions.compare.ladder import DIRECT
+from gripscale.questions.vary.axis import axis_shown
+from gripscale.report import elements
+from gripscale.report.elements import Card
+from gripscale.report.notices import Failure, comparison_notices
+from gripscale.rubber.extrapolation import WORTH_SAYING
+
+TINY = 0.05
+"""Per cent below which a spread or an error is as good as none."""
+NOTE = (
+    "×: factor on the model before; for theories, on the direct contact. Exponents: "
+    "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band (*): "
+    "share of the friction at frequencies beyond those of the master curve, and how far they go."
+)
+
+
+def comparison_table(comparison: xr.Dataset) -> Table:
+    """Return area and friction of each model of the ladder, with all that qualifies them.
+
+    Spread and error are relative to the number, the factor is from the model before. `comparison`
+    has no axis but `rung`.
+    """
+    beyond = comparison[FRICTION_OUTSIDE_BAND].values
+    good, count = comparison.converged_samples.values, comparison.samples.values
+    samples = [str(n) if k == n else f"{k}/{n}" for k, n in zip(good, count, strict=True)]
+    marks = [" *" if share > WORTH_SAYING else "" for share in beyond]
+    columns = [Column("model", comparison.label.values, marks=marks)]
+    for name, symbol in SYMBOLS.items():
+        value, group = comparison[f"total_{name}"].values, HEADINGS[name]
+        columns.append(Column(f"total_{name}", value, symbol, group=group))
+        if name == "friction":
+            lost = comparison.total_friction_from_dissipation.values
+            columns.append(Column("friction_from_dissipation", lost, "μ", "losses", group=group))
+            both = with_adhesive(comparison)
+            if both is not None:
+                total = both.values
+                columns.append(Column("with_area_term", total, "μ", "+ area term", group=group))
+        for part in ("spread", "error"):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = np.where(value == 0.0, np.nan, comparison[f"{name}_{part}"].values / value)
+            columns.append(
+                Column(f"{name}_{part}", share, part, "%", 0.01, format=_share, group=group)
+            )
+        factors = comparison[f"{name}_factor"].values
+        columns.append(Column(f"{name}_factor", factors, "×", group=group))
+    columns.append(Column("samples", samples, "n", words=False))
+    for name, symbol in zip(CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
+        missing = np.full(len(samples), np.nan)
+        values = comparison[name].values if name in comparison else missing
+        columns.append(Column(name, values, symbol, group="exponents", format=fixed(2)))
+    columns.append(
+        Column("friction_outside_band", beyond, "μ", "beyond", group="band", format=percent)
+    )
+    columns += [
+        Column(
+            f"decades_{end}_band",
+            comparison[f"total_decades_{end}_band"].values,
+            end,
+            "decades",
+            group="band",
+            format=digits(2),
+        )
+        for end in ("below", "above")
+    ]
+    strong = [i for i, name in enumerate(comparison.rung.values) if str(name) == DIRECT]
+    return Table(
+        "ladder", columns, "The ladder of models", [NOTE], bad=flawed(comparison), strong=strong
+    )
+
+
+def _share(value: float) -> str:
+    return "0" if value < TINY else significant(value, 2)
+
+
+def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
+    """Return `contact_fraction` or `friction` of each model over the axis that was varied."""
+    display_unit = axis_shown(comparison, axis)
+    data = comparison.transpose(axis, ...)
+    failed = (data.converged_samples < data.samples).values
+    beyond = data[FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
+    columns = [
+        Column(
+            axis,
+            data[axis].values,
+            axis.replace("_", " "),
+            display_unit.unit,
+            display_unit.divisor,
+            display_unit.zero,
+            "{:.3g}".format,
+        )
+    ]
+    for at, rung in enumerate(data.rung.values):
+        flags = zip(failed[:, at], beyond[:, at], strict=True)
+        marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]
+        values = data[f"total_{name}"].values[:, at]
+        heading = str(rung).replace("_", " ")
+        columns.append(Column(str(rung), values, heading, marks=marks, bad=failed[:, at]))
+    if np.isfinite(data[f"best_{name}_factor"]).any():
+        texts = [_with_half_width(data.isel({axis: i}), name) for i in range(data.sizes[axis])]
+        columns.append(Column("best", texts, "best estimate", words=False))
+    caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
+    return Table(f"over-{axis}-{name}", columns, caption)
+
+
+def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the tables of a comparison and the sentences below them."""
+    axis = varied(comparison)
+    if axis:
+        yield from (axis_table(comparison, axis, name) for name in SYMBOLS)
+        yield from (f"* {notice.text}" for notice in comparison_notices(comparison))
+        yield from temperature_only(comparison)
+        return
+    yield comparison_table(comparison)
+    yield from remarks(comparison)
+
+
+def remarks(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield what a table of one load cannot say: failures, and effects that models leave out."""
+    for at, bad in enumerate(flawed(comparison)):
+        if bad:
+            yield f"{comparison.label.values[at]}: {comparison.status.values[at]}."
+    yield from temperature_only(comparison)
+
+
+def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield which models leave effects out, where strain or heat change the rubber."""
+    asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
+    effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
+    if effects:
+        yield (
+            f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts. "
+            "Theories, windows and maps have only the temperature before the contact."
+        )
+
+
+def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
+    """Yield the best estimate, or else area and friction of the first model."""
+    if ladder is None:
+        return
+    if has_answer(ladder):
+        yield from answer_cards(ladder)
+        return
+    rung = ladder.isel(rung=0)
+    bad = int(rung.converged_samples) < int(rung.samples)
+    for name, symbol in SYMBOLS.items():
+        words = f"{HEADINGS[name].capitalize()} {symbol}"
+        detail = f"{rung.label.item()}; ± {elements.percent(rung[f'{name}_uncertainty'])}"
+        yield Card(words, elements.number(rung[f"total_{name}"]), detail, bad)
+
+
+def best_line(comparison: xr.Dataset) -> str:
+    """Return the best estimate in one line, the same in every version: scripts read it."""
+    numbers = (
+        f"{symbol} = {_with_half_width(comparison, name)}"
+        for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction"))
+    )
+    doubt = "; not to be relied on" if no_answer(comparison) else ""
+    return f"Best estimate ({100.0 * LEVEL:.0f} %): {', '.join(numbers)}{doubt}"
+
+
+def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
+    """Yield the direct contact of the measured profiles, and how the chain compares with it."""
+    status = str(direct.prediction_status.item())
+    if status != CONVERGED:
+        yield f"The direct contact of the measured profiles has no result: {status}."
+        return
+    area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
+    words = f"A_r/A_0 = {significant(area)}"
+    if chain.moving:
+        words += f", mu = {significant(friction)}"
+        both = with_adhesive(direct)
+        if both is not None:
+            words += f", with the area term {significant(float(both))}"
+    yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
+    if not chain.complete:
+        return
+    against = f"{chain.total('contact_fraction') / area:.2g} times this contact area"
+    if chain.moving:
+        against += f" and {chain.total('friction') / friction:.2g} times this friction"
+    yield f"The chain has {against}; `gripscale compare` shows the cost of each assumption."
+
+
+def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
+    """Yield which slopes of the surface carry load and make friction, where that is known."""
+    if "best_friction_by_slope" not in direct:
+        return
+    ends = direct.slope.values.tolist()
+    names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
+    columns = [
+        Column(name, direct[f"best_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
+        for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
+        if direct[f"best_{name}_by_slope"].notnull().all()
+    ]
+    caption = "Shares by slope of the surface, direct contact"
+    yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)
+
+
+def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
+    """Yield where a model has a sample that did not converge, and what it says."""
+    axis = varied(comparison)
+    for at in range(comparison.sizes[axis]) if axis else [None]:
+        data = comparison if at is None else comparison.isel({axis: at})
+        where = ""
+        if at is not None:
+            value = axis_shown(comparison, axis).text(float(data[axis]), 4)
+            where = f"{axis.replace('_', ' ')} {value}, "
+        words = status_words(data, "status").values
+        for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
+            if str(text) != CONVERGED:
+                yield f"{where}{label}", Failure(str(text), str(word))
+
+
+def _with_half_width(comparison: xr.Dataset, name: str) -> str:
+    value, width = (float(comparison[f"best_{name}{end}"]) for end in ("", "_half_width"))
+    spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
+    return f"{significant(value)}{spread}"

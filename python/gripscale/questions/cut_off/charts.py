@@ -1,0 +1,132 @@
+"""Charts of contact and friction against the cut-off, from centimetres to micrometres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import draw
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    CrossLine,
+    Mark,
+    Panel,
+    Series,
+    Sheet,
+    wavelength_axis,
+)
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
+from gripscale.core.units import MILLI
+from gripscale.questions.cut_off.cut_off_curve import (
+    AREA,
+    CONTACT_SLOPE,
+    FRICTION,
+    SLOPE_IN_CONTACT,
+)
+
+CURVES = {
+    FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
+    AREA: ("$A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
+}
+SAME = 0.01
+"""Relative distance of two rules that lie on each other in a figure."""
+
+
+def cut_off_charts(data: xr.Dataset) -> list[Chart]:
+    """Return the panels as charts of the page."""
+    return draw.on_page(_panels(data))
+
+
+def cut_off_sheet(data: xr.Dataset) -> Sheet:
+    """Describe friction, contact and the slope in contact over the same cut-offs."""
+    layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
+    return Sheet(
+        _panels(data), 1, WIDE, 6.6, gap=0.03, legend="above", legend_columns=2, layout=layout
+    )
+
+
+def _panels(data: xr.Dataset) -> list[Panel]:
+    """Return friction, contact and slope in contact over the cut-off."""
+    lengths = data.cut_off.values / MILLI
+    axis = wavelength_axis(lengths)
+    axis = Axis("cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high)
+    rules = list(_rules(data))
+    panels = []
+    for name, (label, colour, title) in CURVES.items():
+        marks: list[Mark] = [
+            Band(
+                lengths,
+                data[f"{name}_lower"].values,
+                data[f"{name}_upper"].values,
+                colour,
+                "90 % band of the continuation" if name == FRICTION else "",
+            ),
+            *_curve(data, name, colour, labelled=name == FRICTION),
+            *rules,
+        ]
+        panels.append(
+            Panel(
+                axis,
+                Axis(label, log=name == AREA, low=None if name == AREA else 0.0),
+                marks,
+                name=f"cut-off-{'friction' if name == FRICTION else 'area'}",
+                caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
+                "with its 90 % band. Upright lines are rules of cut-off.",
+                alt=f"{title} against the shortest wavelength of the road.",
+            )
+        )
+    slope: list[Mark] = [
+        *_curve(data, SLOPE_IN_CONTACT, GREY, labelled=False),
+        CrossLine(CONTACT_SLOPE),
+        *(CrossLine(rule.at, rule.colour, "", "dashed", 0.9, upright=True) for rule in rules),
+    ]
+    panels.append(
+        Panel(
+            axis,
+            Axis("rms slope in contact [-]", low=0.0),
+            slope,
+            name="cut-off-slope",
+            caption="Rms slope of the road where it touches: small strain ends near 1.",
+            alt="Rms slope in contact against the cut-off.",
+        )
+    )
+    return panels
+
+
+def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Iterator[Mark]:
+    """Yield a curve, solid where it was measured and dotted where it is continued."""
+    lengths, values = data.cut_off.values / MILLI, data[name].values
+    measured = data.curve_measured.values.astype(bool)
+    below = ~measured | np.append(~measured[1:], False)  # from the last measured point on
+    for where, dash, label in (
+        (measured, "solid", "measured roughness"),
+        (below, "dotted", "continued roughness"),
+    ):
+        if where.any():
+            yield Series(
+                lengths[where],
+                values[where],
+                colour,
+                label if labelled else "",
+                dash,
+                marker="o",
+                size=3.0,
+            )
+
+
+def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
+    """Yield the rules of cut-off that lie on the axis; those at the same place are one line."""
+    first, last = data.cut_off.values[[0, -1]]
+    names: dict[float, list[str]] = {}
+    for name, at in zip(data.rule.values, data.rule_cut_off.values, strict=True):
+        if last <= at <= first:
+            length = next((other for other in names if abs(at / other - 1.0) < SAME), float(at))
+            names.setdefault(length, []).append(str(name))
+    for i, (at, alike) in enumerate(names.items()):
+        colour = COLOURS[(i + 2) % len(COLOURS)]
+        label = f"{', '.join(alike)}: {at / MILLI:.2g} mm"
+        yield CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)

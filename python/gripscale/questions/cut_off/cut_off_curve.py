@@ -1,0 +1,184 @@
+"""Contact and friction of a case against the cut-off, down below the measurement.
+
+from gripscale.questions import case_cut_off
+data = case_cut_off("case.toml", folder="results", down_to=10e-6)
+data.curve_friction_from_dissipation
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case_file.prepare import prepare_continuation
+from gripscale.case_file.read import CaseFile
+from gripscale.case_file.results import CaseResults
+from gripscale.case_file.run import prepare_case
+from gripscale.core import provenance
+from gripscale.core.errors import InputError
+from gripscale.core.units import in_mm
+from gripscale.experiment.design import attributes, surface_numbers
+from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.task import Task
+from gripscale.half_space.below_measurement import FACTS, cut_off_at
+from gripscale.half_space.continued import DOWN_TO, QUANTILE_90
+from gripscale.io import netcdf
+from gripscale.model import STATUS, Load
+from gripscale.questions.answer.best_estimate import Factor, LogNormalValue
+from gripscale.questions.inputs import record
+from gripscale.surface import RmsSlope, Surface, find_cut_off
+
+FILE = "cut_off.nc"
+"""The Dataset, in the folder of the command."""
+
+CONTINUED_TO = "continued_to"
+"""Name of the wavelength [m] that the roughness of a best estimate is continued to."""
+STATUSES = (STATUS, f"{STATUS}_word")
+FRICTION, AREA = "curve_friction_from_dissipation", "curve_contact_fraction"
+SLOPE_IN_CONTACT = "curve_slope_in_contact"
+CONTACT_SLOPE = 1.0
+"""Rms slope in contact of the rule that ends the roughness where small strain ends."""
+RMS_SLOPES = {"surface": 1.3, "profile": 1.0}
+"""Usual slopes at which the roughness is cut off: see docs/cut-off.md."""
+
+
+def case_cut_off(
+    case: CaseFile | str | Path,
+    *,
+    folder: str | Path,
+    down_to: float | None = None,
+    hurst: float | None = None,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset:
+    """Return contact and friction of a case against the cut-off, and write them to a folder.
+
+    Parameters
+    ----------
+    case : path or CaseFile
+        The case; its surface must be measured profiles or a map.
+    folder : path
+        Gets `cut_off.nc`, and the solution as soon as it is there.
+    down_to : float, optional
+        Last cut-off [m]; that of [below_measurement] of the case by default, else 10 um.
+    hurst : float, optional
+        Hurst exponent of the continued roughness, in place of what the case states.
+    workers, on_task
+        As for `Study.run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off`, of a map those of
+        `map_by_cut_off`, with the prefix `curve_`. Over `rule`: the cut-off that each rule gives,
+        with friction and contact there. The totals are those of the last cut-off.
+
+    Raises
+    ------
+    InputError, FileError
+        For what cannot be used; if nothing was measured.
+    """
+    results = prepare_case(case)
+    with bench_in(folder, workers, None, on_task) as bench:
+        data = cut_off_curve(results, results.load, bench, down_to=down_to, hurst=hurst)
+    return save_curve(data, results, folder)
+
+
+def save_curve(data: xr.Dataset, results: CaseResults, folder: str | Path) -> xr.Dataset:
+    """Return the curve of a case as kept in a folder; `FileError` if it cannot be written."""
+    attrs = {
+        "title": "Contact and friction against the cut-off",
+        "case_file": str(results.file.path),
+        **provenance.attributes(),
+    }
+    data = data.assign_attrs(results.file.attributes, **attrs)
+    groups = {"inputs": record.inputs(results)}
+    return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
+
+
+def cut_off_curve(
+    results: CaseResults,
+    load: Load,
+    bench: Bench,
+    *,
+    down_to: float | None = None,
+    hurst: float | None = None,
+) -> xr.Dataset:
+    """Return the curves of a prepared case under a load, as `case_cut_off`."""
+    table = results.file.case.below_measurement
+    end = down_to or table.down_to or DOWN_TO
+    model = prepare_continuation(results.file, down_to=end, hurst=hurst)
+    task = Task(results.rubber.rubber, results.surface, load, model)
+    label = f"continued down to {in_mm(end, 3)}"
+    data = bench.solve({label: task}, _curves)[task.key]
+    return data.merge(_at_rules(data, results.surface)) if "cut_off" in data.dims else data
+
+
+def continuation_factor(data: xr.Dataset, cut_off: float) -> Factor:
+    """Return the factor of the roughness below a cut-off [m], with the error of a continuation."""
+    end = float(data.cut_off[-1])
+    sigma = math.log(float(data[f"{AREA}_upper"][-1] / data[AREA][-1])) / QUANTILE_90
+
+    def grown(curve: str) -> LogNormalValue:
+        ratio = float(data[curve][-1]) / at_cut_off(data, curve, cut_off)
+        return LogNormalValue(ratio if math.isfinite(ratio) else 1.0, sigma)
+
+    label = f"roughness continued from {in_mm(cut_off, 3)} to {in_mm(end, 3)}"
+    return Factor("below_measurement", label, grown(AREA), grown(FRICTION))
+
+
+def _curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
+    """Return the numbers of the last cut-off, and the curves."""
+    kept = surface_numbers(answer, task)
+    kept = kept.assign(answer[["nominal_pressure", "nominal_speed", *STATUSES]].variables)
+    if "cut_off" not in answer.dims:
+        return kept
+    curves = [str(name) for name in answer if answer[name].dims == ("cut_off",)]
+    return kept.merge(answer[[*curves, *(name for name in FACTS if name in answer)]])
+
+
+def at_cut_off(data: xr.Dataset, name: str, length: float) -> float:
+    """Return a number of a curve at a cut-off [m]; NaN beyond the ends of the curve."""
+    lengths, values = data["cut_off"].values[::-1], data[name].values[::-1]
+    if not lengths[0] * (1.0 - 1e-9) <= length <= lengths[-1] * (1.0 + 1e-9):
+        return math.nan
+    return float(np.exp(np.interp(math.log(length), np.log(lengths), np.log(values))))
+
+
+def _rules(data: xr.Dataset, surface: Surface) -> Iterator[tuple[str, float]]:
+    """Yield the rules of cut-off in words, and where they end the roughness [m]."""
+    yield "shortest wavelength measured", float(data.resolved)
+    yield "cut-off of the case", float(surface.cutoff_wavelength)
+    assert surface.measured is not None
+    for kind, slope in RMS_SLOPES.items():
+        try:
+            end = find_cut_off(surface.measured.slopes, RmsSlope(slope, kind, True)).wavelength
+        except InputError:  # the spectrum does not reach it
+            continue
+        yield f"rms slope {slope:g} of the {kind}", end
+    end = cut_off_at(CONTACT_SLOPE, data.cut_off.values, data[SLOPE_IN_CONTACT].values)
+    if math.isfinite(end):
+        yield f"rms slope {CONTACT_SLOPE:g} in contact", end
+
+
+def _at_rules(data: xr.Dataset, surface: Surface) -> xr.Dataset:
+    """Return cut-off, friction and contact of each rule."""
+    names, lengths = zip(*_rules(data, surface), strict=True)
+    values = {
+        "rule_cut_off": (list(lengths), "cut-off of the rule", "m"),
+        "rule_friction": ([at_cut_off(data, FRICTION, x) for x in lengths], "friction there", "1"),
+        "rule_contact_fraction": (
+            [at_cut_off(data, AREA, x) for x in lengths],
+            "contact fraction there",
+            "1",
+        ),
+    }
+    variables = {
+        name: ("rule", numbers, attributes(text, unit))
+        for name, (numbers, text, unit) in values.items()
+    }
+    return xr.Dataset(variables, {"rule": list(names)})

@@ -1,0 +1,1 @@
+"""Which compound is better."""

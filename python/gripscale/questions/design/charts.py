@@ -1,0 +1,160 @@
+"""Charts of a design: friction over rolling resistance, and the master curves it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import draw
+from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.page_elements import Picture
+from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
+from gripscale.core.units import MEGA
+from gripscale.questions.design.design_text import at_todays_rolling, changed_frequencies
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PERCENT = 100.0
+SAME = 5e-3
+"""Relative difference of rolling resistances that is none."""
+FREQUENCY = Axis("frequency [Hz]", log=True, numbers=5)
+APART = 0.05
+"""Difference of rolling resistances over today's from which both curves can be told apart."""
+COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
+
+
+def design_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield the figure of a design."""
+    yield Picture(
+        "design",
+        design_figure(data),
+        "Friction gained against rolling resistance, and the master curves of some points beside "
+        "today's.",
+        "A curve of friction over rolling resistance with points of compounds, and three panels of "
+        "curves over the frequency.",
+    )
+
+
+def design_figure(data: xr.Dataset) -> Figure:
+    """Draw the trade-off curve of a design, and moduli, loss factor and change of some points.
+
+    `data` is that of `gripscale.questions.design_compound`.
+    """
+    points = _drawn_points(data)
+    panels = [
+        _trade_off_panel(data, points),
+        _moduli_panel(data, points),
+        _loss_factor_panel(data, points),
+        _change_panel(data, points),
+    ]
+    return draw.on_paper(Sheet(panels, 2, height=5.6, legend_columns=4))
+
+
+def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:
+    """Return number, colour and label of the points drawn: the answer, and ends apart from it."""
+    ratio = data.rolling_ratio.values
+    last = data.sizes["point"] - 1
+    same = at_todays_rolling(data)
+    answer = last if same is None else int(np.abs(ratio - float(same.rolling_ratio)).argmin())
+    colours = {0: BLUE, last: ORANGE, answer: GREEN}
+    return [
+        (at, colours[at], _label(float(ratio[at])))
+        for at in sorted(colours)
+        if at == answer or abs(ratio[at] - ratio[answer]) > APART
+    ]
+
+
+def _label(ratio: float) -> str:
+    """Return what a point of this rolling resistance over today's is called."""
+    if abs(ratio - 1.0) < SAME:
+        return "same rolling resistance"
+    return f"rolling resistance {PERCENT * (ratio - 1.0):+.0f} %"
+
+
+def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
+    """Return friction gained over rolling resistance."""
+    rolling = PERCENT * (data.rolling_ratio.values - 1.0)
+    low, gain, high = (PERCENT * data[name].values for name in ("gain_low", "gain", "gain_high"))
+    marks: list[Mark] = [
+        CrossLine(0.0, width=0.7),
+        CrossLine(0.0, width=0.7, upright=True),
+        Series(rolling, gain, INK, marker="o", size=3.0, low=low, high=high),
+        Series([0.0], [0.0], INK, "today", "", marker="s", size=6.0),
+    ]
+    for at, colour, label in points:
+        marks.append(
+            Series([rolling[at]], [gain[at]], colour, label, "", marker="o", size=6.0, order=3.0)
+        )
+    if "compound" in data.dims:
+        for at, name in enumerate(data.compound.values.tolist()):
+            compound = data.isel(compound=at)
+            x, y, *ends = (
+                np.array([PERCENT * float(compound[f"compound_{key}"])])
+                for key in ("rolling_ratio", "gain", "gain_low", "gain_high")
+            )
+            colour = COMPOUND_COLOURS[at % len(COMPOUND_COLOURS)]
+            marks.append(
+                Series(x - PERCENT, y, colour, name, "", marker="D", size=5.0, low=ends[0],
+                       high=ends[1])
+            )  # fmt: skip
+    return Panel(
+        Axis("change of tan δ when rolling [%]"), Axis("friction gained [%]", margin=0.1), marks
+    )
+
+
+def _shades(data: xr.Dataset) -> list[Mark]:
+    """Return the frequencies that change at today's rolling resistance, and those excited."""
+    chosen = at_todays_rolling(data)
+    chosen = data.isel(point=-1) if chosen is None else chosen
+    marks: list[Mark] = [
+        CrossLine(low, FAINT, "changed by more than 20 %" if not at else "", upright=True, to=high)
+        for at, (low, high) in enumerate(changed_frequencies(data, chosen))
+    ]
+    for at, end in enumerate((float(data.excited_low), float(data.excited_high))):
+        label = "98 % of the friction between" if not at else ""
+        marks.append(CrossLine(end, GREY, label, "dotted", upright=True))
+    return marks
+
+
+def _moduli_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
+    """Return storage and loss modulus."""
+    frequency, marks = data.frequency.values, _shades(data)
+    for name in ("storage", "loss"):
+        today = data[f"today_{name}"].values / MEGA
+        marks.append(Series(frequency, today, INK, width=1.6))
+        for at, colour, _ in points:
+            marks.append(
+                Series(frequency, data[name].values[at] / MEGA, colour, width=1.0, order=3.0)
+            )
+        marks.append(
+            Note(frequency[0], today[0], "$E'$" if name == "storage" else "$E''$", offset=(3, 6))
+        )
+    return Panel(FREQUENCY, Axis("modulus [MPa]", log=True), marks)
+
+
+def _loss_factor_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
+    """Return the loss factor."""
+    frequency, marks = data.frequency.values, _shades(data)
+    marks.append(Series(frequency, (data.today_loss / data.today_storage).values, INK, width=1.6))
+    for at, colour, _ in points:
+        ratio = data.loss.values[at] / data.storage.values[at]
+        marks.append(Series(frequency, ratio, colour, width=1.0, order=3.0))
+    return Panel(FREQUENCY, Axis("loss factor tan δ [-]", low=0.0), marks)
+
+
+def _change_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
+    """Return the moduli over those of today."""
+    frequency, marks = data.frequency.values, _shades(data)
+    for at, colour, _ in points:
+        for name, dash in (("storage", "dashdot"), ("loss", "solid")):
+            ratio = data[name].values[at] / data[f"today_{name}"].values
+            marks.append(Series(frequency, ratio, colour, "", dash, width=1.2))
+    keys = [
+        Series([], [], INK, "$E''$ over today's", width=1.2),
+        Series([], [], INK, "$E'$ over today's", "dashdot", width=1.2),
+    ]
+    return Panel(FREQUENCY, Axis("modulus over today's [-]"), [CrossLine(1.0), *marks, *keys])

@@ -1,0 +1,283 @@
+"""The search for the admissible compound with the most friction.
+
+    maximise sum_k W_k ln mu_k(r)    within the polytope of admissible r (`compound_limits`)
+
+The objective is smooth in r, its gradient g comes from one adjoint solution a contact
+(`goal_friction`), and all limits are linear. So the linear programme
+
+    gap = max g . (s - r)  over all admissible s
+
+says how much more any admissible change could gain in ln mu, to first order. Where the limits
+decide, the optimum is a corner of the polytope, and steps to the best corner find it in a few
+gradients (M. Frank & P. Wolfe, Nav. Res. Logist. Q. 3 (1956) 95). Where a gap is left, sequential
+quadratic programming goes on (scipy's SLSQP; D. Kraft, DFVLR-FB 88-28 (1988)).
+
+A corner also changes moduli that hardly matter on the road. The design is therefore the change
+nearest to today's compound, with the least sum of ln(r_i)^2, among those that give away 0.1 % of
+the friction of the optimum to first order; where it gives away more, it moves back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from gripscale.case_file.read import CaseFile
+from gripscale.case_file.results import CaseResults
+from gripscale.case_file.run import prepare_case
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.parallel import worker_count
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.questions.design.compound_limits import (
+    AdmissibleChanges,
+    CompoundLimits,
+    PointLimit,
+    rubber_at,
+)
+from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
+from gripscale.questions.vary.inputs import surface_of
+from gripscale.rubber import Rubber
+from gripscale.surface import Surface
+
+LEAST_GAP = 1e-4
+"""Gap at which the search ends [-]."""
+MOST_CORNERS = 8
+SHORTEST_STEP = 0.05
+ROUNDING = 1e-6
+"""Violation of a limit that is none."""
+PRECISION = 1e-5
+"""Change of ln mu at which quadratic programming ends."""
+MOST_STEPS = 100
+MOST_HALVINGS = 6
+GIVEN_AWAY = 1e-3
+"""Part of ln mu that a design gives away to stay near today's compound."""
+ROLLING = ZERO_CELSIUS + 60.0
+"""Temperature of the loss factor that stands for rolling resistance [K]."""
+FREQUENCY = 10.0
+"""Its frequency [Hz]."""
+LARGEST_FACTOR, PER_DECADE = "largest factor on a modulus", "largest change per decade"
+FACTORS = {LARGEST_FACTOR: "largest_factor", PER_DECADE: "factor_per_decade"}
+ROLLING_LEVEL = "rolling resistance"
+"""What is limited, beside ranges of moduli."""
+WIDER = 1.1
+"""Factor on a limit whose worth is asked for."""
+DOWNWARD = 4
+"""Levels below today's, down to the least that the limits admit."""
+UPWARD = (1.15, 1.3)
+"""Levels above today's."""
+NEAR_LEAST = 1.01
+"""Lowest level over the least: at the least itself a single change is left."""
+
+
+@dataclass(frozen=True)
+class DesignProblem:
+    """Goals, limits and today's compound."""
+
+    friction: GoalFriction
+    limits: CompoundLimits
+    rolling: PointLimit
+    """The loss factor that stands for rolling resistance; its upper end is today's."""
+    roads: Mapping[str, Surface] = field(default_factory=dict)
+    """The roads of the goals by their names."""
+
+    @property
+    def rubber(self) -> Rubber:
+        """Today's compound."""
+        return self.friction.rubber
+
+    def admissible(self, level: float = math.inf) -> AdmissibleChanges:
+        """Return the changes with a rolling loss factor of at most `level` times today's."""
+        rolling = replace(self.rolling, high=level)
+        return AdmissibleChanges.of(self.rubber, self.limits, [rolling])
+
+    def rolling_loss_factor(self, rubber: Rubber) -> float:
+        """Return tan(delta) of a compound at the rolling condition [-]."""
+        body = rubber_at(rubber, self.rolling.temperature)
+        return float(body.loss_factor(2.0 * math.pi * self.rolling.frequency))
+
+    def rolling_ratio(self, rubber: Rubber) -> float:
+        """Return tan(delta) of a compound at the rolling condition over today's [-]."""
+        return self.rolling_loss_factor(rubber) / self.rolling_loss_factor(self.rubber)
+
+    def worth_of_limits(self, level: float, slope: Array) -> dict[str, float]:
+        """Return what a tenth more room gives in ln mu [-], by what is limited, to first order.
+
+        `slope` is the gradient at the optimum of the level. A range of moduli gets a tenth wider at
+        both ends, a factor or the level a tenth larger.
+        """
+        limits, narrow = self.limits, self.admissible(level)
+        *points, rolling = narrow.points
+        wider = {
+            LARGEST_FACTOR: (replace(limits, largest_factor=WIDER * limits.largest_factor), points),
+            PER_DECADE: (
+                replace(limits, factor_per_decade=WIDER * limits.factor_per_decade),
+                points,
+            ),
+        }
+        for i, point in enumerate(points):
+            room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
+            wider[str(point)] = (limits, [*points[:i], room, *points[i + 1 :]])
+        least = _most(narrow, slope)
+        worth = {
+            name: _most(AdmissibleChanges(self.rubber, room, (*ranges, rolling)), slope) - least
+            for name, (room, ranges) in wider.items()
+        }
+        return worth | {ROLLING_LEVEL: _most(self.admissible(WIDER * level), slope) - least}
+
+    def default_levels(self) -> list[float]:
+        """Return today's level, some down to the least that is admissible, and some above."""
+        least = NEAR_LEAST * self.admissible().least_loss_factor(self.rolling)
+        return [1.0, *np.linspace(1.0, least, DOWNWARD + 1)[1:].tolist(), *UPWARD]
+
+
+def _most(admissible: AdmissibleChanges, slope: Array) -> float:
+    """Return the largest slope . r of the admissible changes, NaN without one."""
+    corner = admissible.best(slope)
+    return math.nan if corner is None else float(slope @ corner)
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """The best admissible change at one level."""
+
+    ratio: Array
+    """Moduli over today's [-], E_inf first."""
+    log_friction: float
+    """Weighted mean of ln mu on the grid of the search [-]."""
+    slope: Array
+    """Its gradient by the ratios [-]."""
+    gap: float
+    """What any admissible change could still gain in ln mu, to first order [-]."""
+
+
+def best_change(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Optimum:
+    """Return the admissible change with the largest friction, sought from `start`.
+
+    Raises `InputError` if no change is admissible.
+    """
+    admissible.require_some()
+    optimum = _corner_steps(friction, admissible, start)
+    if optimum.gap > LEAST_GAP:
+        inside = _quadratic_steps(friction, admissible, optimum.ratio)
+        further = _corner_steps(friction, admissible, inside)
+        optimum = max(optimum, further, key=lambda end: end.log_friction)
+    return optimum
+
+
+def nearest_design(
+    friction: GoalFriction, admissible: AdmissibleChanges, optimum: Optimum
+) -> Optimum:
+    """Return the change nearest to today's with almost the friction of the optimum.
+
+    Friction falls faster than to first order away from the optimum: the step is halved until it
+    does not give away more than it may. The gap is what is given away, and that of the optimum.
+    """
+    from scipy.optimize import minimize
+
+    matrix, most = admissible.rows
+    matrix = np.vstack([matrix, -optimum.slope])
+    most = np.append(most, GIVEN_AWAY - float(optimum.slope @ optimum.ratio))
+
+    def distance(ratio: Array) -> tuple[float, Array]:
+        logarithm = np.log(ratio)
+        return float(logarithm @ logarithm), 2.0 * logarithm / ratio
+
+    settings = _programme(admissible, matrix, most, PRECISION)
+    solved = minimize(distance, optimum.ratio, jac=True, **settings)
+    ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+    if admissible.violation(ratio) > ROUNDING:
+        return optimum
+    for _ in range(MOST_HALVINGS):
+        value, slope = friction.log_friction(ratio)
+        if value >= optimum.log_friction - GIVEN_AWAY - PRECISION:
+            return Optimum(ratio, value, slope, optimum.log_friction - value + optimum.gap)
+        ratio = 0.5 * (ratio + optimum.ratio)
+    return optimum
+
+
+def _programme(
+    admissible: AdmissibleChanges, matrix: Array, most: Array, precision: float
+) -> dict[str, Any]:
+    """Return the arguments of scipy's SLSQP for matrix . r <= most and the bounds."""
+
+    def margin(ratio: Array) -> Array:
+        return np.asarray(most - matrix @ ratio)
+
+    return {
+        "method": "SLSQP",
+        "bounds": [admissible.bounds] * matrix.shape[1],
+        "constraints": {"type": "ineq", "fun": margin, "jac": lambda _: -matrix},
+        "options": {"ftol": precision, "maxiter": MOST_STEPS},
+    }
+
+
+def _corner_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Optimum:
+    """Return the end of steps to the best corner of the linear programme, shorter where it fails.
+
+    The start may be outside the polytope; the first step then goes the whole way.
+    """
+    ratio = start
+    value, slope = friction.log_friction(ratio)
+    outside = admissible.violation(ratio) > ROUNDING
+    step, gap = 1.0, math.inf
+    for _ in range(MOST_CORNERS):
+        corner = admissible.best(slope)
+        assert corner is not None
+        gap = float(slope @ (corner - ratio))
+        if gap < LEAST_GAP and not outside:
+            break
+        following = ratio + (1.0 if outside else step) * (corner - ratio)
+        raised, turned = friction.log_friction(following)
+        if raised > value or outside:
+            ratio, value, slope, step = following, raised, turned, 1.0
+            outside = False
+        elif step < SHORTEST_STEP:
+            break
+        else:
+            step *= 0.25
+    return Optimum(ratio, value, slope, gap)
+
+
+def _quadratic_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Array:
+    """Return the end of sequential quadratic programming."""
+    from scipy.optimize import minimize
+
+    def negative(ratio: Array) -> tuple[float, Array]:
+        value, slope = friction.log_friction(ratio)
+        return -value, -slope
+
+    settings = _programme(admissible, *admissible.rows, PRECISION)
+    solved = minimize(negative, start, jac=True, **settings)
+    return np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+
+
+def default_goal(file: CaseFile) -> CompoundGoal:
+    """Return the goal of a case: its load, and its temperature before the contact."""
+    load = file.case.load
+    return CompoundGoal(load.speed, load.pressure, file.case.conditions.temperature)
+
+
+def design_problem(
+    case: CaseResults | CaseFile,
+    goals: Sequence[CompoundGoal] = (),
+    limits: CompoundLimits | None = None,
+    workers: int | None = None,
+) -> DesignProblem:
+    """Return the problem that a case, goals and limits make; arguments as `design_compound`."""
+    results = case if isinstance(case, CaseResults) else prepare_case(case)
+    file, rubber = results.file, results.rubber.rubber
+    if not rubber.moduli.size:
+        raise InputError("a design needs a rubber that relaxes; got an elastic one")
+    wanted = list(goals) or [default_goal(file)]
+    names = {goal.road: results.surface if goal.road == "case" else goal.road for goal in wanted}
+    roads = {name: surface_of(road, file) for name, road in names.items()}
+    friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers))
+    rolling = PointLimit(
+        "loss_factor", 0.0, 1.0, FREQUENCY, None if rubber.shift is None else ROLLING
+    )
+    return DesignProblem(friction, limits or CompoundLimits(), rolling.within_shift(rubber), roads)

@@ -1,0 +1,159 @@
+"""Goals, limits and levels of a design as a user states them, and its targets as files."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case_file import folder as folders
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.units import parse_quantity
+from gripscale.io.table import Column, Table, write_csv
+from gripscale.questions.design.compound_limits import QUANTITIES, PointLimit, changed
+from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.rubber import MasterCurve, Rubber, write_master_curve
+
+GOAL_KEYS = {"speed": "speed", "pressure": "pressure", "temperature": "temperature"}
+"""What a goal may state, with the kind of quantity; beside `weight` and `road`."""
+WORTH_SAYING = 0.2
+"""Change of E' or E'' from which a frequency counts as changed."""
+
+
+def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
+    """Return a goal stated as "speed=3 m/s, temperature=20 C, weight=2, road=wet.toml".
+
+    What it does not state is that of `default`. Raises `InputError` if it cannot be understood.
+    """
+    values: dict[str, Any] = {name: getattr(default, name) for name in GOAL_KEYS}
+    for part in text.split(","):
+        name, sign, value = (word.strip() for word in part.partition("="))
+        if not sign or name not in (*GOAL_KEYS, "weight", "road"):
+            raise InputError(
+                'goal must be such as "speed=3 m/s, temperature=20 C, pressure=2 bar, weight=1, '
+                f'road=case"; got {checks.short_repr(part.strip())}'
+            )
+        if name == "road":
+            values[name] = value
+            continue
+        try:
+            values[name] = (
+                float(value) if name == "weight" else parse_quantity(value, GOAL_KEYS[name])
+            )
+        except ValueError as error:
+            raise InputError(f"goal {name} = {value!r}: {error}") from error
+    return CompoundGoal(**values)
+
+
+def parse_limit(text: str) -> PointLimit:
+    """Return a limit stated as "loss_factor, 10 Hz, 0 C, 0.9:1.2" (the range over today's value).
+
+    The temperature may be left out. Raises `InputError` if it cannot be understood.
+    """
+    parts = [part.strip() for part in text.split(",")]
+    low, sign, high = parts[-1].partition(":")
+    if len(parts) not in (3, 4) or not sign or parts[0] not in QUANTITIES:
+        raise InputError(
+            f'limit must be such as "{QUANTITIES[0]}, 10 Hz, 20 C, 0.9:1.1"; '
+            f"got {checks.short_repr(text)}"
+        )
+    try:
+        hertz = float(parts[1].removesuffix("Hz"))
+        kelvin = parse_quantity(parts[2], "temperature") if len(parts) == 4 else None
+        ends = float(low), float(high)
+    except ValueError as error:
+        raise InputError(f"limit {text!r}: {error}") from error
+    return PointLimit(parts[0], *ends, hertz, kelvin)
+
+
+def parse_levels(text: str) -> list[float]:
+    """Return levels stated as "0.8,1,1.2"; raise `InputError` if one is no number above zero."""
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError as error:
+        raise InputError(f'levels must be such as "0.8,1,1.2"; got {text!r}') from error
+    return [float(number) for number in checks.positive_vector("levels", numbers)]
+
+
+def at_todays_rolling(data: xr.Dataset) -> xr.Dataset | None:
+    """Return the point whose rolling resistance is at most today's, None if there is none."""
+    allowed = np.flatnonzero(data.rolling_ratio.values <= 1.0 + 1e-6)
+    return data.isel(point=allowed[-1]) if allowed.size else None
+
+
+def rolling_at_todays_friction(data: xr.Dataset) -> float:
+    """Return the least rolling resistance over today's with today's friction [-].
+
+    Linear between the points; NaN if the lowest point still has more friction than today's.
+    """
+    ratio, gain = data.rolling_ratio.values, data.gain.values
+    above = np.flatnonzero(gain >= 0.0)
+    if not above.size or above[0] == 0:
+        return math.nan
+    low, high = above[0] - 1, above[0]
+    share = -gain[low] / (gain[high] - gain[low])
+    return float(ratio[low] + share * (ratio[high] - ratio[low]))
+
+
+def changed_frequencies(data: xr.Dataset, point: xr.Dataset) -> list[tuple[float, float]]:
+    """Return the ranges of frequency [Hz] in which E' or E'' of a point is not today's."""
+    ratios = np.stack([point[name] / data[f"today_{name}"] for name in ("storage", "loss")])
+    flags = np.concatenate([[False], (np.abs(ratios - 1.0) > WORTH_SAYING).any(axis=0), [False]])
+    ends = np.flatnonzero(np.diff(flags.astype(int)))
+    frequency = data.frequency.values
+    return [
+        (float(frequency[first]), float(frequency[last - 1]))
+        for first, last in zip(ends[::2], ends[1::2], strict=True)
+    ]
+
+
+def designed_rubber(data: xr.Dataset, point: int) -> Rubber:
+    """Return the rubber that a point of a design asks for."""
+    today = Rubber.from_dict(json.loads(data.attrs["rubber_parameters"]))
+    chosen = data.isel(point=point)
+    return changed(today, np.asarray(chosen.modulus_ratio.values), name=_name(chosen))
+
+
+def _name(point: xr.Dataset) -> str:
+    return f"target_{round(100.0 * float(point.rolling_ratio)):03d}"
+
+
+def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
+    """Write master curve (CSV), Prony series (CSV) and rubber (JSON) of each point.
+
+    The number in the name is tan(delta) at the rolling condition in per cent of today's. The JSON
+    file is what `gripscale export rubber` takes. Returns the paths.
+
+    Raises `FileError` if a file cannot be written.
+    """
+    target = Path(folder)
+    folders.make(target)
+    paths = []
+    for at in range(data.sizes["point"]):
+        rubber, point = designed_rubber(data, at), data.isel(point=at)
+        curve = MasterCurve(
+            point.frequency.values,
+            point.storage.values,
+            point.loss.values,
+            rubber.reference_temperature,
+            rubber.name,
+            f"design of gripscale, not measured; from {data.attrs['rubber']}",
+        )
+        paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
+        series = Table(
+            "prony",
+            [
+                Column("relaxation_time", data.relaxation_time.values, unit="s"),
+                Column("modulus", point.modulus.values, unit="Pa"),
+                Column("modulus_over_today", point.modulus_ratio.values, unit="1"),
+            ],
+        )
+        paths.append(write_csv(series, target / f"{rubber.name}_prony.csv"))
+        text = json.dumps(rubber.to_dict(), indent=1)
+        paths.append(folders.write_text(target / f"{rubber.name}.json", text))
+    return paths

@@ -1,0 +1,202 @@
+"""Friction of a compound at the goals of a design, and its derivatives by the Prony moduli.
+
+A goal is a speed, a temperature, a pressure and a road. Its friction is that of the direct contact
+from the energy lost, averaged over the profiles of the road by their lengths. With the derivative
+of the friction by the modulus M of each wave (`gripscale.half_space.sensitivity`) and r_i the
+modulus E_i of the Prony series over that of today,
+
+    dM/M = g dE*/E*,    dE*/dr_i = E_i/r_i i w tau_i/(1 + i w tau_i),
+
+so that one adjoint solution a contact gives the derivatives by all moduli. Contacts are solved on a
+grid with four points in the smallest wave, each from that of the compound before: the friction is a
+few per cent low there, its derivative within one per cent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from threading import Event
+from typing import TypeVar
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
+from gripscale.core.errors import ConvergenceError, InputError
+from gripscale.core.parallel import Job, in_threads
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.half_space.model import smallest_wavelength
+from gripscale.half_space.result import RoughContact
+from gripscale.half_space.sensitivity import FrictionAdjoint
+from gripscale.half_space.solve import solve_rough_contact
+from gripscale.questions.design.compound_limits import changed, require_shift, rubber_at
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap, Profile, Surface
+
+T = TypeVar("T")
+
+
+class CompoundGoal(Checked):
+    """Where friction is wanted.
+
+    Parameters
+    ----------
+    speed : float
+        Sliding speed [m/s], above zero.
+    pressure : float
+        Nominal pressure [Pa].
+    temperature : float, optional
+        Temperature of the rubber before the contact [K]; by default that of the measurement.
+    weight : float
+        Weight of the logarithm of this friction among the goals.
+    road : str
+        Name of the road.
+    """
+
+    speed: float = checked(checks.positive, unit="m/s")
+    pressure: float = checked(checks.positive, unit="Pa")
+    temperature: float | None = checked(checks.positive, unit="K", default=None)
+    weight: float = checked(checks.positive, default=1.0)
+    road: str = checked(checks.text, default="case")
+
+    def __str__(self) -> str:
+        parts = [f"{self.speed:g} m/s", f"{self.pressure / 1e5:g} bar"]
+        if self.temperature is not None:
+            parts.append(f"{self.temperature - ZERO_CELSIUS:.3g} °C")
+        if self.road != "case":
+            parts.append(self.road)
+        return ", ".join(parts)
+
+
+@dataclass(frozen=True)
+class MeasuredPart:
+    """One measurement that a goal's friction is averaged over."""
+
+    goal: int
+    surface: Profile | HeightMap
+    smallest_wavelength: float
+    """[m]."""
+    largest_wavelength: float
+    """Of the road's sine waves [m]."""
+    weight: float
+    """Share of the road's length [-]."""
+
+
+@dataclass
+class GoalFriction:
+    """Friction at all goals, solved for one compound after the other."""
+
+    rubber: Rubber
+    """Today's."""
+    goals: Sequence[CompoundGoal]
+    parts: Sequence[MeasuredPart] = field(repr=False)
+    workers: int = 1
+    solutions: int = 0
+    """Contacts solved so far."""
+    _before: dict[int, RoughContact] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(
+        cls,
+        rubber: Rubber,
+        goals: Sequence[CompoundGoal],
+        roads: Mapping[str, Surface],
+        workers: int = 1,
+    ) -> GoalFriction:
+        """Return the friction of a compound at `goals` on `roads` by their names.
+
+        Raises `InputError` if a road has no measurement, or a goal a temperature to which the
+        rubber has no shift.
+        """
+        parts = []
+        for index, goal in enumerate(checks.instances("goals", list(goals), CompoundGoal)):
+            require_shift(rubber, goal.temperature, "a goal")
+            road = roads[checks.one_of("road", goal.road, roads)]
+            if road.measured is None:
+                raise InputError(
+                    "a design needs a measured road; got sine waves stated by hand with "
+                    f"{goal.road}"
+                )
+            longest = float(road.sines.wavelength[0])
+            surfaces: list[Profile | HeightMap] = list(road.measured.surfaces)
+            lengths = [_length(surface) for surface in surfaces]
+            for surface, length in zip(surfaces, lengths, strict=True):
+                shortest = smallest_wavelength(road, surface)
+                parts.append(MeasuredPart(index, surface, shortest, longest, length / sum(lengths)))
+        return cls(rubber, goals, parts, workers)
+
+    @property
+    def weights(self) -> Array:
+        """Weights of the goals, their sum one."""
+        weights = np.array([goal.weight for goal in self.goals])
+        return np.asarray(weights / weights.sum())
+
+    def contacts(
+        self, rubber: Rubber, *, tolerance: float | None = None, warm: bool = True
+    ) -> list[RoughContact]:
+        """Return the contact of `rubber` on each part; `warm` starts from the compound before.
+
+        Raises `ConvergenceError` if one cannot be used.
+        """
+        bodies = [rubber_at(rubber, goal.temperature) for goal in self.goals]
+
+        def solve(index: int) -> RoughContact:
+            part = self.parts[index]
+            goal = self.goals[part.goal]
+            contact = solve_rough_contact(
+                bodies[part.goal],
+                part.surface,
+                pressure=goal.pressure,
+                speed=goal.speed,
+                smallest_wavelength=part.smallest_wavelength,
+                tolerance=tolerance,
+                start=self._before.get(index) if warm else None,
+            )
+            if not contact.has_friction:
+                raise ConvergenceError(f"the contact at {goal} has no friction: {contact.status}")
+            return contact
+
+        solved = self._each(solve)
+        self.solutions += len(solved)
+        if warm and tolerance is None:
+            self._before = dict(enumerate(solved))
+        return solved
+
+    def averaged(self, values: Sequence[Array | float]) -> Array:
+        """Return the averages over the parts of each goal, shape (goals, ...)."""
+        rows = [part.weight * np.asarray(v) for part, v in zip(self.parts, values, strict=True)]
+        of_goal = np.array([part.goal for part in self.parts])
+        return np.array([sum(np.array(rows)[of_goal == i]) for i in range(len(self.goals))])
+
+    def friction(self, ratio: Array) -> Array:
+        """Return the friction from the energy lost at each goal [-], of moduli times `ratio`."""
+        solved = self.contacts(changed(self.rubber, ratio))
+        return self.averaged([contact.friction_from_dissipation for contact in solved])
+
+    def log_friction(self, ratio: Array) -> tuple[float, Array]:
+        """Return the weighted mean of ln mu [-] of moduli times `ratio`, and its gradient."""
+        solved = self.contacts(changed(self.rubber, ratio))
+        slopes = self._each(lambda index: FrictionAdjoint.of(solved[index]).by_log_terms())
+        friction = self.averaged([contact.friction_from_dissipation for contact in solved])
+        gradient = self.averaged(slopes) / friction[:, None] / ratio
+        return float(self.weights @ np.log(friction)), np.asarray(self.weights @ gradient)
+
+    def _each(self, work: Callable[[int], T]) -> list[T]:
+        """Return the work of each part, on all threads; the parts are independent."""
+
+        def job(index: int) -> Job[T]:
+            def run(_: Event) -> T:
+                return work(index)
+
+            return run
+
+        done = dict(in_threads([job(i) for i in range(len(self.parts))], self.workers))
+        return [done[index] for index in range(len(self.parts))]
+
+
+def _length(surface: Profile | HeightMap) -> float:
+    """Return the period of a measurement along the sliding direction [m]."""
+    count = len(surface.x)
+    return float((surface.x[-1] - surface.x[0]) * count / (count - 1))

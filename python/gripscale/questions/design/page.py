@@ -1,0 +1,205 @@
+"""A design of a compound in words: the answer, cards and tables."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from gripscale.io.table import Column, Table, change, fixed, significant
+from gripscale.questions.design.charts import SAME
+from gripscale.questions.design.compound_design import FRUITLESS
+from gripscale.questions.design.compound_search import ROLLING_LEVEL
+from gripscale.questions.design.design_text import (
+    WORTH_SAYING,
+    at_todays_rolling,
+    changed_frequencies,
+    rolling_at_todays_friction,
+)
+from gripscale.report.elements import Card
+
+DECIDES = 1e-3
+"""Friction gained by a tenth more room from which a limit decides."""
+TITLE = "Trade-off: each row is the admissible compound of most friction"
+
+
+def design_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield the answer of a design, what it is for, what decides it, and what it rests on."""
+    same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
+    answers = []
+    if same is not None:
+        answers.append(f"friction {_gain(same)} {_at_rolling(same)}")
+    if math.isfinite(least):
+        answers.append(f"rolling resistance {_percent(least - 1.0)} at the same friction")
+    elif float(data.gain[0]) >= 0.0 and (same is None or data.sizes["point"] > 1):
+        lowest = data.isel(point=0)
+        answers.append(
+            f"rolling resistance {_percent(float(lowest.rolling_ratio) - 1.0)} still with "
+            f"friction {_gain(lowest)}"
+        )
+    chosen = data.isel(point=-1) if same is None else same
+    decided = "the limits decide" if _decide(chosen) else "the limits do not decide"
+    answer = "; or ".join(answers) or "no more friction for less rolling resistance"
+    yield f"Answer: {answer}; {decided}"
+    if json.loads(data.attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
+        last = _percent(float(data.rolling_ratio[-1]) - 1.0)
+        yield f"  more rolling resistance than {last} gives no more friction"
+    for goal in data.goal.values.tolist():
+        today = float(data.today_friction.sel(goal=goal))
+        design = float(chosen.friction.sel(goal=goal))
+        yield f"  for {goal}: friction {today:.3f} today, {design:.3f} designed"
+    tangent = float(data.today_rolling_loss_factor)
+    yield (
+        f"  rolling resistance is tan δ at {data.attrs['rolling_condition']}, "
+        f"{significant(tangent)} today"
+    )
+    yield f"  {_what_changes(data, chosen)}"
+    count = round(float(chosen.limited_share) * chosen.sizes["term"])
+    yield (
+        f"  {count} of {chosen.sizes['term']} moduli are at the largest factor "
+        f"({data.attrs['largest_factor']:g}) or as far from a neighbour as they may be (a factor "
+        f"of {data.attrs['factor_per_decade']:g} a decade)"
+    )
+    worths = [f"{name}, {_percent(worth)}" for name, worth in _worths(chosen).items()]
+    yield f"  a limit relaxed by a tenth gives, to first order: {'; '.join(worths)}"
+    yield f"  {_interval_sources(chosen)}"
+    yield from (f"note: {note}" for note in data.attrs.get("notes", "").splitlines())
+
+
+def design_cards(data: xr.Dataset) -> Iterator[Card]:
+    """Yield the gain at today's rolling resistance, and the least of it at today's friction."""
+    same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
+    if same is not None:
+        low, high = _percent(float(same.gain_low)), _percent(float(same.gain_high))
+        detail = f"{_at_rolling(same)}; {low} to {high} (90 %)"
+        yield Card("Friction", _percent(float(same.gain)), detail)
+    if math.isfinite(least):
+        yield Card("Rolling resistance", _percent(least - 1.0), "at the same friction")
+
+
+def _gain(point: xr.Dataset) -> str:
+    low, high = float(point.gain_low), float(point.gain_high)
+    interval = f" ({_percent(low)} to {_percent(high)})" if math.isfinite(low) else ""
+    return f"{_percent(float(point.gain))}{interval}"
+
+
+def _at_rolling(point: xr.Dataset) -> str:
+    """Return the rolling resistance of a point in words."""
+    change = float(point.rolling_ratio) - 1.0
+    if abs(change) < SAME:
+        return "at the same rolling resistance"
+    return f"with rolling resistance {_percent(change)}"
+
+
+def _percent(value: float) -> str:
+    return f"{100.0 * value:+.0f} %" if abs(value) > 0.0995 else f"{100.0 * value:+z.1f} %"
+
+
+def _worths(point: xr.Dataset) -> dict[str, float]:
+    """Return what a tenth more room is worth, by what limits the friction of a point."""
+    pairs = zip(point.widened.values.tolist(), point.limit_worth.values.tolist(), strict=True)
+    return {name: math.expm1(worth) for name, worth in pairs}
+
+
+def _decide(point: xr.Dataset) -> bool:
+    """Return whether a limit other than the rolling resistance holds the friction back."""
+    return any(worth > DECIDES for name, worth in _worths(point).items() if name != ROLLING_LEVEL)
+
+
+def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
+    """Return where the largest changes of E' and E'' are."""
+    texts = []
+    for name, symbol in (("storage", "E'"), ("loss", "E''")):
+        ratio = (point[name] / data[f"today_{name}"]).values
+        for at in sorted({int(np.argmin(ratio)), int(np.argmax(ratio))}):
+            if abs(ratio[at] - 1.0) > WORTH_SAYING:
+                texts.append(f"{symbol} × {ratio[at]:.2f} at {data.frequency.values[at]:.2g} Hz")
+    ranges = [f"{low:.2g} to {high:.2g} Hz" for low, high in changed_frequencies(data, point)]
+    if not ranges:
+        return "the master curve stays within 20 % of today's"
+    return (
+        f"the master curve changes by more than 20 % from {', '.join(ranges)}: {', '.join(texts)}"
+    )
+
+
+def _interval_sources(point: xr.Dataset) -> str:
+    """Return what the interval of a gain is made of."""
+    parts = {
+        "pieces of the road": float(point.gain_sampling_error),
+        "grids": float(point.gain_grid_error) / math.sqrt(3.0),
+        "measurement of the rubber": float(point.gain_rubber_error),
+    }
+    each = ", ".join(
+        f"{name} {significant(100.0 * value, 2)} %" if math.isfinite(value) else f"{name} not known"
+        for name, value in parts.items()
+    )
+    doubled = float(point.gain_twice_cut_off)
+    return (
+        f"90 % interval from (1 sd): {each}; with twice the cut-off of the road "
+        f"{_percent(doubled)}. Finite strain and the step from lines to a surface are taken to be "
+        "the same for both compounds"
+    )
+
+
+def design_table(data: xr.Dataset) -> Table:
+    """Return the points of a design as a table."""
+    columns = [
+        Column("rolling_loss_factor", data.rolling_loss_factor.values, "tan δ rolling"),
+        Column("rolling_change", data.rolling_ratio.values - 1.0, "change", format=_rolling),
+        Column("gain", data.gain.values, "friction gained", format=change),
+        Column(
+            "gain_interval",
+            np.column_stack([data.gain_low.values, data.gain_high.values]),
+            "90 % interval",
+            format=change,
+        ),
+    ]
+    notes = []
+    for at, goal in enumerate(data.goal.values.tolist()):
+        columns.append(Column(f"friction_{at + 1}", data.friction.values[:, at], f"μ {at + 1}"))
+        notes.append(f"μ {at + 1}: {goal}")
+    for at, limit in enumerate(data.limit.values.tolist()):
+        name = limit.split(" at ")[0]
+        values = data.limited_ratio.values[:, at]
+        columns.append(Column(f"limit_{at + 1}", values, f"{name} / today", format=fixed(2)))
+    if bool(np.isfinite(data.wet_loss_factor.values).all()):
+        columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
+        wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
+        notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
+    columns.append(Column("limited_share", data.limited_share.values, "at a limit", format=_share))
+    columns.append(Column("gap", data.gap.values, "left to gain", format=change))
+    return Table("design", columns, TITLE, notes)
+
+
+def compounds_table(data: xr.Dataset) -> Table | None:
+    """Return the other compounds of a design as a table, None without any."""
+    if "compound" not in data.dims:
+        return None
+    gains = np.column_stack([data.compound_gain_low.values, data.compound_gain_high.values])
+    return Table(
+        "compounds",
+        [
+            Column("compound", data.compound.values),
+            Column(
+                "rolling_change",
+                data.compound_rolling_ratio.values - 1.0,
+                "tan δ rolling, change",
+                format=change,
+            ),
+            Column("gain", data.compound_gain.values, "friction gained", format=change),
+            Column("gain_interval", gains, "90 % interval", format=change),
+        ],
+        "Other compounds beside today's",
+    )
+
+
+def _rolling(value: float) -> str:
+    """Return a change of the rolling resistance; today's has no sign."""
+    return change(round(value, 4) + 0.0)
+
+
+def _share(value: float) -> str:
+    return f"{100.0 * value:.0f} %"

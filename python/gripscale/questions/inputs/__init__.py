@@ -1,0 +1,1 @@
+"""What went in: surface, rubber, load and conditions as prepared."""

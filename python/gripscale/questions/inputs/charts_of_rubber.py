@@ -1,0 +1,450 @@
+"""Charts of rubber: moduli and Prony series, superposed sweeps, shift factors, finite strain.
+
+The master curve with its Prony series and the frequencies that the waves excite is figure 2 of LW.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.charts import chart, draw
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.units import MEGA, ZERO_CELSIUS
+from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.inputs.record import band, rubber_variables
+from gripscale.rubber import (
+    FiniteStrainFit,
+    MasterCurve,
+    PronyFit,
+    Rubber,
+    ShiftFit,
+    ShiftTable,
+    Superposition,
+    Sweep,
+    Sweeps,
+    UniaxialTest,
+    uniaxial_stress,
+)
+from gripscale.rubber.superposition import temperatures_in
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+OMEGA = Axis("angular frequency $\\omega$ [rad/s]", log=True)
+CELSIUS = Axis("temperature [°C]")
+KILO = 1e3
+MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
+
+
+def master_curve_figure(
+    rubber: Rubber,
+    master: MasterCurve | None = None,
+    fit: PronyFit | None = None,
+    excitation: ArrayLike = (),
+) -> Figure:
+    """Draw moduli [MPa] and loss factor against angular frequency.
+
+    Parameters
+    ----------
+    rubber
+        Its Prony series is drawn as lines, dashed beyond the measured band, whose ends are marked.
+    master
+        The measured points, if any.
+    fit
+        Tells which rows were left out of the fit; they are drawn as crosses.
+    excitation
+        Angular frequencies of the waves [rad/s], marked on the curves.
+    """
+    return draw.on_paper(master_curve_sheet(rubber, master, fit, excitation))
+
+
+def master_curve_sheet(
+    rubber: Rubber,
+    master: MasterCurve | None = None,
+    fit: PronyFit | None = None,
+    excitation: ArrayLike = (),
+) -> Sheet:
+    """Describe what `master_curve_figure` draws; arguments and errors are its own."""
+    omega = np.asarray(excitation, dtype=float)
+    variables, attrs = rubber_variables(rubber, master, fit, omega)
+    panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
+    layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
+    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
+
+
+def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
+    """Return moduli, loss factor and, where it was measured, the residuals of the fit.
+
+    `inputs` are those of a result. `excited` is the prediction whose waves are marked, if any.
+    """
+    panels = _moduli_panels(inputs, np.empty(0))
+    if excited is not None:
+        omega = excited.column("angular_frequency")
+        values = excited.column("modulus") / MEGA, excited.column("loss_factor")
+        labels = "$|E^*|$ of the waves", "waves"
+        panels = [
+            replace(
+                panel.with_marks([Series(omega, value, INK, label, "", marker="D", filled=False)]),
+                caption=f"{panel.caption} Diamonds: at the frequencies of the waves.",
+            )
+            for panel, value, label in zip(panels, values, labels, strict=True)
+        ]
+    if "master_frequency" in inputs:
+        kept = ~_left_out(inputs)
+        omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
+        marks: list[Mark] = [CrossLine(0.0, INK)]
+        for part, name, colour in MODULI:
+            ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
+            marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
+        panels.append(Panel(
+            OMEGA,
+            Axis("Prony series / measured − 1 [%]"),
+            marks,
+            name="prony-residual",
+            caption="Residual of the Prony series at the fitted rows.",
+            alt="Relative error of the Prony series in both moduli against angular frequency.",
+        ))  # fmt: skip
+    if "term_modulus" in inputs:
+        times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values / MEGA
+        foot = np.full_like(moduli, float(moduli.min()) / 10.0)
+        stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
+        panels.append(Panel(
+            Axis("relaxation time $\\tau$ [s]", log=True),
+            Axis("modulus of the element [MPa]", log=True),
+            [
+                Series(np.repeat(times, 3), stems, width=1.1),
+                Series(times, moduli, dash="", marker="o", size=5.0),
+            ],
+            name="prony-spectrum",
+            caption="The Maxwell elements of the Prony series.",
+            alt="Modulus of each Maxwell element against its relaxation time.",
+        ))  # fmt: skip
+    return draw.on_page(panels)
+
+
+def _moduli_panels(
+    inputs: xr.Dataset, excitation: Array, rubber: Rubber | None = None
+) -> list[Panel]:
+    """Return moduli and loss factor of recorded inputs; `rubber` at what it is excited with."""
+    omega = inputs["series_omega"].values
+    ends = [inputs.attrs.get(f"band_{end}_rad_per_s") for end in ("low", "high")]
+    low, high = ends[0] or 0.0, math.inf if ends[1] is None else ends[1]
+    beyond = (omega < low) | (omega > high)
+    measured = "master_frequency" in inputs
+    moduli: list[Mark] = []
+    for part, name, colour in MODULI:
+        if f"series_low_{part}" in inputs:
+            sides = (f"series_{side}_{part}" for side in ("low", "high"))
+            least, most = (inputs[side].values / MEGA for side in sides)
+            moduli.append(Band(omega, least, most, colour, "admissible"))
+        values = inputs[f"series_{part}"].values / MEGA
+        moduli.append(Series(omega, values, colour, f"{name}, Prony series", beyond=beyond))
+    for part, name, colour in MODULI if measured else ():
+        moduli += _rows(inputs, inputs[f"master_{part}"].values / MEGA, colour, name)
+    factor = inputs["series_loss"].values / inputs["series_storage"].values
+    loss: list[Mark] = [Series(omega, factor, GREEN, "loss factor, Prony series", beyond=beyond,
+                               listed=False)]  # fmt: skip
+    if measured:
+        factor = inputs["master_loss"].values / inputs["master_storage"].values
+        loss += _rows(inputs, factor, GREEN, "loss factor", listed=False)
+    marked = [float(end) for end in ends if end is not None and 0.0 < end < math.inf]
+    label = "ends of the measured band"
+    borders = [CrossLine(end, GREY, label * (end == marked[0]), "dotted", 0.9, upright=True)
+               for end in marked]  # fmt: skip
+    waves: list[list[Mark]] = [[], []]
+    if rubber is not None and excitation.size:
+        at = rubber.complex_modulus(excitation)
+        curves = (at.real / MEGA, at.imag / MEGA, at.imag / at.real)
+        for k, curve in enumerate(curves):
+            label = "" if k else "$\\omega_i$ of the waves"
+            waves[k == 2].append(Series(excitation, curve, INK, label, "", marker="o", size=3.8,
+                                        filled=False))  # fmt: skip
+    return [
+        Panel(
+            OMEGA,
+            Axis("modulus $E'$, $E''$ [MPa]", log=True),
+            [*moduli, *borders, *waves[0]],
+            name="master-curve",
+            caption="Storage and loss modulus: measured, and the Prony series that is solved with.",
+            alt="Storage and loss modulus against angular frequency on logarithmic axes.",
+            height=400,
+        ),
+        Panel(
+            OMEGA,
+            Axis("loss factor $E''/E'$ [-]", low=0.0),
+            [*loss, *borders, *waves[1]],
+            name="loss-factor",
+            caption="Loss factor: measured, and of the Prony series.",
+            alt="Loss factor against angular frequency.",
+            height=400,
+        ),
+    ]
+
+
+def _left_out(inputs: xr.Dataset) -> NDArray[np.bool_]:
+    if "master_left_out" not in inputs:
+        return np.zeros(inputs.sizes["row"], dtype=bool)
+    return np.asarray(inputs["master_left_out"].values != 0)
+
+
+def _rows(
+    inputs: xr.Dataset, values: Array, colour: str, name: str, *, listed: bool = True
+) -> Iterator[Series]:
+    """Yield the measured rows, those left out of the fit as crosses."""
+    omega, out = 2.0 * math.pi * inputs["master_frequency"].values, _left_out(inputs)
+    yield Series(omega[~out], values[~out], colour, f"{name}, measured", "", marker=".", size=3.5,
+                 alpha=0.6, listed=listed)  # fmt: skip
+    if out.any():
+        yield Series(omega[out], values[out], colour, "left out of the fit", "",
+                     marker="x", listed=listed)  # fmt: skip
+
+
+def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
+    """Draw E' [MPa] and the loss factor of compounds, dashed beyond what was measured.
+
+    The shade is what the measured moduli leave open of E'.
+    """
+    storage: list[Mark] = []
+    loss: list[Mark] = []
+    for (name, rubber), colour in zip(rubbers.items(), COLOURS, strict=False):
+        omega = band(rubber, None, (), 300)
+        modulus, beyond = rubber.complex_modulus(omega), rubber.outside_band(omega)
+        if rubber.admissible is not None:
+            low, high = rubber.complex_modulus_band(omega)
+            storage.append(Band(omega, low.real / MEGA, high.real / MEGA, colour, alpha=0.15))
+        storage.append(Series(omega, modulus.real / MEGA, colour, name, beyond=beyond))
+        loss.append(Series(omega, modulus.imag / modulus.real, colour, beyond=beyond))
+    panels = [
+        Panel(OMEGA, Axis("storage modulus $E'$ [MPa]", log=True), storage),
+        Panel(OMEGA, Axis("loss factor [-]", low=0.0), loss),
+    ]
+    layout = {"sharex": True}
+    return draw.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+
+
+def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
+    """Draw the sweeps as measured and shifted: moduli [MPa] and loss factor by frequency [Hz].
+
+    Parameters
+    ----------
+    sweeps
+        The sweeps.
+    master
+        Their master curve, with its shift.
+
+    Raises
+    ------
+    InputError
+        If the master curve has no shift.
+    """
+    return draw.on_paper(superposition_sheet(sweeps, master))
+
+
+def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
+    """Describe what `superposition_figure` draws; arguments and errors are its own."""
+    if master.shift is None or master.reference_temperature is None:
+        raise InputError("master must have a shift, as superpose gives it; got none")
+    kelvin = temperatures_in(master.shift, sweeps.temperatures, sweeps.tolerance)
+    factors = (of(kelvin, master.reference_temperature) for of in (master.shift.a, master.shift.b))
+    shifted = [
+        Sweep(sweep.temperature, sweep.frequency * a, sweep.storage * b, sweep.loss * b)
+        for sweep, a, b in zip(sweeps, *factors, strict=True)
+    ]
+    celsius = master.reference_temperature - ZERO_CELSIUS
+    columns = (
+        (sweeps, "as measured", Axis("frequency $f$ [Hz]", log=True)),
+        (shifted, f"shifted to {celsius:.1f} °C", Axis("$a_T f$ [Hz]", log=True, numbers=6)),
+    )
+    quantities: dict[str, Callable[[Sweep], Array]] = {
+        "$E'$ [MPa]": lambda sweep: sweep.storage / MEGA,
+        "$E''$ [MPa]": lambda sweep: sweep.loss / MEGA,
+        "$E''/E'$ [-]": lambda sweep: sweep.loss / sweep.storage,
+    }
+    panels = [
+        Panel(
+            hertz,
+            Axis(label, log=True),
+            [
+                Series(sweep.frequency, of(sweep), colour, marker="o", size=2.2, width=0.8)
+                for sweep, colour in _coloured(drawn, sweeps)
+            ],
+            title="" if row else title,
+        )
+        for row, (label, of) in enumerate(quantities.items())
+        for drawn, title, hertz in columns
+    ]
+    layout = {"sharex": "col", "sharey": "row"}
+    bar = _temperatures(sweeps)
+    return Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout)
+
+
+def _temperatures(sweeps: Sweeps) -> chart.ColourBar:
+    """Return what the colours of sweeps mean, cold blue to warm red."""
+    celsius = sweeps.temperatures - ZERO_CELSIUS
+    return chart.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
+
+
+def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:
+    """Yield sweeps with the colours of their temperatures among all `sweeps`."""
+    kelvin, scale = sweeps.temperatures, shades(256, "Turbo")
+    for sweep in drawn:
+        share = (sweep.temperature - kelvin[0]) / max(kelvin[-1] - kelvin[0], 1e-9)
+        yield sweep, scale[round(255 * min(max(share, 0.0), 1.0))]
+
+
+def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
+    """Draw log10 a_T, with two standard errors, and log10 b_T by temperature, with formulas.
+
+    Parameters
+    ----------
+    table
+        The shift factors.
+    fits
+        Formulas fitted to them; dashed beyond the temperatures fitted.
+    """
+    return draw.on_paper(shift_sheet(table, fits))
+
+
+def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
+    """Describe what `shift_figure` draws; arguments and errors are its own."""
+    celsius = table.temperature - ZERO_CELSIUS
+
+    def factors(values: Array, error: Array, label: str = "") -> Series:
+        spread = 2.0 * np.nan_to_num(error)
+        ends: dict[str, Any] = {"low": values - spread, "high": values + spread}
+        return Series(celsius, values, INK, label, "", marker="o", size=3.2, **ends)
+
+    shifts: list[Mark] = [
+        factors(table.horizontal, table.horizontal_error, "sweeps, two std. errors")
+    ]
+    rest: list[Mark] = [factors(np.zeros_like(celsius), table.horizontal_error)]
+    for fit, colour in zip(fits, COLOURS, strict=False):
+        shifts += _formula(table, fit, colour)
+        rest.append(Series(fit.temperature - ZERO_CELSIUS, -fit.residual, colour, marker="o",
+                           size=2.5, width=0.9))  # fmt: skip
+    margin = 0.15 * max(float(np.ptp(table.horizontal)), 1.0)  # WLF has a pole
+    ends = float(table.horizontal.min()) - margin, float(table.horizontal.max()) + margin
+    panels = [
+        Panel(CELSIUS, Axis("$\\log_{10} a_T$ [-]", False, *ends), shifts, legend="best"),
+        Panel(CELSIUS, Axis("formula minus\nsweeps [-]"), rest),
+    ]
+    if (table.vertical != 0.0).any():
+        lifted = [factors(table.vertical, table.vertical_error)]
+        panels.append(Panel(CELSIUS, Axis("$\\log_{10} b_T$ [-]"), lifted))
+    rows = len(panels)
+    layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
+    height = 1.5 * rows + 1.4
+    return Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout)
+
+
+def _formula(table: ShiftTable, fit: ShiftFit, colour: str) -> Iterator[Series]:
+    """Yield a formula where it has values, against the reference of the table."""
+    kelvin = np.linspace(max(table.limits[0], fit.shift.limits[0]), table.limits[1], 200)
+    # A formula of the glass alone runs through its rows, not through the reference.
+    first = float(fit.temperature[0])
+    at = int(np.argmin(np.abs(table.temperature - first)))
+    values = table.horizontal[at] - fit.residual[0] + fit.shift.log_a(kelvin, first)
+    inside = (kelvin >= fit.temperature[0]) & (kelvin <= fit.temperature[-1])
+    name = {"wlf": "WLF", "arrhenius": "Arrhenius"}[fit.shift.kind]
+    for chosen, dash, label in ((inside, "solid", name), (~inside, "dashed", "")):
+        curve = np.where(chosen, values, np.nan)
+        yield Series(kelvin - ZERO_CELSIUS, curve, colour, label, dash, width=1.1)
+
+
+def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
+    """Draw what needs no shift, and how neighbours meet once shifted.
+
+    Van Gurp and Palmen's plot (phase angle by |E*|) and that of Cole and Cole (E'' by E') are one
+    curve where horizontal shifts suffice; overlap and distance of neighbours by temperature.
+
+    Parameters
+    ----------
+    sweeps
+        The sweeps.
+    report
+        Of their superposition.
+    """
+    return draw.on_paper(superposition_tests_sheet(sweeps, report))
+
+
+def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
+    """Describe what `superposition_tests_figure` draws; arguments and errors are its own."""
+    gurp: list[Mark] = []
+    cole: list[Mark] = []
+    for sweep, colour in _coloured(sweeps, sweeps):
+        size = np.hypot(sweep.storage, sweep.loss) / MEGA
+        angle = np.degrees(np.arctan2(sweep.loss, sweep.storage))
+        for marks, x, y in ((gurp, size, angle), (cole, sweep.storage / MEGA, sweep.loss / MEGA)):
+            marks.append(Series(x, y, colour, marker="o", size=2.2, width=0.8))
+    overlaps = report.overlaps
+    middle = np.array([0.5 * (pair.colder + pair.warmer) for pair in overlaps]) - ZERO_CELSIUS
+    look: dict[str, Any] = {"marker": "o", "size": 3.2, "width": 0.9}
+    apart = [
+        Series(middle, [getattr(pair, name) for pair in overlaps], colour, label, **look)
+        for name, label, colour in (*MODULI, ("loss_factor", "$E''/E'$", GREEN))
+    ]
+    width = Series(middle, [pair.decades for pair in overlaps], INK, **look)
+    panels = [
+        Panel(Axis("$|E^*|$ [MPa]", log=True), Axis("phase angle [°]", low=0.0), gurp,
+              "van Gurp and Palmen"),
+        Panel(Axis("$E'$ [MPa]", log=True), Axis("$E''$ [MPa]", log=True), cole, "Cole and Cole"),
+        Panel(CELSIUS, Axis("overlap [decades]"), [width, CrossLine(0.0)], "overlap of neighbours"),
+        Panel(CELSIUS, Axis("rms distance [decades]", log=True), apart, "distance in the overlap",
+              legend="best" if overlaps else ""),
+    ]  # fmt: skip
+    bar = replace(_temperatures(sweeps), first_row=True)
+    return Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar)
+
+
+def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
+    """Draw nominal stress [kPa] against stretch, one panel for each test.
+
+    Parameters
+    ----------
+    fits
+        Label of each fit in the legend -> fit; all of the same tests.
+
+    Raises
+    ------
+    InputError
+        If there is no fit, or the fits are of different tests.
+    """
+    first = next(iter(fits.values()), None)
+    if first is None or any(fit.tests != first.tests for fit in fits.values()):
+        raise InputError("fits must hold at least one fit, all of the same tests")
+    panels = [_test_panel(test, fits, number) for number, test in enumerate(first.tests)]
+    height = 2.6 * -(-len(panels) // 2) + 0.3
+    return draw.on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
+
+
+def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number: int) -> Panel:
+    """Return one test, the fits over it, and their errors in the same colours."""
+    measured = test.stress / KILO
+    marks: list[Mark] = [
+        Series(test.stretch, measured, GREY, "measured", "", marker="o", size=3.0, filled=False),
+        Note(0.03, 0.97, "error: rms, work lost", frame="xy", top=True),
+    ]
+    dashes = ("solid", "solid", "dashed", "dotted", "dashdot", "solid")
+    looks = zip(fits.items(), COLOURS, dashes, strict=False)
+    for row, ((label, fit), colour, dash) in enumerate(looks, 1):
+        stress = uniaxial_stress(fit.rubber, test.time, test.stretch) / KILO
+        marks.append(Series(test.stretch, stress, colour, label, dash, width=1.1))
+        rms, work = 100.0 * fit.rms_errors[number], 100.0 * fit.work_errors[number]
+        text = f"{rms:.1f} %, {work:+.0f} %"
+        marks.append(Note(0.03, 0.97 - 0.075 * row, text, colour, frame="xy", top=True))
+    top = float(np.max(measured))
+    ends = min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top
+    return Panel(
+        Axis("stretch $s$ [-]"), Axis("nominal stress $P$ [kPa]", False, *ends), marks, test.name
+    )

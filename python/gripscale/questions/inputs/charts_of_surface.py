@@ -1,0 +1,288 @@
+"""Charts of surfaces: profiles as read and cleaned, and C_z with its fits (LW, figures 3b and 4).
+
+Beyond a quarter of the first wavelength the sine waves are drawn as they were fitted, the first
+one by its mean over phases, A_1^2 (see `gripscale.surface.fit_sines`). The pure sines, which fall
+back there, are dotted. Neither is drawn beyond the first wavelength.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gripscale.charts import draw
+from gripscale.charts.chart import (
+    Axis,
+    Band,
+    CrossLine,
+    Mark,
+    Outline,
+    Panel,
+    Series,
+    Sheet,
+    ValueMap,
+)
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
+from gripscale.core.arrays import Array
+from gripscale.core.units import MILLI, SQUARE_MM
+from gripscale.questions.inputs.record import CLOSE_UP, close_up, envelope, sine_curves
+from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
+from gripscale.surface.profile import HeightMap, Profile
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DISTANCE, HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
+SELF_AFFINE = "correlation_self_affine"
+MANY = 500
+"""Removed points whose dots are small, or they would hide the profile."""
+
+
+def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
+    """Draw (as read, cleaned) pairs of profiles side by side.
+
+    Rows: as read, with the points cleaning removed or cut off; cleaned; 30 mm of it close up,
+    where the missing heights are gaps.
+    """
+    return draw.on_paper(profile_sheet(pairs))
+
+
+def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
+    """Describe what `profile_figure` draws; arguments and errors are its own."""
+    columns = [_profile_panels(raw, cleaned, i) for i, (raw, cleaned) in enumerate(pairs)]
+    return Sheet(
+        [panel for row in zip(*columns, strict=True) for panel in row],
+        columns=len(pairs),
+        width=WIDE if len(pairs) > 1 else 0.7 * WIDE,
+        height=5.2,
+        legend_columns=4,
+        keys=[Series([], [], ORANGE, "read and removed", dash="", marker=".")],
+        gap=0.02,
+        layout={"sharey": "row"},
+    )
+
+
+def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
+    """Return a profile as read, cleaned, and a piece from the middle."""
+    kept = kept_points(raw, cleaned)
+    removed = ~kept & np.isfinite(raw.z)
+    x, z = close_up(cleaned)
+    # Removed points stand at their cleaned level: less the trend, where a height is left.
+    both = np.interp(cleaned.x, raw.x, raw.z) - cleaned.z
+    trend = np.polyfit(cleaned.x[np.isfinite(both)], both[np.isfinite(both)], 1)
+    piece = (raw.x >= x[0]) & (raw.x <= x[0] + CLOSE_UP) & ~kept
+    level = raw.z[piece] - np.polyval(trend, raw.x[piece])
+    dots: dict[str, Any] = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
+    rows: dict[str, list[Mark]] = {
+        "as read": [
+            _outline(raw.x, [np.where(kept, raw.z, np.nan)] * 2, "read and kept", GREY),
+            Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, order=3.0,
+                   size=2.5 if np.count_nonzero(removed) < MANY else 1.4, **dots),
+        ],
+        "cleaned": [_outline(cleaned.x, [cleaned.z] * 2, "", BLUE)],
+        "close up": [
+            Series(x / MILLI, z / MILLI, label="cleaned", width=0.9),
+            Series(raw.x[piece] / MILLI, level / MILLI, size=4.5, **dots),
+        ],
+    }  # fmt: skip
+    ends: dict[str, Any] = {"low": float(raw.x[0]) / MILLI, "high": float(raw.x[-1]) / MILLI}
+    panels = []
+    for row, marks in rows.items():
+        abscissa = {"as read": Axis(**ends), "cleaned": Axis(DISTANCE.label, **ends)}
+        title = (raw.name or f"profile {number + 1}") if row == "as read" else ""
+        ordinate = Axis(f"{HEIGHT.label}\n{row}")
+        panels.append(Panel(abscissa.get(row, DISTANCE), ordinate, marks, title))
+    return panels
+
+
+def _outline(x: Array, ends: Sequence[Array], label: str, colour: str) -> Outline:
+    """Return a profile by the lowest and highest heights of its pieces."""
+    inside = np.isfinite(x)
+    low, high = (end[inside] / MILLI for end in ends)
+    return Outline(x[inside] / MILLI, low, high, colour, label, width=0.45)
+
+
+def kept_points(raw: Profile, cleaned: Profile) -> NDArray[np.bool_]:
+    """Return which points of `raw` still have a height in `cleaned`."""
+    still = cleaned.x[np.isfinite(cleaned.z)]
+    at = np.clip(np.searchsorted(still, raw.x), 1, max(still.size - 1, 1))
+    nearest = np.minimum(np.abs(raw.x - still[at - 1]), np.abs(raw.x - still[at % still.size]))
+    return np.asarray((nearest < 0.1 * raw.step) & np.isfinite(raw.z))
+
+
+def profile_charts(inputs: xr.Dataset) -> list[Chart]:
+    """Return, for each profile of recorded inputs, the whole of it and a piece close up."""
+    panels = []
+    for i, name in enumerate(str(name) for name in inputs["profile_name"].values):
+        profile = inputs.isel(profile=i)
+        outlines = [
+            _outline(profile[f"{part}_x"].values,
+                     [profile[f"{part}_{end}"].values for end in ("lowest", "highest")],
+                     label, colour)
+            for part, label, colour in (("read", "as read", GREY), ("cleaned", "cleaned", BLUE))
+        ]  # fmt: skip
+        panels.append(Panel(
+            DISTANCE,
+            HEIGHT,
+            outlines,
+            name=f"profile-{i + 1}",
+            caption=f"{name}: as read and cleaned, lowest and highest height of each of "
+            f"{profile.sizes['bin']} pieces.",
+            alt=f"Height of profile {name} against distance, as read and after cleaning.",
+            height=300,
+        ))  # fmt: skip
+        x, z = profile["close_up_x"].values / MILLI, profile["close_up_z"].values / MILLI
+        panels.append(Panel(
+            DISTANCE,
+            HEIGHT,
+            [Series(x, z, label="cleaned, every point", width=1.1)],
+            name=f"close-up-{i + 1}",
+            caption=f"{name}: a piece from the middle, every point. Missing heights are gaps.",
+            alt=f"Close-up of the cleaned profile {name}.",
+            height=300,
+        ))  # fmt: skip
+    return draw.on_page(panels)
+
+
+MOST_PIXELS = 400
+"""Points of a map along each side that are drawn."""
+KEPT = "#cfe3f3"
+"""Colour of what a crop keeps."""
+
+
+def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None = None) -> Chart:
+    """Return a surface as it was measured, the part that a crop along x [m] keeps in a shade."""
+    kept: list[Mark] = []
+    if crop is not None:
+        low, high = (end / MILLI for end in crop)
+        kept = [CrossLine(low, KEPT, upright=True, to=high)]
+    if isinstance(raw, HeightMap):
+        along, across = (-(-size // MOST_PIXELS) for size in raw.z.shape)
+        heights = (raw.z - np.nanmin(raw.z))[::along, ::across].T / MILLI
+        x, y = raw.x[::along] / MILLI, raw.y[::across] / MILLI
+        marks: list[Mark] = [ValueMap(x, y, heights, "height above the lowest [mm]")]
+        words = "The map as measured; the rubber slides along x, to the right."
+        ordinate = Axis("distance across $y$ [mm]")
+    else:
+        pieces = [envelope(profile.x, profile.z) for profile in raw]
+        marks = [_outline(x, ends, "as read", GREY) for x, *ends in pieces]
+        words, ordinate = "The profiles as measured.", HEIGHT
+    return draw.on_page([Panel(DISTANCE, ordinate, [*marks, *kept], name="raw", caption=words,
+                               alt="The surface as measured, before cleaning.", height=300,
+                               to_scale=isinstance(raw, HeightMap))])[0]  # fmt: skip
+
+
+def correlation_figure(
+    measured: HeightDifference,
+    sines: Mapping[str, SineStack],
+    self_affine: SelfAffineFit | None = None,
+) -> Figure:
+    """Draw C_z [mm^2] against lag [mm], with the named sine stacks and their wavelengths marked."""
+    return draw.on_paper(correlation_sheet(measured, sines, self_affine))
+
+
+def correlation_sheet(
+    measured: HeightDifference,
+    sines: Mapping[str, SineStack],
+    self_affine: SelfAffineFit | None = None,
+) -> Sheet:
+    """Describe what `correlation_figure` draws; arguments and errors are its own."""
+    panel = _correlation_panel(measured.lag, measured.value, measured.lower, measured.upper)
+    marks: list[Mark] = []
+    if self_affine is not None:
+        label = f"self-affine, $H$ = {self_affine.hurst:.2f}"
+        marks.append(_self_affine(measured.lag, self_affine.evaluate(measured.lag), label))
+    lag = np.geomspace(measured.lag[0], measured.lag[-1], 1000)
+    for (name, stack), colour in zip(sines.items(), [BLUE, *COLOURS[2:]], strict=False):
+        inside = lag[lag <= stack.wavelength[0]]
+        marks += _waves(inside, *sine_curves(stack, inside), name, colour)
+        foot = np.full(len(stack), panel.y.low)
+        marks.append(Series(stack.wavelength / MILLI, foot, colour, "their wavelengths", dash="",
+                            marker="|", size=9.0, width=1.4, clip=False))  # fmt: skip
+    panel = panel.with_marks(marks)
+    return Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02)
+
+
+def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
+    """Return C_z of recorded inputs with its fits, and the ratio of each fit to C_z."""
+    lag, value = inputs["lag"].values, inputs["correlation_value"].values
+    ends = (inputs[f"correlation_{end}"].values for end in ("lower", "upper"))
+    panel = _correlation_panel(lag, value, *ends)
+    names = ("fine_lag", "fine_sines", "fine_pure_sines")
+    lags, fitted, pure = (inputs[name].values for name in names)
+    marks = _waves(lags, fitted, pure, "sine waves, as fitted", BLUE)
+    if SELF_AFFINE in inputs:
+        label = f"self-affine, $H$ = {inputs.attrs['self_affine_hurst']:.2f}"
+        marks.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))
+    return draw.on_page([panel.with_marks(marks), _residual_panel(inputs, lag, value)])
+
+
+def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array | None) -> Panel:
+    """Return the measured C_z and its 95 % band, to which fits are added."""
+    positive = value[value > 0.0] / SQUARE_MM
+    marks: list[Mark] = []
+    if low is not None and high is not None:
+        marks.append(Band(lag / MILLI, low / SQUARE_MM, high / SQUARE_MM, GREY, "95 % band", 0.35))
+    marks.append(Series(lag / MILLI, value / SQUARE_MM, INK, "measured", "", marker=".", size=4.0))
+    return Panel(
+        Axis("lag $l$ [mm]", log=True),
+        Axis("height difference correlation $C_z$ [mm$^2$]", log=True,
+             low=0.3 * float(positive.min()), high=3.0 * float(positive.max())),
+        marks,
+        name="correlation",
+        caption="Height difference correlation: measured, superposed sine waves, self-affine fit. "
+        "Beyond a quarter of its length the first wave is fitted by its mean over phases.",
+        alt="Height difference correlation against lag on logarithmic axes, with its fits.",
+        height=400,
+        legend="lower right",
+    )  # fmt: skip
+
+
+def _waves(lag: Array, fitted: Array, pure: Array, label: str, colour: str) -> list[Mark]:
+    """Return sine waves up to the first wavelength, as fitted and as pure sines."""
+    repeating = np.where(lag > 0.25 * lag[-1], pure, np.nan)  # before, the same as fitted
+    return [
+        Series(lag / MILLI, fitted / SQUARE_MM, colour, label),
+        Series(lag / MILLI, repeating / SQUARE_MM, colour, "as pure sines, which repeat", "dotted",
+               width=0.8),
+    ]  # fmt: skip
+
+
+def _self_affine(lag: Array, value: Array, label: str) -> Series:
+    return Series(lag / MILLI, value / SQUARE_MM, ORANGE, label, "dashed")
+
+
+def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
+    """Return what the fits leave over; open where the lag did not count in the fit."""
+    marks: list[Mark] = [CrossLine(0.0, INK)]
+    for key, curve, label, colour in (
+        ("sines", "correlation_sines", "sine waves", BLUE),
+        ("self_affine", SELF_AFFINE, "self-affine", ORANGE),
+    ):
+        if curve not in inputs:
+            continue
+        fit = inputs[curve].values
+        low, high = (inputs.attrs.get(f"{key}_lag_{end}_m") for end in ("min", "max"))
+        inside = (lag >= (low or 0.0)) & (lag <= (high or math.inf))
+        usable = (value > 0.0) & np.isfinite(fit)
+        for filled, words in ((True, "fitted lags"), (False, "not fitted")):
+            rows = usable & (inside == filled)
+            ratio = np.log10(fit[rows] / value[rows])
+            marks.append(Series(lag[rows] / MILLI, ratio, colour, f"{label}, {words}", "",
+                                marker="o", size=3.8, filled=filled))  # fmt: skip
+    return Panel(
+        Axis("lag $l$ [mm]", log=True),
+        Axis("$\\log_{10}$ (fit / measured) [-]"),
+        marks,
+        name="correlation-residual",
+        caption="Residual of the fits, in decades of C_z; filled marks are lags that count in the "
+        "fit.",
+        alt="Difference of fitted and measured height difference correlation against lag.",
+        height=400,
+    )

@@ -1,0 +1,491 @@
+"""What a result rests on: load, files, cleaning, surface, rubber, conditions.
+
+`gripscale run` prints it from the prepared inputs, a page reads it from the group `inputs` of the
+result file: `InputRecord` is the one place that knows the names in this group.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import fields
+from pathlib import PurePath, PureWindowsPath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_mm
+from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.report.elements import Element, Facts, Section, number, percent
+from gripscale.rubber import Rubber, ShiftTable
+from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
+from gripscale.surface.texture import NOTE, QUANTITIES
+
+if TYPE_CHECKING:
+    from gripscale.case_file.prepare import PreparedRubber
+    from gripscale.conditions.conditions import Conditions
+    from gripscale.report.source import Run, Study
+    from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
+
+GIGA = 1e9
+VARIED = "varied"
+
+
+def numbers(name: str, count: int, heading: str | None = None, bad: Flags = ()) -> Column:
+    """Return a column of numbers from 1."""
+    return Column(name, list(range(1, count + 1)), heading, format="{:.0f}".format, bad=bad)
+
+
+def waves_table(wavelength: ArrayLike, amplitude: ArrayLike) -> Table:
+    """Return the sine waves of a surface, largest first."""
+    length, height = np.asarray(wavelength), np.asarray(amplitude)
+    columns = [
+        numbers("wave", length.size),
+        Column("wavelength", length, "λ", "mm", MILLI, format=digits(4)),
+        Column("amplitude", height, "A", "mm", MILLI, format=digits(4)),
+        Column("slope", 2.0 * math.pi * height / length, unit="2πA/λ"),
+    ]
+    return Table("waves", columns, "The sine waves")
+
+
+def slopes_table(slopes: SlopeByWavelength) -> Table:
+    """Return the rms slope down to each wavelength."""
+    lengths = slopes.wavelength
+    columns = [Column("wavelength", lengths, "down to", "mm", MILLI)]
+    for kind, heading in (("surface", "of the surface"), ("profile", "along a profile")):
+        values = [slopes.down_to(float(length), kind) for length in lengths]
+        columns.append(Column(f"{kind}_slope", values, f"rms slope {heading}"))
+    return Table("slopes", columns, "Rms slope by the smallest wavelength that counts")
+
+
+def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") -> Table:
+    """Return the texture of surfaces along `dim`, without the numbers that none of them has."""
+    columns = [Column(dim, data[dim].values.astype(str).tolist(), heading)]
+    for name, (symbol, unit, _) in QUANTITIES.items():
+        values = data[name].values.astype(float)
+        if np.nan_to_num(values).any():
+            printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
+            form = whole if name == "depth_segments" else significant
+            columns.append(Column(name, values, symbol, printed, size, format=form))
+    notes = [str(text) for text in data[NOTE].values]
+    if any(notes):
+        columns.append(Column(NOTE, notes, "no MPD", words=True))
+    return Table("texture", columns, "Texture: ISO 13473-1, ISO 21920-2 and ISO 25178-2")
+
+
+def prony_table(times: ArrayLike, moduli: ArrayLike) -> Table:
+    """Return the Maxwell elements of a Prony series."""
+    columns = [
+        numbers("element", np.size(times)),
+        Column("relaxation_time", np.asarray(times), "τ", "s", format=digits(4)),
+        Column("modulus", np.asarray(moduli), "E", "MPa", MEGA, format=digits(5)),
+    ]
+    return Table("prony", columns, "Maxwell elements of the Prony series")
+
+
+def band_table(rubber: Rubber) -> Table | None:
+    """Return E' and E'' with what the data leave open, at and beyond the ends of the data."""
+    if rubber.valid_band is None or rubber.admissible is None:
+        return None
+    slow, fast = rubber.valid_band
+    omega = np.array([slow / BEYOND, slow, (slow * fast) ** 0.5, fast, fast * BEYOND])
+    modulus, (low, high) = rubber.complex_modulus(omega), rubber.complex_modulus_band(omega)
+    columns = [
+        Column("angular_frequency", omega, "ω", "rad/s"),
+        Column("storage", modulus.real, "E'", "MPa", MEGA, format=digits(4)),
+        Column("storage_admissible", np.stack([low.real, high.real], 1), "admissible", "MPa", MEGA),
+        Column("loss", modulus.imag, "E''", "MPa", MEGA, format=digits(4)),
+        Column("loss_admissible", np.stack([low.imag, high.imag], 1), "admissible", "MPa", MEGA),
+    ]
+    return Table("band", columns, "Moduli, and what the data leave open")
+
+
+def shift_table(shift: ShiftTable) -> Table:
+    """Return the shift factors of a master curve made of sweeps."""
+    columns = [
+        Column("temperature", shift.temperature, unit="°C", zero=ZERO_CELSIUS, format=fixed(1)),
+        Column("horizontal", shift.horizontal, "log10 a_T", format=fixed(3)),
+        Column("horizontal_error", shift.horizontal_error, "±", format=fixed(3)),
+        Column("vertical", 10.0 ** np.asarray(shift.vertical), "b_T", format=fixed(3)),
+    ]
+    return Table("shift", columns, "Shift factors")
+
+
+def files_table(record: InputRecord) -> Table:
+    """Return the measured files with size and checksum."""
+    names = [without_folder(str(name)) for name in record.data["file_name"].values]
+    columns = [
+        Column("file", names, "file, as the case names it"),
+        Column("role", record.data["file_role"].values, "used for"),
+        Column("bytes", record.data["file_bytes"].values, format=whole),
+        Column("sha256", record.data["file_sha256"].values, "SHA-256"),
+    ]
+    return Table("files", columns, "Measured files")
+
+
+def cleaning_tables(record: InputRecord) -> Iterator[Table]:
+    """Yield for each profile what each step of its cleaning did."""
+    data = record.data
+    headings = {
+        "points": "points left",
+        "removed": "cut off",
+        "made_missing": "made missing",
+        "missing": "missing now",
+    }
+    for i, name in enumerate(data["profile_name"].values):
+        part = data.isel(profile=i)
+        columns = [Column("step", data["cleaning_step_name"].values)]
+        columns += [
+            Column(name, part[f"cleaning_{name}"].values, heading, format=whole)
+            for name, heading in headings.items()
+        ]
+        columns.append(Column("note", part["cleaning_note"].values, "what was done", words=True))
+        ends = (part[f"profile_{end}"] for end in ("step", "length"))
+        step, length = (number(value, MILLI, digits(4)) for value in ends)
+        points = number(part["profile_points"], format=whole)
+        caption = f"Cleaning of {name}: {points} points read, step {step} mm, length {length} mm"
+        yield Table(f"cleaning-{i + 1}", columns, caption)
+
+
+def surface_lines(surface: Surface) -> Iterator[str]:
+    """Yield what was read and removed, the fits, the sine waves and the cut-off."""
+    measured = surface.measured
+    if measured is not None:
+        for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
+            yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
+            yield from (f"  {line}" for line in str(report).splitlines())
+        if measured.map is not None:
+            yield map_line(measured.map)
+        share = surface.counted.get("top_height_fraction", 1.0)
+        if share < 1.0:
+            yield f"correlation of the upper {100.0 * share:.3g} % of the heights only"
+        if measured.self_affine is None:
+            yield f"not self-affine: {measured.no_self_affine}"
+        else:
+            fit = measured.self_affine
+            yield (
+                f"self-affine from {fit.lag_min / MILLI:.3g} to {fit.lag_max / MILLI:.3g} mm: "
+                f"H = {fit.hurst:.3f}, D = {fit.fractal_dimension:.3f}, "
+                f"xi_parallel = {fit.xi_parallel / MILLI:.3g} mm, "
+                f"xi_perpendicular = {fit.xi_perpendicular / MILLI:.3g} mm"
+            )
+    yield sines_line(surface.sines)
+    if surface.cut_off is not None:
+        yield f"cut-off: {surface.cut_off}"
+
+
+def map_line(surface: HeightMap) -> str:
+    """Return which way of a map is which, and how long it is: a picture of its axes in words."""
+    axes = (
+        f"{way} ({letter}): {size} points over {in_mm(length, 4)}"
+        for way, letter, size, length in zip(
+            ("along the way of sliding", "across it"),
+            "xy",
+            surface.z.shape,
+            surface.length,
+            strict=True,
+        )
+    )
+    array = PurePath(surface.source).suffix.lower() in (".npy", ".npz")
+    return "; ".join([*axes, *(["the first index of the array is x of the file"] * array)])
+
+
+def sines_line(sines: SineStack) -> str:
+    """Return the stack of sine waves in one sentence."""
+    largest, smallest = sines.wavelength[0] / MILLI, sines.wavelength[-1] / MILLI
+    text = f"{len(sines)} sine waves from {largest:.3g} to {smallest:.3g} mm"
+    if sines.s_wavelength is not None and sines.s_amplitude is not None:
+        text += f", s_wavelength = {sines.s_wavelength:.3f}, s_amplitude = {sines.s_amplitude:.3f}"
+    if sines.cut_off is not None:
+        text += f", for roughness down to {sines.cut_off / MILLI:.3g} mm"
+    if sines.residual is not None:
+        text += f", residual {sines.residual:.3f} decades of C_z"
+    return text
+
+
+def rubber_parts(prepared: PreparedRubber) -> Iterator[str | Table]:
+    """Yield what the rubber is and how well its Prony series fits, in sentences and a table."""
+    rubber = prepared.rubber
+    slow, fast = _end(slow_end(rubber), "relaxed"), _end(fast_end(rubber), "glassy")
+    bulk = significant(rubber.bulk_modulus / MEGA)
+    yield f"{rubber.name or 'rubber'}: E' from {slow} to {fast}, bulk modulus {bulk} MPa"
+    if prepared.fit is not None:
+        yield from prepared.fit.summary(findings=False).splitlines()
+    if prepared.source:
+        yield f"source: {prepared.source}"
+    yield from shift_parts(prepared)
+
+
+def shift_parts(prepared: PreparedRubber) -> Iterator[str | Table]:
+    """Yield the sweeps of a master curve, how they meet, and the shift factors as a table."""
+    shift, reference = prepared.rubber.shift, prepared.rubber.reference_temperature
+    if prepared.sweeps is not None and prepared.superposition is not None:
+        yield prepared.sweeps.summary()
+        yield from prepared.superposition.summary().splitlines()
+    elif shift is not None and reference is not None:
+        yield f"shift, as stated: {shift.kind}, from {reference - ZERO_CELSIUS:.4g} C"
+    if isinstance(shift, ShiftTable) and prepared.sweeps is not None:
+        yield shift_table(shift)
+    yield from (fit.summary() for fit in prepared.shift_fits())
+
+
+def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
+    """Yield the effects that are asked for, with their numbers."""
+    kelvin = conditions.temperature_of(rubber)
+    if kelvin is not None:
+        origin = "" if conditions.temperature is not None else ", of the master curve"
+        yield f"temperature before the contact {kelvin - ZERO_CELSIUS:.4g} C{origin}"
+    for name, law in (("softening", conditions.softening), ("heat", conditions.heat)):
+        if law is not None:
+            yield f"{name}: {_numbers(law)}"
+    if conditions.softening is not None:
+        yield f"strain of a wave: {conditions.strain_norm}"
+    if conditions.shear_stress is not None:
+        yield f"area term, as stated: {_numbers(conditions.shear_stress)}"
+
+
+def _numbers(law: Any) -> str:
+    """Return kind and numbers of a law; of tables how many."""
+    values = {f.name: getattr(law, f.name) for f in fields(law)}
+    texts = (
+        f"{name} {len(value)} values"
+        if isinstance(value, tuple)
+        else f"{name} {value if isinstance(value, str) else format(value, 'g')}"
+        for name, value in values.items()
+        if value is not None
+    )
+    return ", ".join([*filter(None, [getattr(law, "kind", "")]), *texts])
+
+
+def _end(end: End, plateau: str) -> str:
+    kind = plateau if end.plateau else "end of the data"
+    return f"{significant(end.modulus / MEGA)} MPa ({kind})"
+
+
+def load_facts(run: Run) -> Facts:
+    """Return load, rubber, surface and model in words."""
+    attrs, data = run.attrs, run.data
+    first = run.predictions[0]
+
+    def text(name: str, value: float) -> str:
+        display_unit = first.display_unit(name)
+        return f"{number(display_unit.of(value))} {display_unit.unit}"
+
+    speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
+    if any(not view.moving for view in run.predictions):
+        speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
+    model = str(attrs.get("model", NONE))
+    if "wave_solver" in data:
+        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
+        model += f", waves by {', '.join(solvers)}"
+    record = run.record
+    source = without_folder(str(attrs.get("rubber_source", attrs.get("rubber", ""))))
+    # of a strain energy such as "MooneyRivlin(share=0.2)" the name in words, and its parameters
+    law, _, parameters = record.text("strain_energy").partition("(")
+    energy = "-".join(re.findall(r"[A-Z][a-z]+", law)) or law or NONE
+    return Facts(
+        "Load and model",
+        [
+            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
+            ("Sliding speed", speeds),
+            ("Footprint", text("footprint", float(data["footprint"]))),
+            ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
+            ("Model", model.replace("_", " ")),
+            ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
+            ("Method", str(attrs.get("method", NONE))),
+        ],
+    )
+
+
+def without_folder(text: str) -> str:
+    """Return `text` with only the names of absolute paths in it: folders are of one machine."""
+    parts = re.split(r"(; |, |: |\n)", text)
+    for kind in (PurePath, PureWindowsPath):
+        parts = [kind(part).name if kind(part).is_absolute() else part for part in parts]
+    return "".join(parts)
+
+
+def surface_facts(record: InputRecord, count: int) -> list[Facts]:
+    """Return the fits to the height difference correlation, with `count` waves."""
+
+    def span(name: str) -> str:
+        ends = (number(record.number(f"{name}_lag_{end}_m"), MILLI) for end in ("min", "max"))
+        return f"{' to '.join(ends)} mm"
+
+    waves = [
+        ("Waves", str(count)),
+        ("Factor of wavelength", record.quantity("sines_s_wavelength", format=digits(4))),
+        ("Factor of amplitude", record.quantity("sines_s_amplitude", format=digits(4))),
+    ]
+    if record.has("sines_cut_off_m"):
+        waves.append(("For roughness down to", record.quantity("sines_cut_off_m", "mm", MILLI)))
+    waves.append(("Residual", record.quantity("sines_residual_decades", "decades of C_z")))
+    waves.append(("Fitted lags", span("sines")))
+    if record.number("correlation_top_height_fraction") < 1.0:
+        share = 100.0 * record.number("correlation_top_height_fraction")
+        waves.append(("Heights that count", f"the upper {share:.3g} %"))
+    facts = [Facts("Sine waves", waves)]
+    if record.has("cut_off_m"):
+        pairs = [
+            ("Shortest wavelength that counts", record.quantity("cut_off_m", "mm", MILLI)),
+            ("Rule", record.text("cut_off_rule") or NONE),
+            ("Rms slope of the surface", record.quantity("cut_off_surface_slope")),
+            ("Rms slope along a profile", record.quantity("cut_off_profile_slope")),
+            ("The measurement resolves", record.quantity("cut_off_carried_m", "mm", MILLI)),
+        ]
+        if record.number("cut_off_beyond_measurement") > 0.0:
+            pairs.append(("Beyond the measurement", "extrapolated: slopes and waves below it"))
+        facts.append(Facts("The cut-off", pairs))
+    if record.has("self_affine_hurst"):
+        pairs = [
+            ("Hurst exponent H", record.quantity("self_affine_hurst")),
+            ("Fractal dimension D", number(3.0 - record.number("self_affine_hurst"))),
+            ("Cut-off length ξ∥", record.quantity("self_affine_xi_parallel_m", "mm", MILLI)),
+            ("Cut-off height ξ⊥", record.quantity("self_affine_xi_perpendicular_m", "mm", MILLI)),
+            ("Residual", record.quantity("self_affine_residual_decades", "decades of C_z")),
+            ("Fitted lags", span("self_affine")),
+        ]
+        facts.append(Facts("Self-affine description (not used by the chain)", pairs))
+    elif record.has("no_self_affine"):
+        facts.append(Facts("Self-affine description", [("None", record.text("no_self_affine"))]))
+    return facts
+
+
+def rubber_facts(record: InputRecord) -> Facts:
+    """Return moduli, band and quality of the Prony series."""
+
+    def end(name: str, plateau: str, otherwise: str) -> tuple[str, str]:
+        # a plateau is claimed only where one was measured
+        label = plateau if record.number(f"{name}_plateau") > 0.0 else otherwise
+        return label, record.quantity(f"{name}_modulus_Pa", "MPa", MEGA)
+
+    band = [record.number(f"band_{end_name}_rad_per_s") for end_name in ("low", "high")]
+    low, high = (number(frequency) for frequency in band)
+    slow, fast = (number(frequency, 2.0 * math.pi) for frequency in band)
+    kelvin = record.number("reference_temperature_K")
+    pairs = [
+        end("slow_end", "Relaxed modulus", "Slow end of the data, E′"),
+        end("fast_end", "Glassy modulus", "Fast end of the data, E′"),
+        ("Bulk modulus", f"{number(record.bulk_modulus, GIGA)} GPa"),
+        ("Maxwell elements", str(np.size(record.relaxation_times[0]))),
+        ("Measured band", f"{low} to {high} rad/s ({slow} to {fast} Hz)"),
+        ("Temperature", f"{number(kelvin)} K ({number(kelvin - ZERO_CELSIUS)} °C)"),
+    ]
+    if record.has("prony_rms_storage"):
+        names = {
+            "rms_storage": "Rms error of E′",
+            "rms_loss": "Rms error of E″",
+            "rms_loss_factor": "Rms error of E″/E′",
+            "mean_loss_factor_error": "Mean error of E″/E′",
+            "storage_scatter": "Scatter of measured E′",
+            "loss_scatter": "Scatter of measured E″",
+        }
+        pairs += [(label, percent(record.number(f"prony_{key}"))) for key, label in names.items()]
+        left_out = record.data["master_frequency"].values[record.data["master_left_out"].values > 0]
+        texts = ", ".join(number(frequency) for frequency in left_out)
+        pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
+    return Facts("Rubber", pairs)
+
+
+LOAD = {
+    "pressure": ("nominal_pressure", "Nominal pressure"),
+    "speed": ("nominal_speed", "Sliding speed"),
+    "footprint": ("footprint", "Footprint"),
+}
+"""Keys of [load]: attribute of a study, and what they are called."""
+CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
+"""Effects of the conditions of a study."""
+
+
+def input_sections(study: Study) -> list[Section]:
+    """Return the chapters on the inputs of a study; those its file does not tell of are empty."""
+    data, attrs = study.data, study.data.attrs
+
+    def quantity(key: str, attribute: str) -> str:
+        if key in study.axes or attribute not in attrs:
+            return VARIED if key in study.axes else NONE
+        return display_unit_of(attrs, key).text(attrs[attribute])
+
+    effects = json.loads(attrs.get("conditions", "null")) or {}
+    names = (name for name in CONDITIONS if effects.get(name) is not None)
+    conditions = ", ".join(name.replace("_", " ") for name in names)
+    load = Facts(
+        "Load and model",
+        [
+            *((label, quantity(key, attribute)) for key, (attribute, label) in LOAD.items()),
+            ("Conditions", conditions or ("none" if "conditions" in attrs else NONE)),
+            ("Model", str(attrs.get("model", NONE)).replace("_", " ")),
+            ("Surface", without_folder(str(attrs.get("surfaces", NONE)))),
+            ("Rubber", without_folder(str(attrs.get("rubbers", NONE)))),
+        ],
+    )
+    waves: list[Element] = []
+    if {"wavelength", "amplitude"} <= set(data.data_vars):
+        length, height = (
+            data[name].transpose(..., "scale").values.reshape(-1, data.sizes["scale"])
+            for name in ("wavelength", "amplitude")
+        )
+        if (length == length[0]).all() and (height == height[0]).all():  # of all predictions
+            waves.append(waves_table(length[0], height[0]))
+    return [
+        Section("inputs", "Inputs and their origin", [load]),
+        Section("surface", "Surface", waves),
+        Section(
+            "rubber",
+            "Rubber",
+            [_rubber_facts(rubber, f"Rubber {i + 1}") for i, rubber in enumerate(rubbers_of(data))],
+        ),
+    ]
+
+
+def rubbers_of(data: xr.Dataset) -> list[Rubber]:
+    """Return the rubbers of a study from their exact parameters, without strain energy and shift.
+
+    None of a file that does not hold them.
+    """
+    rubbers = []
+    for values in json.loads(str(data.attrs.get("rubber_parameters", "[]"))):
+        names = ("equilibrium_modulus", "moduli", "relaxation_times", "bulk_modulus")
+        exact = {name: _from_hex(values[name]) for name in names}
+        series = values.get("admissible") or {}
+        parts = ("relaxation_times", "equilibrium_moduli", "moduli")
+        others = [_from_hex(series[name]) for name in parts if isinstance(series.get(name), list)]
+        rubbers.append(
+            Rubber(
+                **exact,
+                name=values.get("name", ""),
+                valid_band=_from_hex(values.get("valid_band")),
+                admissible=AdmissibleSeries(*others) if len(others) == len(parts) else None,
+                reference_temperature=_from_hex(values.get("reference_temperature")),
+            )
+        )
+    return rubbers
+
+
+def _from_hex(value: Any) -> Any:
+    """Return the numbers of which hexadecimal texts were written."""
+    if isinstance(value, list):
+        return [_from_hex(part) for part in value]
+    return float.fromhex(value) if isinstance(value, str) else value
+
+
+def _rubber_facts(rubber: Rubber, name: str) -> Facts:
+    """Return what a rubber of a study is."""
+    pairs = [
+        ("Relaxed modulus of the series", f"{number(rubber.equilibrium_modulus, MEGA)} MPa"),
+        ("Glassy modulus of the series", f"{number(rubber.glassy_modulus, MEGA)} MPa"),
+        ("Bulk modulus", f"{number(rubber.bulk_modulus, GIGA)} GPa"),
+        ("Maxwell elements", str(len(rubber.moduli))),
+    ]
+    if rubber.valid_band:
+        low, high = map(number, rubber.valid_band)
+        pairs.append(("Measured band", f"{low} to {high} rad/s"))
+    if rubber.reference_temperature:
+        celsius = rubber.reference_temperature - ZERO_CELSIUS
+        pairs.append(("Temperature", f"{number(celsius)} °C"))
+    return Facts(rubber.name or name, pairs)

@@ -1,0 +1,307 @@
+"""What a run writes beside its chain, so that a report needs nothing but the result file.
+
+Group `inputs`: the input files with their checksums, the profiles as drawn, their cleaning, the
+height difference correlation and its fits, the master curve and its Prony series, the curves as the
+fits themselves evaluate them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from gripscale.case_file.read import CaseFile
+from gripscale.case_file.results import CaseResults
+from gripscale.core.arrays import Array, ComplexArray
+from gripscale.io.text_table import read_bytes
+from gripscale.model import Load
+from gripscale.rubber import MasterCurve, PronyFit, Rubber
+from gripscale.rubber.material import fast_end, slow_end
+from gripscale.surface import HeightDifference, Measured, Profile, SineStack, Surface
+from gripscale.surface.cut_off import DEFINITIONS
+from gripscale.surface.sine_fit import as_fitted
+
+BINS = 1200
+"""Pieces a profile is cut into; each keeps its lowest and its highest height."""
+CLOSE_UP = 30e-3
+"""Length of the piece of a profile that is shown point by point [m]."""
+
+
+def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
+    """Return middle, lowest and highest height of each piece of a profile, shape (3, bins).
+
+    A piece without heights has NaN; of fewer points than `bins`, the rest is NaN.
+    """
+    abscissa, height = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
+    count = min(bins, abscissa.size)
+    first = np.linspace(0, abscissa.size, count, endpoint=False).astype(int)
+    out = np.full((3, bins), math.nan)
+    sizes = np.diff(np.append(first, abscissa.size))
+    out[0, :count] = np.add.reduceat(abscissa, first) / sizes
+    out[1, :count] = np.fmin.reduceat(height, first)
+    out[2, :count] = np.fmax.reduceat(height, first)
+    return out
+
+
+def close_up(profile: Profile) -> Array:
+    """Return abscissa and height [m] of a piece from the middle of a profile, shape (2, points)."""
+    start = 0.5 * (profile.x[0] + profile.x[-1])
+    inside = (profile.x >= start) & (profile.x <= start + CLOSE_UP)
+    return np.array([profile.x[inside], profile.z[inside]])
+
+
+def sine_curves(sines: SineStack, lag: ArrayLike) -> tuple[Array, Array]:
+    """Return C_z [m^2] of the waves as `fit_sines` uses it and of the pure sines.
+
+    As fitted, the first wave counts by its mean over phases beyond a quarter of its length, and
+    shorter waves than those of the stack count where it has a cut-off. Beyond the whole length of
+    the first wave both are NaN.
+    """
+    lags, longest = np.asarray(lag, dtype=float), float(sines.wavelength[0])
+    inside = np.minimum(lags, longest)
+    first = SineStack(sines.wavelength[:1], sines.amplitude[:1])
+    held = first.height_difference(np.minimum(lags, 0.25 * longest))
+    rest = as_fitted(sines).height_difference(inside) - first.height_difference(inside)
+    curves = rest + held, sines.height_difference(inside)
+    fitted, pure = (np.where(lags <= longest, curve, math.nan) for curve in curves)
+    return fitted, pure
+
+
+def excited(speed: float, sines: SineStack) -> Array:
+    """Return the angular frequencies the waves excite at `speed` [rad/s]; none at rest."""
+    omega = 2.0 * math.pi * speed / np.asarray(sines.wavelength)
+    return np.asarray(omega if speed > 0.0 else omega[:0])
+
+
+def band(rubber: Rubber, master: MasterCurve | None, excitation: ArrayLike, points: int) -> Array:
+    """Return angular frequencies [rad/s] over everything measured and excited, or all terms.
+
+    A decade more on both sides where the uncertainty beyond the data is known, else half of one.
+    """
+    ends = [*np.asarray(excitation, dtype=float), *(rubber.valid_band or ())]
+    if master is not None:
+        ends += [*master.angular_frequency[[0, -1]]]
+    ends = ends or [*(1.0 / rubber.relaxation_times)] or [1.0]
+    margin = 3.0 if rubber.admissible is None else 10.0
+    return np.geomspace(min(ends) / margin, max(ends) * margin, points)
+
+
+Variables = dict[str, Any]
+Part = tuple[Variables, Variables]
+"""Variables and attributes of the record."""
+POINTS = 600
+"""Points of a curve that is drawn."""
+
+
+def inputs(
+    results: CaseResults,
+    surfaces: Iterable[Surface] | None = None,
+    loads: Iterable[Load] | None = None,
+    rubber_notes: Iterable[str] = (),
+    friction_notes: Iterable[str] = (),
+) -> xr.Dataset:
+    """Return everything a report says about the inputs of a case: the group `inputs` of a result.
+
+    Its doubts are those of `surfaces` and `loads` where the answer is not of those of the case, and
+    `rubber_notes`, what is assumed of rubbers beside that of the case; `friction_notes`, what is
+    doubtful of measured friction, come first.
+    """
+    surface = results.surface
+    excitation = excited(results.file.case.load.speed, surface.sines)
+    rubber = results.rubber
+    of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
+    notes = {
+        "conditions_notes": "\n".join(results.conditions_notes()) or None,
+        "load_notes": "\n".join(results.load_notes()) or None,
+        "doubts": "\n".join([*friction_notes, *results.doubts(surfaces, loads), *rubber_notes])
+        or None,
+    }
+    parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
+    parts.append(({}, notes | _excited_band(excitation)))
+    if surface.measured is not None and surface.correlation is not None:
+        parts.append((_profiles(surface.measured), {}))
+        texture = surface.measured.texture.variables
+        parts.append(({str(name): values for name, values in texture.items()}, {}))
+        parts.append(_cut_off(surface, surface.measured))
+        parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
+    data = {name: value for part, _ in parts for name, value in part.items()}
+    attrs = {name: value for _, part in parts for name, value in part.items() if value is not None}
+    return xr.Dataset(data, attrs=attrs)
+
+
+def _excited_band(excitation: Array) -> Variables:
+    """Return the lowest and the highest frequency that the waves excite; nothing at rest."""
+    if not excitation.size:
+        return {}
+    return {
+        "excited_low_rad_per_s": float(excitation.min()),
+        "excited_high_rad_per_s": float(excitation.max()),
+    }
+
+
+def _files(file: CaseFile) -> Variables:
+    """Return names, sizes and checksums of the measured files of the case."""
+    named = file.case.named_files()
+    contents = [read_bytes(file.resolve(name)) for _, name in named]
+    if not named:
+        return {}
+    return {
+        "file_role": ("file", _texts([role for role, _ in named])),
+        "file_name": ("file", _texts([name for _, name in named])),
+        "file_bytes": ("file", np.array([len(content) for content in contents])),
+        "file_sha256": ("file", _texts([hashlib.sha256(c).hexdigest() for c in contents])),
+    }
+
+
+def _waves(surface: Surface) -> Variables:
+    sines = surface.sines
+    low, high = sines.lag_range or (None, None)
+    # what the measurement does not carry stands in `cut_off_beyond_measurement`, plates in `doubts`
+    notes = [note for note in surface.notes if note not in surface.extrapolated + surface.doubts]
+    return {
+        "sines_s_wavelength": sines.s_wavelength,
+        "sines_s_amplitude": sines.s_amplitude,
+        "sines_residual_decades": sines.residual,
+        "sines_lag_min_m": low,
+        "sines_lag_max_m": high,
+        "sines_cut_off_m": sines.cut_off,
+        "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
+        "surface_notes": "\n".join(notes) or None,
+    }
+
+
+def _cut_off(surface: Surface, measured: Measured) -> Part:
+    """Return where the roughness ends and why, and the rms slope down to each wavelength."""
+    cut_off, slopes = surface.cut_off, measured.slopes
+    assert cut_off is not None
+    lengths = slopes.wavelength
+    data: Variables = {"slope_wavelength": ("slope_wavelength", lengths, {"units": "m"})}
+    for of in DEFINITIONS:
+        values = np.array([slopes.down_to(float(length), of) for length in lengths])
+        data[f"rms_slope_of_{of}"] = ("slope_wavelength", values, {"units": "1"})
+    return data, {
+        "cut_off_m": cut_off.wavelength,
+        "cut_off_rule": cut_off.rule,
+        "cut_off_surface_slope": cut_off.surface_slope,
+        "cut_off_profile_slope": cut_off.profile_slope,
+        "cut_off_carried_m": cut_off.resolution_limit,
+        "cut_off_beyond_measurement": int(cut_off.beyond_measurement),
+    }
+
+
+def _profiles(measured: Measured) -> Variables:
+    """Return the profiles as drawn, and what each step of their cleaning did."""
+    raw, cleaned = (list(column) for column in zip(*measured.profiles, strict=True))
+    steps = measured.cleaning[0].steps
+    data: Variables = {
+        "profile_name": ("profile", _texts([p.name or Path(p.source).name for p in raw])),
+        "profile_step": ("profile", np.array([p.step for p in raw]), {"units": "m"}),
+        "profile_length": ("profile", np.array([p.length for p in raw]), {"units": "m"}),
+        "profile_points": ("profile", np.array([len(p) for p in raw])),
+        "cleaning_step_name": ("cleaning_step", _texts([step.step for step in steps])),
+    }
+    for field in ("points", "removed", "made_missing", "missing"):
+        counts = [[getattr(step, field) for step in report] for report in measured.cleaning]
+        data[f"cleaning_{field}"] = (("profile", "cleaning_step"), np.array(counts))
+    notes = [[step.note for step in report] for report in measured.cleaning]
+    data["cleaning_note"] = (("profile", "cleaning_step"), _texts(notes))
+    for name, profiles in (("read", raw), ("cleaned", cleaned)):
+        drawn = np.array([envelope(profile.x, profile.z) for profile in profiles])
+        for i, part in enumerate(("x", "lowest", "highest")):
+            data[f"{name}_{part}"] = (("profile", "bin"), drawn[:, i], {"units": "m"})
+    pieces = [close_up(profile) for profile in cleaned]
+    longest = min(piece.shape[1] for piece in pieces)
+    for i, part in enumerate("xz"):
+        values = np.array([piece[i, :longest] for piece in pieces])
+        data[f"close_up_{part}"] = (("profile", "close_up_point"), values, {"units": "m"})
+    return data
+
+
+def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) -> Part:
+    """Return C_z as measured and as fitted, the waves also at lags between the measured ones."""
+    fit = measured.self_affine
+    lag = np.asarray(hdc.lag)
+    fine = np.geomspace(lag[0], min(float(sines.wavelength[0]), lag[-1]), POINTS)
+    curves: dict[str, Any] = {
+        "correlation_value": hdc.value,
+        "correlation_lower": hdc.lower,
+        "correlation_upper": hdc.upper,
+        "correlation_sines": sine_curves(sines, lag)[0],
+    }
+    if fit is not None:
+        curves["correlation_self_affine"] = fit.evaluate(lag)
+    data: Variables = {"lag": ("lag", lag, {"units": "m"})}
+    data |= {name: ("lag", np.asarray(v), {"units": "m^2"}) for name, v in curves.items()}
+    data["correlation_pairs"] = ("lag", np.asarray(hdc.pairs))
+    data["fine_lag"] = ("fine_lag", fine, {"units": "m"})
+    fitted, pure = sine_curves(sines, fine)
+    data["fine_sines"] = ("fine_lag", fitted, {"units": "m^2"})
+    data["fine_pure_sines"] = ("fine_lag", pure, {"units": "m^2"})
+    if fit is None:
+        return data, {"no_self_affine": measured.no_self_affine}
+    lengths = ("xi_parallel", "xi_perpendicular", "lag_min", "lag_max")
+    return data, {
+        "self_affine_hurst": fit.hurst,
+        **{f"self_affine_{name}_m": getattr(fit, name) for name in lengths},
+        "self_affine_residual_decades": fit.residual,
+    }
+
+
+def rubber_variables(
+    rubber: Rubber, master: MasterCurve | None, fit: PronyFit | None, excitation: Array
+) -> Part:
+    """Return variables and attributes of a Prony series and the master curve it was fitted to."""
+    low, high = rubber.valid_band or (None, None)
+    attrs: Variables = {
+        "rubber_name": rubber.name,
+        "strain_energy": str(rubber.strain_energy),
+        "equilibrium_modulus_Pa": rubber.equilibrium_modulus,
+        "bulk_modulus_Pa": rubber.bulk_modulus,
+        "band_low_rad_per_s": low,
+        "band_high_rad_per_s": high,
+    }
+    for name, end in (("slow_end", slow_end(rubber)), ("fast_end", fast_end(rubber))):
+        attrs |= {f"{name}_modulus_Pa": end.modulus, f"{name}_plateau": int(end.plateau)}
+    omega = band(rubber, master, excitation, POINTS)
+    data: Variables = {"series_omega": ("series_omega", omega, {"units": "rad/s"})}
+    data |= _moduli("series", "series_omega", rubber.complex_modulus(omega))
+    if rubber.admissible is not None:
+        for side, modulus in zip(("low", "high"), rubber.complex_modulus_band(omega), strict=True):
+            data |= _moduli(f"series_{side}", "series_omega", modulus)
+    if len(rubber.moduli):
+        times = np.asarray(rubber.relaxation_times)
+        data["term_relaxation_time"] = ("maxwell_element", times, {"units": "s"})
+        data["term_modulus"] = ("maxwell_element", np.asarray(rubber.moduli), {"units": "Pa"})
+    if master is not None:
+        attrs["reference_temperature_K"] = master.reference_temperature
+        data["master_frequency"] = ("row", master.frequency, {"units": "Hz"})
+        data |= _moduli("master", "row", master.storage + 1j * master.loss)
+        fitted = rubber.complex_modulus(master.angular_frequency)
+        data |= _moduli("master_series", "row", fitted)
+    if master is not None and fit is not None:
+        out = np.isin(master.frequency, fit.outlier_frequency)
+        data["master_left_out"] = ("row", out.astype(np.int8))
+        errors = ("rms_storage", "rms_loss", "rms_loss_factor", "mean_loss_factor_error")
+        for name in (*errors, "storage_scatter", "loss_scatter"):
+            attrs[f"prony_{name}"] = getattr(fit, name)
+        attrs["prony_consistent"] = int(fit.consistent)
+        attrs["prony_findings"] = "\n".join(fit.findings)
+    return data, attrs
+
+
+def _moduli(name: str, along: str, modulus: ComplexArray) -> Variables:
+    return {
+        f"{name}_storage": (along, modulus.real, {"units": "Pa"}),
+        f"{name}_loss": (along, modulus.imag, {"units": "Pa"}),
+    }
+
+
+def _texts(values: Sequence[Any]) -> NDArray[np.object_]:
+    return np.array(values, dtype=object)

@@ -1,0 +1,131 @@
+"""Charts of what decides the friction: the master curve, and below it what each part is worth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import draw, style
+from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.page_elements import Chart, Picture
+from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
+from gripscale.core.units import MEGA
+from gripscale.questions.answer.charts import (
+    height_figure,
+    height_panels,
+    named_traces,
+    profile_names,
+)
+from gripscale.questions.sensitivity.friction_sensitivity import LOSS, STORAGE
+from gripscale.questions.vary.axis import dimensions, points
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST_CURVES = 8
+"""Points of the axes that are drawn, evenly spaced among more."""
+EFFECTS = {
+    LOSS: ("$E''$", "more loss, more friction"),
+    STORAGE: ("$E'$", "stiffer, less contact and less friction"),
+}
+
+
+def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
+    """Return the panels as charts of the page."""
+    return draw.on_page(_panels(data))
+
+
+def height_charts(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
+    """Return what heights of the surface are worth; nothing where something is varied."""
+    return draw.on_page(
+        panel for name, trace in _traces(data, inputs) for panel in height_panels(trace, name)
+    )
+
+
+def height_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Picture]:
+    """Return the same for the figures of a folder."""
+    return [
+        Picture(f"height_{number}", height_figure(trace, name), "", "")
+        for number, (name, trace) in enumerate(_traces(data, inputs), start=1)
+    ]
+
+
+def _traces(data: xr.Dataset, inputs: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
+    """Return the traces at the first point, with the names of the profiles of the inputs."""
+    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)), profile_names(inputs))
+
+
+def sensitivity_figure(data: xr.Dataset) -> Figure:
+    """Draw master curve and derivatives of the friction over the same frequencies."""
+    layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
+    return draw.on_paper(Sheet(_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout))
+
+
+def _panels(data: xr.Dataset) -> list[Panel]:
+    """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
+    omega = data.modulus_frequency.values
+    listed = list(points(data))
+    if len(listed) > MOST_CURVES:
+        chosen = np.linspace(0, len(listed) - 1, MOST_CURVES).round().astype(int)
+        listed = [listed[i] for i in chosen]
+    colours = style.colours(len(listed), ordered=len(listed) > 1)
+    axis = Axis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
+    rules = [CrossLine(at, GREY, "", "dotted", 0.9, upright=True) for _, at in _rules(data)]
+    moduli: list[Mark] = [
+        Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
+        Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
+    ]
+    lowest = float(data.loss_modulus.min()) / MEGA / 2.0
+    moduli += [
+        Note(at, (1.4 + 0.9 * i) * lowest, f" tan δ, {name}", GREY, italic=True)
+        for i, (name, at) in enumerate(_rules(data))
+    ]
+    panels = [
+        Panel(
+            axis,
+            Axis("modulus [MPa]", log=True, low=lowest),
+            [*moduli, *rules],
+            name="sensitivity-master-curve",
+            caption="The master curve of the rubber.",
+            alt="Storage and loss modulus against angular frequency.",
+        )
+    ]
+    for name, (symbol, meaning) in EFFECTS.items():
+        curves: list[Mark] = [
+            Series(
+                data.frequency.values,
+                # bands that are not excited at this point have no derivative
+                each[name].where(each[name] != 0.0).values * int(data.attrs["bands_per_decade"]),
+                colour,
+                text if len(listed) > 1 else "",
+                marker="o",
+                size=2.5,
+            )
+            for (text, each), colour in zip(listed, colours, strict=True)
+            if np.isfinite(each[name].values).any()
+        ]
+        panels.append(
+            Panel(
+                axis,
+                Axis(f"d ln $\\mu$ / d ln {symbol} per decade"),
+                [*curves, *rules, CrossLine(0.0)],
+                name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
+                caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "
+                f"{meaning}.",
+                alt=f"Derivative of friction by {symbol.strip('$')} against angular frequency.",
+            )
+        )
+    return panels
+
+
+def _rules(data: xr.Dataset) -> Iterator[tuple[str, float]]:
+    """Yield the rules of thumb on the drawn axis, and the frequency they look at [rad/s]."""
+    if "rule" not in data.dims:
+        return
+    low, high = data.modulus_frequency.values[[0, -1]]
+    for name, at in zip(data.rule.values, data.rule_frequency.values, strict=True):
+        if low <= at <= high:
+            yield str(name), float(at)

@@ -1,0 +1,365 @@
+"""What decides the friction of a case: its prediction with the derivatives of the friction.
+
+    from gripscale.questions import case_sensitivity
+    data = case_sensitivity("case.toml", folder="results", vary={"speed": "0.003:30:log5"})
+    data.d_ln_friction_d_ln_loss.sum("frequency")
+
+The profiles of a surface add their friction by length. With m_k the share of profile k in it,
+
+    d ln mu = sum_k m_k d ln mu_k.
+
+Derivatives of the direct contact are those of the grid with four points in the smallest wave: on
+the shipped road they are within 1 % of those of a grid eight times finer, where the friction itself
+differs by 15 %.
+
+Where softening or heat change the rubber with the contact there are two derivatives: with the
+rubber of every scale kept, of everything, from one adjoint solution; and with its answer to the
+change, of speed, pressure and temperature, from differences of whole solutions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case_file.prepare import case_chain
+from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case_file.run import prepare_case
+from gripscale.chain import Chain
+from gripscale.chain.sensitivity import sensitivity, wave_sensitivity
+from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
+from gripscale.core.checks import checked
+from gripscale.core.errors import InputError
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.design import CONVERGED, attributes, solve_design, surface_numbers
+from gripscale.experiment.solve import Bench, OnTask
+from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.half_space.location import PREFIX, contact_trace, with_traces
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
+from gripscale.model import STATUS
+from gripscale.questions.inputs import record
+from gripscale.questions.uncertainty.first_order import QUANTITIES, first_order
+from gripscale.questions.vary.axis import axes_of
+from gripscale.questions.vary.inputs import NAMED_MODELS, conditions_of, rubber_notes
+from gripscale.questions.vary.study import Study, coordinates
+
+if TYPE_CHECKING:
+    from gripscale.chain.prediction import Prediction
+    from gripscale.half_space.result import RoughContact
+    from gripscale.model import Load, Model, OnProgress
+    from gripscale.rubber import Rubber
+    from gripscale.surface import Surface
+
+FILE = "sensitivity.nc"
+"""The Dataset, in the folder of the command."""
+VARIED = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
+"""What may be varied: derivatives are taken at each value."""
+STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
+CARRIED = "source_{}_error"
+"""Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction"."""
+FEEDBACK = "_with_feedback"
+"""End of the names of derivatives with the rubber's answer to the change."""
+
+LOG_STEP, KELVIN_STEP = 0.1, 2.0
+"""Of the differences of whole solutions: ln v, ln p_0, and temperature [K]. The friction of a grid
+bends where an asperity comes into contact; smaller steps are single asperities."""
+
+RULES = {"wet grip": ZERO_CELSIUS, "rolling resistance": ZERO_CELSIUS + 60.0}
+"""Rules of thumb of tread compounds: tan(delta) at these temperatures [K] and `RULE_FREQUENCY`.
+M.-J. Wang, Rubber Chem. Technol. 71 (1998) 520, doi:10.5254/1.3538492."""
+RULE_FREQUENCY = 10.0
+"""[Hz]"""
+MASTER_POINTS, MARGIN = 200, 30.0
+"""Frequencies of the master curve beside the derivatives, and how far it goes beyond them."""
+
+
+class FrictionSensitivity(DirectContact):
+    """Direct contact whose answer holds the derivatives of its friction over `frequency`.
+
+    The frequencies are shifted to the temperature of the rubber as it is handed over. The other
+    fields are those of `DirectContact` and arguments of `gripscale.sensitivity`.
+    """
+
+    name: ClassVar[str] = "sensitivity"
+
+    tolerance: float | None = None
+    bands_per_decade: int = checked(checks.whole, least=1, most=100, default=4)
+    contact_fraction: bool = checked(checks.flag, default=False)
+    with_feedback: bool = checked(checks.flag, default=False)
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer with the derivatives; without any if the contact has no result."""
+        contacts: list[RoughContact] = []
+
+        def keep(contact: RoughContact) -> None:
+            contacts.append(contact)
+            if on_progress is not None:
+                on_progress(contact)
+
+        answer = super().predict(rubber, surface, load, on_progress=keep)
+        if answer[STATUS].item() != CONVERGED:
+            return answer
+        parts = [
+            sensitivity(
+                contact,
+                bands_per_decade=self.bands_per_decade,
+                contact_fraction=self.contact_fraction,
+                reference_temperature=_shifted_to(rubber),
+            )
+            for contact in contacts
+        ]
+        answer = answer.merge(_of_all(parts, [contact.grid.lengths[0] for contact in contacts]))
+        if self.traces:
+            relative = [(part.d_friction_d_height / part.friction).values for part in parts]
+            pairs = zip(contacts, relative, strict=True)
+            answer = with_traces(answer, [contact_trace(c, derivative=d) for c, d in pairs])
+        if self.with_feedback and self.conditions is not None and self.conditions.iterated:
+            answer = answer.assign(self._with_feedback(rubber, surface, load))
+        return answer
+
+    def _with_feedback(
+        self, rubber: Rubber, surface: Surface, load: Load
+    ) -> dict[str, xr.Variable]:
+        """Return derivatives from differences of whole solutions."""
+        conditions = conditions_of(self)
+        kelvin = conditions.temperature_of(rubber)
+
+        def solved(load: Load, warmer: float = 0.0) -> float:
+            other = conditions
+            if kelvin is not None and warmer:
+                other = replace(conditions, temperature=kelvin + warmer)
+            answer = DirectContact.predict(self.with_conditions(other), rubber, surface, load)
+            return math.log(float(answer["total_friction_from_dissipation"]))
+
+        def scaled(name: str, by: float) -> Load:
+            return replace(load, **{name: getattr(load, name) * math.exp(by)})
+
+        derivatives = {}
+        for name in ("speed", "pressure"):
+            low, high = (solved(scaled(name, by)) for by in (-LOG_STEP, LOG_STEP))
+            derivatives[f"ln_{name}"] = (high - low) / (2.0 * LOG_STEP)
+        if kelvin is not None and rubber.shift is not None:
+            low, high = (solved(load, by) for by in (-KELVIN_STEP, KELVIN_STEP))
+            derivatives["temperature"] = (high - low) / (2.0 * KELVIN_STEP)
+        text = "d ln friction by {}, with the rubber's answer to it"
+        return {
+            f"d_ln_friction_d_{name}{FEEDBACK}": xr.Variable(
+                (), value, attributes(text.format(name), "1/K" if name == "temperature" else "1")
+            )
+            for name, value in derivatives.items()
+        }
+
+
+class ChainSensitivity(Chain):
+    """Chain whose answer holds the derivatives of its friction and contact area over `frequency`.
+
+    As `FrictionSensitivity`; the other fields are those of `Chain`.
+    """
+
+    name: ClassVar[str] = "chain_sensitivity"
+
+    bands_per_decade: int = checked(checks.whole, least=1, most=100, default=4)
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer with the derivatives; without any if a wave has no result."""
+        last: list[Prediction] = []
+
+        def keep(so_far: Prediction) -> None:
+            last[:] = [so_far]
+            if on_progress is not None:
+                on_progress(so_far)
+
+        answer = super().predict(rubber, surface, load, on_progress=keep)
+        if answer[STATUS].item() != CONVERGED:
+            return answer
+        derivatives = wave_sensitivity(
+            last[0],
+            bands_per_decade=self.bands_per_decade,
+            reference_temperature=_shifted_to(rubber),
+        )
+        return answer.merge(derivatives[_derivatives_of(derivatives)])
+
+
+def _shifted_to(rubber: Rubber) -> float | None:
+    """Return the temperature that frequencies are shifted to [K], of a rubber with a shift."""
+    return rubber.reference_temperature if rubber.shift is not None else None
+
+
+def _derivatives_of(data: xr.Dataset) -> list[str]:
+    """Return the names of derivatives but for those by Prony terms, which rubbers do not share."""
+    named = (str(name) for name in data if str(name).startswith("d_ln_"))
+    return [name for name in named if "term" not in data[name].dims]
+
+
+def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
+    """Return the derivatives that profiles of these lengths [m] have together."""
+    names = _derivatives_of(parts[0])
+    every = xr.concat([part[names] for part in parts], "profile", join="outer", fill_value=0.0)
+    out = {}
+    for name in names:
+        quantity = "friction" if name.startswith("d_ln_friction") else "contact_fraction"
+        amounts = np.array(lengths) * [float(part[quantity]) for part in parts]
+        weight = xr.DataArray(amounts / amounts.sum(), dims="profile")
+        mean = (weight * every[name]).sum("profile", skipna=False)
+        out[name] = mean.assign_attrs(parts[0][name].attrs)
+    return xr.Dataset(out)
+
+
+def case_sensitivity(
+    case: CaseFile | str | Path,
+    *,
+    folder: str | Path,
+    vary: Mapping[str, Any] | None = None,
+    model: str = DirectContact.name,
+    bands_per_decade: int = 4,
+    contact_fraction: bool = False,
+    with_feedback: bool = False,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset:
+    """Return the derivatives of the friction of a case, and write them to a folder.
+
+    Parameters
+    ----------
+    case : path or CaseFile
+        The case; its speed must be above zero, and its surface measured for the direct contact.
+    folder : path
+        Gets `sensitivity.nc`, and each solution as soon as it is there: a run that was stopped goes
+        on where it was.
+    vary : mapping, optional
+        One or two of `VARIED`, as for a `Study`: the derivatives at each value. By default those
+        of the case.
+    model : str
+        "direct", or "chain": the waves of the case, from differences of solved waves. The contact
+        fraction of the chain comes with it.
+    bands_per_decade, contact_fraction
+        As for `gripscale.sensitivity`.
+    with_feedback : bool
+        With softening or heat, also derivatives by speed, pressure and temperature with the answer
+        of the rubber: six further solutions.
+    workers, on_task
+        As for `Study.run`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over what is varied: the variables of `gripscale.sensitivity` but for the heights, over
+        `frequency` at the temperature of the master curve. Those with the end `_with_feedback` hold
+        the answer of softening and heat. `storage_modulus` and `loss_modulus` [Pa] of the master
+        curve over `modulus_frequency` [rad/s]; with a shift, over `rule`, the frequency that each
+        rule of thumb stands for, and the share of the effect of E'' within half a decade of it.
+        Of the direct contact, where nothing is varied, `source_friction_error` and
+        `source_contact_fraction_error` over `source`: the relative standard errors that what is not
+        known of the inputs carries to friction and contact area (`first_order`).
+        There, too, the derivatives by height are in the traces of the profiles
+        (`gripscale.half_space.location.traces_of`).
+
+    Raises
+    ------
+    InputError, FileError
+        For what cannot be used; if the case is at rest, or has no measured surface for the direct
+        contact.
+    """
+    file = case if isinstance(case, CaseFile) else read_case(case)
+    axes = {"speed": [file.case.load.speed]} if vary is None else dict(vary)
+    for axis in axes_of(axes):
+        checks.one_of("vary", axis.name, VARIED)
+        if axis.name == "speed" and min(axis.values) <= 0.0:
+            raise InputError("speed must be above zero for derivatives of friction; got 0 m/s")
+    chosen = checks.one_of("model", model, NAMED_MODELS)
+    chain = case_chain(file)
+    if chosen == Chain.name:
+        if with_feedback:
+            raise InputError("with_feedback must be False for the chain; got True")
+        of_case = {item.name: getattr(chain, item.name) for item in fields(chain)}
+        solved: Model = ChainSensitivity(**of_case, bands_per_decade=bands_per_decade)
+    else:
+        solved = FrictionSensitivity(
+            conditions=chain.conditions,
+            bands_per_decade=bands_per_decade,
+            contact_fraction=contact_fraction,
+            with_feedback=with_feedback,
+            traces=vary is None,
+        )
+    prepared = prepare_case(file)
+    study = Study(prepared, axes, static=False, model=solved)
+    bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
+    data = solve_design(study.design, bench, _kept)
+    data = data.assign_coords(coordinates(study.axes, file.units))
+    if STORAGE in data and chosen == DirectContact.name and vary is None:
+        errors = first_order(prepared, seed=file.case.uncertainty.seed)
+        named = {f"{name}_error": CARRIED.format(name) for name in QUANTITIES}
+        data = data.assign(errors.rename(named).variables)
+    if STORAGE in data:
+        data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
+    attrs = {
+        "title": "What decides the friction of a case",
+        "case_file": str(file.path),
+        "model": chosen,
+        "bands_per_decade": bands_per_decade,
+        "iterated": int(chain.conditions is not None and chain.conditions.iterated),
+        **provenance.attributes(),
+    }
+    data = data.assign_attrs(file.attributes, **attrs)
+    loads = [point.task.load for point in study.points]
+    of_rubbers = rubber_notes(axes.get("rubber", ()), file)
+    groups = {"inputs": record.inputs(prepared, study.surfaces, loads, of_rubbers)}
+    return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
+
+
+def _kept(answer: xr.Dataset, task: Task) -> xr.Dataset:
+    """Return the numbers of the whole surface, and the derivatives."""
+    traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
+    kept = answer[[*_derivatives_of(answer), *traces]]
+    return surface_numbers(answer, task).assign(kept.variables)
+
+
+def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
+    """Return the Dataset with the master curve of its rubber, and the rules of thumb on it."""
+    kelvin, at = _rules(rubber)
+    drawn = np.array([*data.frequency.values, *at])
+    omega = np.geomspace(drawn.min() / MARGIN, drawn.max() * MARGIN, MASTER_POINTS)
+    modulus = rubber.complex_modulus(omega)
+    about = attributes("angular frequency of the master curve", "rad/s")
+    data = data.assign_coords(modulus_frequency=("modulus_frequency", omega, about)).assign(
+        storage_modulus=("modulus_frequency", modulus.real, attributes("E'", "Pa")),
+        loss_modulus=("modulus_frequency", modulus.imag, attributes("E''", "Pa")),
+    )
+    if not at.size:
+        return data
+    names = [name for name, each in RULES.items() if each in kelvin]
+    effect, distance = data[LOSS], np.abs(np.log10(data.frequency.values[:, None] / at))
+    near = xr.DataArray(distance <= 0.5, dims=("frequency", "rule"))
+    share = (effect * near).sum("frequency") / effect.sum("frequency")
+    text = f"angular frequency of tan(delta) at {RULE_FREQUENCY:g} Hz, shifted"
+    return data.assign_coords(rule=("rule", names)).assign(
+        rule_frequency=("rule", at, attributes(text, "rad/s")),
+        rule_share=share.assign_attrs(
+            attributes("share of the effect of E'' within half a decade")
+        ),
+    )
+
+
+def _rules(rubber: Rubber) -> tuple[Array, Array]:
+    """Return the temperatures of the rules [K], and where on the master curve they are [rad/s].
+
+    Those within the shift of the rubber; none without a shift.
+    """
+    shift, reference = rubber.shift, rubber.reference_temperature
+    if shift is None or reference is None:
+        return np.empty(0), np.empty(0)
+    low, high = shift.limits
+    kelvin = np.array([each for each in RULES.values() if low <= each <= high])
+    return kelvin, 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)

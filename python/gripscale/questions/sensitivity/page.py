@@ -1,0 +1,205 @@
+"""What decides the friction in sentences and tables: how much of what gives how much more."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import xarray as xr
+
+from gripscale.chain import Chain
+from gripscale.core.units import display_unit_of
+from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
+from gripscale.model import STATUS
+from gripscale.questions.chain.view import CONVERGED, SYMBOLS
+from gripscale.questions.sensitivity.friction_sensitivity import (
+    CARRIED,
+    FEEDBACK,
+    LOSS,
+    RULE_FREQUENCY,
+    STORAGE,
+)
+from gripscale.questions.uncertainty.first_order import QUANTITIES
+from gripscale.questions.uncertainty.page import not_stated
+from gripscale.questions.vary.axis import points
+from gripscale.report.elements import Card
+from gripscale.report.notices import Failure
+
+SCALARS = {
+    "ln_pressure": ("pressure", "1"),
+    "ln_speed": ("speed", "1"),
+    "ln_cut_off": ("cut-off", "1"),
+    "ln_bulk_modulus": ("bulk modulus", "1"),
+    "temperature": ("temperature", "1/K"),
+}
+"""Ends of the names of derivatives by one number, with their headings and units."""
+MOST_POINTS = 6
+"""Points that the table by decade has columns for."""
+signed = fixed(2, "+")
+
+
+def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the sums, what each decade is worth, and the rules of thumb; nothing if none."""
+    if STORAGE not in data:
+        return
+    yield sums_table(data)
+    if _has_feedback(data):
+        yield feedback_table(data)
+    yield decades_table(data)
+    if CARRIED.format("friction") in data:
+        yield carried_table(data)
+    yield from rule_lines(data)
+
+
+def answer_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield what more loss and less stiffness give, and where on the master curve that is."""
+    if STORAGE not in data:
+        reasons = sorted({each.sentence for each in failures(data)})
+        yield f"Answer: none. No contact was solved: {'; '.join(reasons)}"
+        return
+    loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
+    load = [
+        display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
+        for name in ("pressure", "speed")
+        if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
+    ]
+    where = f", at {' and '.join(load)}" if load else ""
+    where += ", by the chain" if data.attrs["model"] == Chain.name else ""
+    yield (
+        f"Answer: 1 % more E'' at all frequencies gives {_range(loss)} % more friction, "
+        f"1 % less E' {_range(-storage)} %{where}"
+    )
+    for text, each in points(data):
+        if np.isfinite(each[LOSS].values).all():
+            low, high = _middle_half(each)
+            where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
+            yield f"  half of the effect of E''{where} is between {low:.2g} and {high:.2g} rad/s"
+
+
+def cards(data: xr.Dataset) -> Iterator[Card]:
+    """Yield what E'' and E' at all frequencies are worth."""
+    for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+        if name in data:
+            value = _range(data[name].sum("frequency"))
+            yield Card(
+                f"1 % more {symbol}", on_page(f"{value} %"), "of friction, at all frequencies"
+            )
+
+
+def _range(values: xr.DataArray) -> str:
+    low, high = (significant(float(end), 2) for end in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def _middle_half(point: xr.Dataset) -> tuple[float, float]:
+    """Return the frequencies between which the middle half of the effect of E'' lies [rad/s]."""
+    effect = np.maximum(point[LOSS].values, 0.0)
+    within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
+    log = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
+    return float(np.exp(log[0])), float(np.exp(log[1]))
+
+
+def sums_table(data: xr.Dataset) -> Table:
+    """Return the derivatives by each input at each point, the moduli summed over frequency."""
+    listed = list(points(data))
+    moduli = [
+        Column(key, [float(each[name].sum()) for _, each in listed], symbol, format=signed)
+        for key, name, symbol in (("loss", LOSS, "E''"), ("storage", STORAGE, "E'"))
+    ]
+    columns = [_points_column(listed), *moduli, *_scalar_columns(data, "")]
+    notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
+    if data.attrs["iterated"] and not _has_feedback(data):
+        notes.append(
+            "Strain and temperature of the rubber are kept; --with-feedback also lets them follow."
+        )
+    return Table("sums", columns, "What the friction depends on", notes, keys=1)
+
+
+def feedback_table(data: xr.Dataset) -> Table:
+    """Return the derivatives with the answer of softening and heat."""
+    columns = [_points_column(list(points(data))), *_scalar_columns(data, FEEDBACK)]
+    title = "The same where strain and temperature of the rubber follow the change"
+    return Table("feedback", columns, title, keys=1)
+
+
+def _points_column(listed: Sequence[tuple[str, xr.Dataset]]) -> Column:
+    return Column("point", [text for text, _ in listed], "")
+
+
+def _scalar_columns(data: xr.Dataset, end: str) -> Iterator[Column]:
+    """Yield the derivatives by single numbers that are known, with an end of their names."""
+    for name, (heading, unit) in SCALARS.items():
+        variable = f"d_ln_friction_d_{name}{end}"
+        if variable in data and np.isfinite(data[variable].values).any():
+            values = [float(each[variable]) for _, each in points(data)]
+            size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
+            yield Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
+
+
+def _has_feedback(data: xr.Dataset) -> bool:
+    return any(str(name).endswith(FEEDBACK) for name in data)
+
+
+def decades_table(data: xr.Dataset) -> Table:
+    """Return what E'' and E' of each decade of frequency are worth, at the first few points."""
+    decade = np.floor(np.log10(data.frequency.values) + 1e-9).astype(int)
+    rows = np.arange(decade.min(), decade.max() + 1)
+    listed = list(points(data))
+    chosen = np.unique(np.linspace(0, len(listed) - 1, min(MOST_POINTS, len(listed))).astype(int))
+    columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
+    for i in chosen:
+        text, each = listed[i]
+        for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+            values = [float(each[name].values[decade == row].sum()) for row in rows]
+            columns.append(
+                Column(
+                    f"{name}_{i}", values, symbol, text if len(listed) > 1 else "", format=signed
+                )
+            )
+    notes = []
+    if chosen.size < len(listed):
+        notes.append(f"{chosen.size} of {len(listed)} points; the others are in the result file.")
+    return Table("decades", columns, "What each decade of the master curve is worth", notes, keys=1)
+
+
+def carried_table(data: xr.Dataset) -> Table:
+    """Return what is not known of the inputs, and what it carries to the results, most first."""
+    errors = {name: data[CARRIED.format(name)].values for name in QUANTITIES}
+    ranked = np.argsort(-np.nan_to_num(errors["friction"]), kind="stable")
+    ranked = ranked[np.isfinite(errors["friction"][ranked])]
+    columns = [Column("source", [*data.label.values[ranked].tolist(), "together"], "not known")]
+    for name, error in errors.items():
+        values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
+        columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
+    notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
+    if missing := not_stated(data):
+        notes.append(f"Not included, as the case states no standard error: {', '.join(missing)}.")
+    return Table("carried", columns, "Effect of the errors of the inputs", notes, keys=1)
+
+
+def rule_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield what the rules of thumb look at, and how much of the effect is there."""
+    if "rule" not in data.dims:
+        yield (
+            "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place on "
+            "this axis."
+        )
+        return
+    for i, name in enumerate(data.rule.values):
+        share, at = data.rule_share.isel(rule=i), float(data.rule_frequency[i])
+        low, high = (percent(float(end)) for end in (share.min(), share.max()))
+        shares = low if low == high else f"{low} to {high}"
+        yield (
+            f"The rule of thumb for {name} takes tan δ at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
+            f"shifted); {shares} of the effect of E'' lies within half a decade of it."
+        )
+
+
+def failures(data: xr.Dataset) -> list[Failure]:
+    """Return each point without a solution."""
+    words = data[f"{STATUS}_word"].values.ravel()
+    endings = [
+        Failure(str(sentence), str(word))
+        for sentence, word in zip(data[STATUS].values.ravel(), words, strict=True)
+    ]
+    return [ending for ending in endings if ending.sentence != CONVERGED]

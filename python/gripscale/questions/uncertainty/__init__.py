@@ -1,0 +1,1 @@
+"""How uncertain is the answer."""

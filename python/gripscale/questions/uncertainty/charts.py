@@ -1,0 +1,343 @@
+"""Charts of what is not known of a case, and of the area term fitted to measured friction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import draw
+from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.page_elements import Picture
+from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE, WIDE
+from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
+from gripscale.questions.chain.view import ANSWER, AXIS_TITLES, PredictionView
+from gripscale.questions.compare.charts import measured_sheet
+from gripscale.questions.compare.charts_of_ladder import MARKERS, MeasuredSeries, measured
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
+from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
+from gripscale.questions.vary.axis import MODELS
+from gripscale.questions.vary.charts import varied_axis
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
+"""Titles of axes."""
+SYMBOL_TEXTS = {"friction": "$\\mu$", "contact_fraction": "$A_r/A_0$"}
+AS_STATED = "model, inputs as stated"
+"""What figures call the case itself, without anything drawn."""
+MOST_BINS = 24
+MEDIAN, END = 1.6, 0.9
+"""Widths of the lines at median and ends."""
+FEWEST_SAMPLES = 2
+"""Samples there must be for a distribution."""
+
+
+def axis_of(data: xr.Dataset) -> str:
+    """Return what is varied beside the samples, or nothing."""
+    return next((str(name) for name in data.failed.dims if name != "model"), "")
+
+
+def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield the parts of the interval, distributions and what matters most; of loads bands."""
+    if axis := axis_of(data):
+        yield Picture(
+            f"over_{axis}",
+            band_figure(data, axis),
+            f"The answer over the {axis} with its 90 % interval, and of each model the median with "
+            "bands of 50 and 90 % of the samples.",
+            f"Friction and contact area over the {axis} with their bands.",
+        )
+        return
+    if data.sizes.get("part") and np.isfinite(data.best_contact_fraction_uncertainty):
+        yield Picture(
+            "answer",
+            parts_figure(data),
+            "What the interval of the answer is made of: standard errors, which add up in squares.",
+            "Bars for each part of the interval, the most important on top.",
+        )
+    yield Picture(
+        "distributions",
+        distribution_figure(data),
+        "How friction and contact area are distributed: quantiles of the samples, the model with "
+        "the inputs as stated, and the answer.",
+        "Histograms of the samples, a row for each model.",
+    )
+    for name in data.model.values:
+        samples = data.sel(model=name)
+        if np.isfinite(samples.friction_share).any():
+            yield Picture(
+                f"tornado_{name}",
+                tornado_figure(samples),
+                f"What each source does alone to the friction of the model {name}, and its share "
+                "of the variance.",
+                "Bars for each source, the most important on top.",
+            )
+
+
+def parts_figure(data: xr.Dataset) -> Figure:
+    """Draw the standard errors that the interval of an answer is made of, the largest on top."""
+    names = [name for name in TOTALS if np.isfinite(data[f"best_{name}_uncertainty"])]
+    ranked = np.argsort(data[f"best_{names[0]}_part_error"].values, kind="stable")
+    labels = data.part_label.values[ranked]
+    drawn = {*data.label.values.tolist(), NOT_ALONE, TOGETHER}
+    rows = Axis(ticks={float(row): str(label) for row, label in enumerate(labels)})
+    panels = []
+    for name in names:
+        sigma = 100.0 * data[f"best_{name}_part_error"].values[ranked]
+        bars: list[Mark] = [
+            Bars(0.0, error, row - 0.3, row + 0.3, BLUE if label in drawn else ORANGE)
+            for row, (label, error) in enumerate(zip(labels, sigma, strict=True))
+        ]
+        panels.append(
+            Panel(Axis(f"standard error of {SYMBOL_TEXTS[name]} [%]", low=0.0), rows, bars)
+        )
+    keys = [
+        Bars(0, 0, 0, 0, BLUE, "from the inputs, sampled"),
+        Bars(0, 0, 0, 0, ORANGE, "from the model"),
+    ]
+    height = 1.2 + 0.3 * len(ranked)
+    return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
+
+
+def distribution_figure(data: xr.Dataset) -> Figure:
+    """Draw how friction and contact fraction are distributed, a row for each model.
+
+    Lines are the median and the ends of the 90 % interval, the triangle is the model with the
+    inputs as stated, the star is the answer with its interval.
+    """
+    panels = []
+    for model, colour in zip(data.model.values, COLOURS, strict=False):
+        samples = data.sel(model=model)
+        count = samples.sizes["sample"] - int(samples.failed)
+        for name, label in TOTALS.items():
+            first = name == "friction"
+            values = samples[name].values
+            answer = PredictionView(data).answer(name)
+            marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
+            top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
+            panels.append(Panel(
+                Axis(label, numbers=6),
+                Axis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
+                     high=None if top is None else 1.45 * top),
+                marks,
+                title=MODELS.get(str(model), str(model)),
+            ))  # fmt: skip
+    keys: list[Mark] = [
+        CrossLine(0.0, INK, "median of the samples", width=MEDIAN),
+        CrossLine(0.0, INK, "5 and 95 %", width=END),
+        Series([], [], INK, AS_STATED, dash="", marker="v"),
+    ]
+    return draw.on_paper(
+        Sheet(panels, height=1.2 + 1.8 * data.sizes["model"], legend_columns=4, keys=keys)
+    )
+
+
+def _distribution(
+    samples: xr.Dataset,
+    name: str,
+    values: np.ndarray,
+    colour: str,
+    answer: tuple[float, float, float],
+) -> Iterator[Mark]:
+    if values.size < FEWEST_SAMPLES:
+        return
+    counts, edges = np.histogram(values, min(MOST_BINS, 1 + values.size // 6))
+    yield Bars(edges[:-1], edges[1:], 0.0, counts, colour, alpha=0.45)
+    low, middle, high = samples[f"{name}_quantile"].values[[0, 2, 4]]
+    for at, width in ((low, END), (middle, MEDIAN), (high, END)):
+        yield CrossLine(at, INK, width=width, upright=True)
+    top = float(np.max(counts))
+    case = float(samples[f"{name}_case"])
+    yield Series([case], [1.12 * top], INK, dash="", marker="v", clip=False)
+    best, low, high = answer
+    if np.isfinite(best):
+        label = ANSWER if np.isfinite(low) else "answer"
+        yield Series([best], [1.29 * top], INK, label, "", marker="*", size=8.0, low=[low],
+                     high=[high], level_bars=True, clip=False)  # fmt: skip
+
+
+def tornado_figure(data: xr.Dataset) -> Figure:
+    """Draw what each source does to the friction of one model at one load, most on top.
+
+    Bars go from 5 to 95 % of what a source does to friction, the others in their middle. Beside
+    them is its share of the variance with its standard error; grey is an effect that is not
+    significant with so many samples.
+    """
+    shares, errors = data.friction_share.values, data.friction_share_error.values
+    ranked = np.argsort(shares, kind="stable")
+    middle = float(np.exp(np.nanmean(np.log(data.friction.values))))
+    bars: list[Mark] = []
+    dots: list[Mark] = []
+    for row, k in enumerate(ranked):
+        seen = shares[k] > SIGNIFICANCE * errors[k]
+        for end, colour in zip(data.friction_end.values[k], (BLUE, ORANGE), strict=True):
+            low, high = sorted((middle, end))
+            shade = colour if seen else GREY
+            bars.append(Bars(low, high, row - 0.3, row + 0.3, shade))
+        ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
+        dots.append(Series([shares[k]], [row], INK if seen else GREY, dash="", marker="o",
+                           size=4.0, level_bars=True, **ends))  # fmt: skip
+    rows = Axis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
+    title = f"{data.model.item()}: what each does alone"
+    panels = [
+        Panel(Axis(TOTALS["friction"]), rows, [*bars, CrossLine(middle, INK, upright=True)], title),
+        Panel(
+            Axis("share of the variance of $\\ln\\mu$ [-]"),
+            rows,
+            [*dots, CrossLine(0.0, INK, upright=True)],
+        ),
+    ]
+    words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
+    keys = [Bars(0, 0, 0, 0, colour, label) for label, colour in words.items()]
+    height = 1.3 + 0.34 * len(ranked)
+    return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
+
+
+def band_figure(data: xr.Dataset, axis: str) -> Figure:
+    """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
+    abscissa, x = varied_axis(data, axis)
+    panels = []
+    for name, label in TOTALS.items():
+        marks: list[Mark] = []
+        for model, colour in zip(data.model.values, COLOURS, strict=False):
+            samples = data.sel(model=model).transpose(axis, ...)
+            quantiles = samples[f"{name}_quantile"].values.T
+            marks += [
+                Band(x, quantiles[0], quantiles[4], colour, alpha=0.18),
+                Band(x, quantiles[1], quantiles[3], colour, alpha=0.3),
+                Series(x, quantiles[2], colour, f"{model}: median, 50 and 90 %"),
+                Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
+                       filled=False, clip=False),
+            ]  # fmt: skip
+        best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
+        low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
+        marks += [
+            Band(x, low, high, INK, alpha=0.12),
+            Series(x, best, INK, ANSWER),
+        ]
+        panels.append(Panel(abscissa, Axis(label, low=0.0), marks))
+    case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
+    return draw.on_paper(Sheet(panels, keys=[case]))
+
+
+UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
+"""What a parameter is divided by to be drawn, and its unit then."""
+PARAMETER_LABELS = {
+    "stress_0": "stress $\\tau_0$",
+    "width": "width $c$",
+    "speed_0": "speed $v_0$",
+    "activation_energy": "activation energy $\\epsilon$",
+    "ratio": "ratio",
+    "critical_speed": "critical speed $v_c$",
+    "exponent": "exponent $n$",
+}
+CEILING = 2.5
+"""Highest excess that is drawn, over the threshold."""
+
+
+def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
+    """Yield the figures of a calibration."""
+    yield Picture(
+        "measured_and_fitted",
+        fitted_figure(data),
+        "Measured friction with its spread, the hysteresis alone, and the fit with its band, at "
+        "each temperature.",
+        "A panel for each temperature with points and two curves over the speed.",
+    )
+    yield Picture(
+        "residuals",
+        residual_figure(data),
+        "Fit minus measured friction over the speed.",
+        "Points around zero over the speed, a marker for each temperature.",
+    )
+    yield Picture(
+        "profiles",
+        profiles_figure(data),
+        "Rise of the sum of squares if a parameter is held at another value.",
+        "A panel for each parameter with a valley around its best value.",
+    )
+
+
+def fitted_figure(data: xr.Dataset) -> Figure:
+    """Draw measured friction with its spread, the hysteresis alone, and the total with its band.
+
+    One panel for each temperature and pressure; points where the model has no answer are left out
+    of its lines.
+    """
+    level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
+
+    def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
+        rows = series.rows[np.isfinite(data.friction.values[series.rows])]
+        speed = speed_unit.of(data.measured_speed.values[rows])
+        total, band, hysteresis = (
+            data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
+        )
+        return [
+            Band(speed, total - band, total + band, ORANGE, level, alpha=0.25),
+            Series(speed, total, ORANGE, "hysteresis and area term"),
+            Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
+        ]
+
+    return draw.on_paper(measured_sheet(data, fit, head=0.5))
+
+
+def residual_figure(data: xr.Dataset) -> Figure:
+    """Draw fitted minus measured friction over speed, over the spread where it is known."""
+    spread = bool(np.isfinite(data.difference_in_spread).any())
+    values = data["difference_in_spread" if spread else "difference"].values
+    scale = 1.0 if spread else float(data.attrs["scatter"])
+    speed_unit = display_unit_of(data.attrs, "speed")
+    width = "spread of the measurement" if spread else "scatter of the residuals"
+    marks: list[Mark] = [CrossLine(-scale, FAINT, f"± {width}", to=scale), CrossLine(0.0)]
+    for number, series in enumerate(measured(data)):
+        marks.append(Series(
+            speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
+            series.label.removeprefix("measured").removeprefix(", "), "",
+            marker=MARKERS[number % len(MARKERS)],
+        ))  # fmt: skip
+    label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"
+    panel = Panel(Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), Axis(label), marks)
+    height = 2.6 + 0.2 * -(-len(marks) // 4)
+    return draw.on_paper(Sheet([panel], 1, height=height, legend_columns=4, gap=0.02))
+
+
+def profiles_figure(data: xr.Dataset) -> Figure:
+    """Draw by how much the sum of squares rises where each parameter is held elsewhere.
+
+    The interval is where the curve is below the line; an end that is not determined has none.
+    """
+    count = data.sizes["parameter"]
+    columns = 2 if count == 4 else min(count, 3)
+    panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
+    height = 0.4 + 2.1 * -(-count // columns)
+    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
+    return draw.on_paper(Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look))
+
+
+def _profile_panel(data: xr.Dataset) -> Panel:
+    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
+    divisor, unit = UNITS[str(data.unit.item())]
+    rows = np.isfinite(data.profile_excess.values)
+    value, excess = data.profile_value.values[rows] / divisor, data.profile_excess.values[rows]
+    low, high, best = (float(data[name]) / divisor for name in ("low", "high", "estimate"))
+    least, most = float(value.min()), float(value.max())
+    ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
+    name = str(data.parameter.item())
+    missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
+    title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
+    return Panel(
+        Axis(f"{PARAMETER_LABELS.get(name, name)} [{unit}]", low=least, high=most,
+             log=name != "activation_energy" and most > 5.0 * least),
+        Axis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
+        [
+            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
+            Series(value, excess, BLUE, "profile"),
+            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
+            CrossLine(best, GREY, "best", width=1.0, upright=True),
+        ],
+        title=title if missing else "",
+    )  # fmt: skip

@@ -1,0 +1,503 @@
+"""The uncertainty of a case: quantiles, what matters most, and what the samples cannot show."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts.draw import image
+from gripscale.io.table import Column, Table, percent
+from gripscale.model import status_words
+from gripscale.questions.answer.intervals import LEVEL, interval_ends
+from gripscale.questions.answer.page import (
+    answer_cards,
+    answer_lines,
+    has_answer,
+    interval,
+    is_measured,
+    number_and_interval,
+)
+from gripscale.questions.chain.view import CONVERGED, SYMBOLS
+from gripscale.questions.compare.ladder import DIRECT
+from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
+from gripscale.questions.uncertainty.propagation import (
+    FIRST_ORDER,
+    LEVELS,
+    QUANTITIES,
+    of_same_inputs,
+)
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, ROAD, RUN
+from gripscale.questions.uncertainty.sources import LABELS, STATED
+from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
+from gripscale.questions.vary.axis import name_of
+from gripscale.report.elements import Card, Doubt, Element, Notice, Section, Text
+from gripscale.report.notices import Failure, explained
+
+HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
+"""Symbols of the quantities, in their order."""
+OF_ANOTHER = (
+    "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
+    "uncertainty` again."
+)
+UNCERTAINTY = (
+    "The case was solved many times, each time with other values of the inputs that are not known "
+    "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
+)
+MOST_FAILED = 0.25
+"""Share of the samples of a model without an answer up to which the others stand for all."""
+LEAST_SHARE = 0.02
+"""Share of a part in the variance of the friction from which its linearity is judged: below it the
+samples do not know the part to a third."""
+APART = 4.0 / 3.0
+"""Ratio of errors by derivatives and by samples from which the friction is not linear."""
+SUMMARY = (0.05, 0.5, 0.95)
+"""Quantiles in the summaries of other reports."""
+
+
+def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield what each model and load is called, with its part."""
+    axis = axis_of(data)
+    for name in data.model.values:
+        model = data.sel(model=name)
+        if not axis:
+            yield str(name), model
+        else:
+            for i in range(model.sizes[axis]):
+                yield f"{name}, {axis} {name_of(model, axis, i)}", model.isel({axis: i})
+
+
+def uncertainty_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the answer, what matters most to it, the quantiles of the models, then warnings."""
+    yield from answer_parts(data)
+    yield from part_tables(data)
+    yield quantile_table(data)
+    yield from share_parts(data)
+    yield from warning_sentences(data)
+
+
+def answer_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the answer with what its interval holds; at several loads a table of answers."""
+    axis = axis_of(data)
+    if not axis:
+        first, *below = answer_lines(data)
+        yield from (first, f"  {interval_sentence(data)}", *below)
+        return
+    yield answer_table(data, axis)
+    yield interval_sentence(data)
+
+
+def answer_table(data: xr.Dataset, axis: str) -> Table:
+    """Return the answer at each load."""
+    parts = [data.isel({axis: at}) for at in range(data.sizes[axis])]
+    columns = [Column(axis, [name_of(data, axis, at) for at in range(len(parts))])]
+    for name, symbol in HEADS.items():
+        values = [float(part[f"best_{name}"]) for part in parts]
+        columns.append(Column(f"best_{name}", values, symbol))
+        ends = np.array(
+            [interval_ends(part[f"best_{name}"], part[f"best_{name}_half_width"]) for part in parts]
+        )
+        columns.append(Column(f"{name}_interval", ends, f"{100.0 * LEVEL:.0f} % interval"))
+    return Table("answers", columns, f"Answer by {axis}", keys=1)
+
+
+def interval_sentence(data: xr.Dataset) -> str:
+    """Return what the interval of an answer holds, and how that of `gripscale run` differs."""
+    count = data.sizes["sample"]
+    if not is_measured(data):
+        return (
+            f"interval: {count} samples of the chain with the errors of the inputs; no measured "
+            "surface judges it"
+        )
+    if DIRECT not in data.model.values:
+        return (
+            "interval: that of `gripscale run`, without errors of the inputs: the direct contact "
+            "was not sampled (--model direct or both)"
+        )
+    text = f"interval: with the errors of the inputs, from {count} samples"
+    if missing := not_stated(data):
+        text += f", but for {', '.join(missing)}"
+    widths = [data[f"best_{name}_{RUN}"] for name in HEADS]
+    if axis_of(data) or not all(np.isfinite(width) for width in widths):
+        return f"{text}; `gripscale run` states sampling of the road, grid and factors only"
+    of_run = data.assign({f"best_{name}_half_width": data[f"best_{name}_{RUN}"] for name in HEADS})
+    ranges = ", ".join(f"{symbol} {interval(of_run, name)}" for name, symbol in HEADS.items())
+    return f"{text}; `gripscale run`, without them: {ranges}"
+
+
+def not_stated(data: xr.Dataset) -> list[str]:
+    """Return labels of the sources that only a case can state and that are not in a result."""
+    return [LABELS[name] for name in STATED if name not in data.source]
+
+
+def part_tables(data: xr.Dataset) -> Iterator[Table]:
+    """Yield what the interval of the answer is made of, at each load, most first."""
+    axis = axis_of(data)
+    loads = [("", data)]
+    if axis:
+        labels = [f" ({axis} {name_of(data, axis, at)})" for at in range(data.sizes[axis])]
+        loads = [(label, data.isel({axis: at})) for at, label in enumerate(labels)]
+    for title, part in loads:
+        if has_answer(part) and part.sizes["part"]:
+            yield part_table(part, f"What matters most to the answer{title}")
+
+
+def part_table(part: xr.Dataset, title: str) -> Table:
+    """Return the parts of the interval of an answer: standard errors and shares of variance."""
+    moving = float(part.nominal_speed) > 0.0
+    names = [name for name in HEADS if moving or name != "friction"]
+    ranked = np.argsort(-part[f"best_{names[0]}_part_error"].values, kind="stable")
+    columns = [Column("part", part.part_label.values[ranked].tolist(), "not known")]
+    for name in names:
+        sigma = part[f"best_{name}_part_error"].values[ranked]
+        share = sigma**2 / float(part[f"best_{name}_uncertainty"]) ** 2
+        columns += [
+            Column(f"{name}_error", sigma, "±", group=HEADS[name], format=percent),
+            Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
+        ]
+        tangent = first_order_of(part, name)
+        if tangent.keys() & set(columns[0].values):
+            column, text = f"{name}_first_order", ("± by", "derivatives")
+            values = [tangent.get(label, math.nan) for label in columns[0].values]
+            columns.append(Column(column, values, *text, group=HEADS[name], format=percent))
+    error = part[f"best_{names[0]}_part_share_error"].values[ranked]
+    notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
+    if NOT_ALONE in part.part_label.values:
+        notes.append(
+            f"{NOT_ALONE[0].upper()}{NOT_ALONE[1:]}: steps, interactions, and what a stretch of "
+            "road does beyond its correlation."
+        )
+    unseen = [
+        str(label)
+        for label, value, scatter in zip(columns[0].values, columns[2].values, error, strict=True)
+        if np.isfinite(scatter) and value < SIGNIFICANCE * scatter
+    ]
+    if unseen:
+        count = part.sizes["sample"]
+        notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
+    return Table("parts", columns, title, [*notes, *_not_linear(part)])
+
+
+def first_order_of(data: xr.Dataset, quantity: str) -> dict[str, float]:
+    """Return the error that each source carries to a quantity by derivatives, by its label."""
+    name = FIRST_ORDER.format(quantity)
+    if name not in data:
+        return {}
+    pairs = zip(data.label.values.tolist(), data[name].values.tolist(), strict=True)
+    return {label: error for label, error in pairs if math.isfinite(error)}
+
+
+def _not_linear(part: xr.Dataset) -> Iterator[str]:
+    """Yield the sources that samples and derivatives do not agree on.
+
+    Not the road, whose stretches are no small change.
+    """
+    if not (tangent := first_order_of(part, "friction")):
+        return
+    sampled = dict(
+        zip(
+            part.part_label.values.tolist(),
+            part.best_friction_part_error.values.tolist(),
+            strict=True,
+        )
+    )
+    least = math.sqrt(LEAST_SHARE) * float(part.best_friction_uncertainty)
+    apart = [
+        f"{label} ({percent(tangent[label])}, {percent(error)})"
+        for label, error in sampled.items()
+        if label in tangent
+        and label != LABELS[ROAD]
+        and max(error, tangent[label]) > max(least, APART * min(error, tangent[label]))
+    ]
+    if apart:
+        yield (
+            "The friction is not linear where derivatives and samples differ by more than a third: "
+            f"{', '.join(apart)}."
+        )
+
+
+def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield what matters most to the samples of a model whose answer has no parts."""
+    without_shares = []
+    for title, part in places(data):
+        if np.isfinite(part.friction_share).any():
+            if str(part.model.item()) != DIRECT:
+                yield share_table(part, title)
+        elif int(part.failed) < part.sizes["sample"]:
+            without_shares.append(title)
+    if without_shares:
+        where = "; ".join(without_shares)
+        yield f"Too few samples, or no friction, to tell what single inputs add: {where}."
+
+
+def warning_sentences(data: xr.Dataset) -> Iterator[str]:
+    """Yield what the reader is to know of grids, sources left out and failures."""
+    yield from grid_sentences(data)
+    yield from left_out_sentences(data)
+    yield from map(str, filter(None, [failures(data)]))
+
+
+def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
+    """Yield which sources were not sampled, and why."""
+    labels: dict[str, list[str]] = {}
+    for sentence in json.loads(data.attrs["left_out"]):
+        label, why = sentence.split(": ", 1)
+        labels.setdefault(why, []).append(label)
+    yield from (f"Not sampled: {', '.join(each)}: {why}." for why, each in labels.items())
+
+
+def quantile_table(data: xr.Dataset) -> Table:
+    """Return the quantiles of friction and contact fraction of each model and load."""
+    rows = [(title, part, name) for title, part in places(data) for name in QUANTITIES]
+    quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
+    columns = [
+        Column("model", [title for title, _, _ in rows]),
+        Column("quantity", [HEADS[name] for _, _, name in rows]),
+        Column("case", [float(part[f"{name}_case"]) for _, part, name in rows], "the case"),
+        *(
+            Column(f"quantile_{level:g}", quantiles[:, at], f"{level:.0%}")
+            for at, level in enumerate(LEVELS)
+        ),
+        Column("samples", [part.sizes["sample"] for _, part, _ in rows], format="{:.0f}".format),
+        Column("failed", [int(part.failed) for _, part, _ in rows], format="{:.0f}".format),
+    ]
+    return Table(
+        "quantiles", columns, "Quantiles of the samples, without the factors of the answer", keys=2
+    )
+
+
+def share_table(part: xr.Dataset, title: str) -> Table:
+    """Return what each source does to friction and contact fraction at one load, most first.
+
+    From and to: 5 and 95 % of what it does alone.
+    """
+    ranked = _ranked(part)
+    columns = [Column("source", [*part.label.values[ranked], "none of them alone"])]
+    for name, symbol in HEADS.items():
+        missing = np.full((1, 2), np.nan)
+        share, error = (part[f"{name}_{end}"].values[ranked] for end in ("share", "share_error"))
+        rest = float(part[f"{name}_unexplained"])
+        columns += [
+            Column(
+                f"{name}_end",
+                np.concatenate([part[f"{name}_end"].values[ranked], missing]),
+                "from to",
+                group=symbol,
+            ),
+            Column(
+                f"{name}_share",
+                [max(value, 0.0) for value in (*share, rest)],
+                "share of variance",
+                group=symbol,
+                format="{:.0%}".format,
+            ),
+            Column(
+                f"{name}_share_error", [*error, np.nan], "±", group=symbol, format="{:.0%}".format
+            ),
+        ]
+    notes = order_sentences(part)
+    return Table("shares", columns, f"What matters most ({title})", notes)
+
+
+def _ranked(part: xr.Dataset) -> list[int]:
+    """Return the places of the sources, the largest share of the friction first."""
+    return [int(k) for k in np.argsort(-part.friction_share.values, kind="stable")]
+
+
+def order_sentences(part: xr.Dataset) -> list[str]:
+    """Return which shares in friction are not significant, and which do not differ."""
+    shares, labels = part.friction_share.values, part.label.values
+    apart, ranked = part.friction_share_difference_error.values, _ranked(part)
+    seen = [k for k in ranked if shares[k] > SIGNIFICANCE * part.friction_share_error.values[k]]
+    unseen = [str(labels[k]) for k in ranked if k not in seen]
+    close = [
+        f"{labels[a]} and {labels[b]}"
+        for a, b in pairwise(seen)
+        if shares[a] - shares[b] < SIGNIFICANCE * apart[a, b]
+    ]
+    count = int(np.isfinite(part.friction).sum())
+    sentences = []
+    if close:
+        sentences.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
+    if unseen:
+        sentences.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
+    return sentences
+
+
+def grid_sentences(data: xr.Dataset) -> Iterator[str]:
+    """Yield the estimated errors of the grids of the direct contact, if it was sampled."""
+    drawn = "grid" in data.source.values
+    for name in data.model.values:
+        model = data.sel(model=name)
+        errors = {head: model[f"{key}_grid_error"].values for key, head in HEADS.items()}
+        texts = [
+            f"{100.0 * np.nanmedian(error):.2g} % in {head}"
+            for head, error in errors.items()
+            if np.isfinite(error).any()
+        ]
+        if texts:
+            yield (
+                f"{name}: the estimated error of the grid of a sample is {' and '.join(texts)} "
+                f"(median), {'drawn' if drawn else 'not'} in its quantiles; the grid of the answer "
+                "is finer. --tolerance makes it smaller."
+            )
+
+
+def failures(data: xr.Dataset) -> Failure | None:
+    """Return how many samples have no answer, and why most of them; None if all have one."""
+    bad = Counter(_failed(data, "status"))
+    of_case = _failed(data, "status_case")
+    sentences, words = [], []
+    if bad:
+        (why, word), count = bad.most_common(1)[0]
+        words.append(word)
+        sentences.append(
+            f"{bad.total()} of {data.status.size} samples have no answer and count in no quantile; "
+            f"{count} of them: {why}"
+        )
+    if of_case:
+        why, word = of_case[0]
+        words.append(word)
+        sentences.append(f"the case itself has no answer: {why}")
+    return Failure("; ".join(sentences), next(filter(None, words), "")) if sentences else None
+
+
+def too_many_failed(data: xr.Dataset) -> bool:
+    """Return whether the case has no answer, or too few samples have one to stand for all."""
+    return bool(_failed(data, "status_case")) or bool(
+        (data.failed > MOST_FAILED * data.sizes["sample"]).any()
+    )
+
+
+def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
+    """Return sentence and word of what did not converge."""
+    words = status_words(data, sentences).values.ravel()
+    pairs = zip(data[sentences].values.ravel(), words, strict=True)
+    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED]
+
+
+def uncertainty_lines(
+    data: xr.Dataset | None, text: str, digests: Iterable[str] | None = None
+) -> list[str]:
+    """Return the quantiles of friction and area by model, or that they are of another case.
+
+    `text` and `digests` are of the case of the report, see `gripscale.questions.of_same_inputs`.
+    """
+    if data is None:
+        return []
+    if not of_same_inputs(data, text, digests):
+        return [OF_ANOTHER]
+    axis = axis_of(data)
+    if axis:
+        return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
+    parts = [data.sel(model=name) for name in data.model.values]
+    count = _samples(parts[0])
+    answered = ", ".join(
+        f"{head} = {number_and_interval(data, name)}" for name, head in _widened(data)
+    )
+    return [
+        *([f"With the errors of the inputs, {count}: {answered}"] if answered else []),
+        *(
+            f"Uncertainty, {part.model.item()}, 5, 50 and 95 % of {_samples(part)}: "
+            + "; ".join(f"{head} = {', '.join(numbers)}" for head, numbers in _quantiles(part))
+            for part in parts
+        ),
+    ]
+
+
+def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
+    """Return the interval of the answer with errors of the inputs, or quantiles of each model."""
+    if data is None or axis_of(data):
+        return []
+    count = _samples(data.isel(model=0))
+    detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
+    cards = [
+        Card(f"{head}, inputs sampled", interval(data, name), detail)
+        for name, head in _widened(data)
+    ]
+    return cards or [
+        Card(f"{head}, 5 to 95 %", f"{low} to {high}", f"{name}: median {median}; {_samples(part)}")
+        for name in data.model.values.tolist()
+        for part in [data.sel(model=name)]
+        for head, (low, median, high) in _quantiles(part)
+    ]
+
+
+def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Yield name and symbol of each number whose interval holds errors of the inputs."""
+    if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
+        yield from ((name, head) for name, head in HEADS.items() if interval(data, name))
+
+
+def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
+    """Yield letters and quantiles of each quantity that has them."""
+    for name, head in HEADS.items():
+        values = part[f"{name}_quantile"].sel(quantile=list(SUMMARY)).values
+        if np.isfinite(values).all():
+            yield head, [f"{value:#.2g}" for value in values]
+
+
+def _samples(part: xr.Dataset) -> str:
+    failed, count = int(part.failed), part.sizes["sample"]
+    return f"{count} samples" if not failed else f"{count - failed} of {count} samples"
+
+
+def subtitle(data: xr.Dataset) -> str:
+    """Return how many samples of which models a page is of."""
+    models = ", ".join(str(name) for name in data.model.values)
+    return f"{data.sizes['sample']} samples; {models}"
+
+
+def page_notices(data: xr.Dataset) -> list[Notice]:
+    """Return failures: an error where too many failed."""
+    failed = failures(data)
+    level = "error" if too_many_failed(data) else "warning"
+    return [Notice(level, f"{explained(failed)}.", doubt=Doubt.SOLUTION)] if failed else []
+
+
+def page_cards(data: xr.Dataset) -> list[Card]:
+    """Return the answer at one load, else the quantiles."""
+    answered = not axis_of(data) and has_answer(data)
+    return list(answer_cards(data)) if answered else uncertainty_cards(data)
+
+
+def page_sections(data: xr.Dataset) -> list[Section]:
+    """Return what matters most with one figure, then the details, folded."""
+    first, *others = map(image, uncertainty_pictures(data))
+    axis, parts = axis_of(data), list(part_tables(data))
+    head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
+    samples: list[str | Table] = [
+        UNCERTAINTY,
+        quantile_table(data),
+        *grid_sentences(data),
+        *left_out_sentences(data),
+    ]
+    return [
+        Section(
+            "answer",
+            "Answer" if axis else "What matters most",
+            [*head, Text(_sentence(interval_sentence(data)))],
+        ),
+        Section("parts", "What matters most", parts if axis else [], folded=True),
+        Section("samples", "Samples of each model", as_elements(samples), folded=True),
+        Section(
+            "shares",
+            "What matters most to the samples",
+            [*as_elements(share_parts(data)), *others],
+            folded=True,
+        ),
+    ]
+
+
+def as_elements(parts: Iterable[str | Table]) -> list[Element]:
+    """Return sentences as paragraphs, tables as they are."""
+    return [Text(part) if isinstance(part, str) else part for part in parts]
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."

@@ -1,0 +1,535 @@
+"""What is not known of a case, and what it does to friction and contact area.
+
+    from gripscale.questions import Uncertainty, propagate, summary
+    data = propagate("case.toml", Uncertainty(without=["waves"]), samples=200, folder="results")
+    summary(data)
+
+All sources are drawn at once for each sample, and each sample is a task of
+`gripscale.experiment`: kept as soon as it is solved, on all cores or a cluster.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import tomllib
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case_file.results import CaseResults
+from gripscale.case_file.run import prepare_case
+from gripscale.case_file.tables import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
+from gripscale.chain.chain import Chain
+from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core.provenance import software
+from gripscale.experiment.design import (
+    CONVERGED,
+    Design,
+    Index,
+    Point,
+    attributes,
+    stack,
+)
+from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.task import canonical_json, load_stored
+from gripscale.half_space.model import DirectContact
+from gripscale.io import netcdf
+from gripscale.model import (
+    FRICTION_OUTSIDE_BAND,
+    OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
+    TOTALS,
+    Load,
+    Model,
+    input_doubts,
+)
+from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.compare.comparison import reference_design
+from gripscale.questions.uncertainty.first_order import first_order
+from gripscale.questions.uncertainty.sampled_answer import GRID, chain_answer, measured_answer
+from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
+from gripscale.questions.uncertainty.sampling import Chosen, SampledInputs, Uncertainty, draws
+from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, Source
+from gripscale.questions.uncertainty.variance_shares import shares
+from gripscale.questions.vary.axis import Axis, axes_of
+from gripscale.questions.vary.inputs import contents, digest
+from gripscale.questions.vary.study import coordinates
+
+LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+"""The quantiles that are told."""
+
+QUANTITIES = {
+    "friction": ("mu", "friction coefficient"),
+    "contact_fraction": ("A_r/A_0", "real over nominal contact area"),
+}
+"""What each sample answers: its letters and its name."""
+
+
+def quantiles(values: xr.DataArray) -> xr.DataArray:
+    """Return the quantiles over `sample`, last dimension `quantile`; NaN samples do not count.
+
+    Median-unbiased (R. J. Hyndman & Y. Fan, Am. Stat. 50 (1996) 361,
+    doi:10.1080/00031305.1996.10473566, their number 8): the ends of few samples are not drawn in.
+    NaN for fewer than two samples.
+    """
+    enough = values.count("sample") > 1
+    levels = values.where(enough, 0.0).quantile(LEVELS, "sample", method="median_unbiased")
+    return levels.where(enough).drop_vars("quantile").transpose(..., "quantile")
+
+
+def summary(data: xr.Dataset) -> str:
+    """Return friction and contact fraction of each model in a sentence, failures counted.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of `propagate`, at one load.
+    """
+    return "; ".join(_of_model(data.sel(model=name)) for name in data.model.values)
+
+
+def _of_model(data: xr.Dataset) -> str:
+    failed, number = int(data.failed), data.sizes["sample"]
+    count = f"{number} samples" if not failed else f"{number - failed} of {number} samples"
+    intervals = []
+    for name, (letters, _) in QUANTITIES.items():
+        levels = data[f"{name}_quantile"].values
+        if np.isfinite(levels).all():
+            low, middle, high = (f"{value:#.2g}" for value in levels[[0, 2, 4]])
+            intervals.append(f"{letters} = {middle} ({low} to {high})")
+    if not intervals:
+        return f"{data.model.item()}: none of {number} samples has an answer"
+    text = f"{data.model.item()}: {', '.join(intervals)} in 90 % of {count}"
+    return f"{text}, {failed} failed" if failed else text
+
+
+NUMBERS = {name: text for name, (_, text) in QUANTITIES.items()} | {
+    "friction_from_dissipation": TOTALS["total_friction_from_dissipation"],
+    "outside_band": OUTSIDE_BAND[FRICTION_OUTSIDE_BAND][1],
+}
+"""What is kept of each sample, and its meaning."""
+
+
+def uncertainty_dataset(
+    solved: xr.Dataset,
+    drawn: Sequence[SampledInputs],
+    chosen: Chosen,
+    logarithms: Mapping[str, Array],
+) -> xr.Dataset:
+    """Return all samples with their quantiles and shares; the first of `solved` is the case.
+
+    `solved` holds the `sample_numbers`, and `logarithms` what each
+    source drew. A sample of the direct contact has the error of its grid in it that was drawn.
+    """
+    usable = solved.rename({FRICTION_OUTSIDE_BAND: "outside_band"})[
+        [*NUMBERS, *(f"{name}_error" for name in QUANTITIES)]
+    ].where(solved.prediction_status == CONVERGED)
+    case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
+    status = solved[STATUS].isel(sample=slice(1, None))
+    data: dict[str, xr.DataArray] = {}
+
+    def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
+        data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
+
+    words = solved[STATUS_WORD]
+    add("status", status, "converged, or why the sample has no answer")
+    add("status_word", words.isel(sample=slice(1, None)), "word of the status")
+    case_status = solved[STATUS].isel(sample=0)
+    add("status_case", case_status, "converged, or why not, of the case itself")
+    add("status_case_word", words.isel(sample=0), "word of the status of the case itself")
+    add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
+    failed = (status != CONVERGED).sum("sample")
+    add("failed", failed, "samples without an answer; they count in no quantile")
+    for name, text in NUMBERS.items():
+        add(name, samples[name], text)
+        add(f"{name}_case", case[name], f"{text} of the case itself")
+    is_direct = solved["model"] == DirectContact.name
+    in_error = np.zeros(len(drawn))
+    if any(source.name == GRID for source in chosen.sources):
+        in_error = np.array([inputs.coordinates[GRID_PLACE] for inputs in drawn])
+    for name, (_, text) in QUANTITIES.items():
+        error = (samples[f"{name}_error"] / abs(samples[name])).where(is_direct)
+        about = f"estimated relative error of the grid of a direct contact, {text}"
+        add(f"{name}_grid_error", error, about)
+        values = samples[name] * np.exp(error.fillna(0.0) * xr.DataArray(in_error, dims="sample"))
+        add(name, values.transpose(*samples[name].dims), text)
+        add(f"{name}_quantile", quantiles(data[name]), text)
+        parts = _shares(data[name], logarithms, name)
+        for part, (_, meaning) in SHARES.items():
+            add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
+    sources = chosen.sources
+    return xr.Dataset(
+        data,
+        {
+            "quantile": ("quantile", list(LEVELS), attributes("share below")),
+            "source": ("source", [s.name for s in sources], {"long_name": "source"}),
+            "label": ("source", [s.label for s in sources], {"long_name": "source in words"}),
+            "end": ("end", ["low", "high"]),
+            **_coordinates(sources, drawn),
+        },
+        {
+            "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
+            "left_out": json.dumps(chosen.left_out),
+            **provenance.attributes(),
+        },
+    )
+
+
+def _coordinates(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> dict[str, Any]:
+    """Return what each source drew, over `sample`."""
+    return {
+        name: (
+            "sample",
+            np.array([inputs.coordinates[name] for inputs in drawn], dtype=float),
+            attributes(number.long_name, number.unit) | {"source": source.name},
+        )
+        for source in sources
+        for name, number in source.coordinates.items()
+    }
+
+
+def drawn_logarithms(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> dict[str, Array]:
+    """Return logarithms of what each source drew, by its name, shape (samples, coordinates)."""
+    logarithms = {}
+    for source in sources:
+        columns = []
+        for name, number in source.coordinates.items():
+            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
+            columns.append(column if number.logarithm else np.log(column))
+        logarithms[source.name] = np.stack(columns, axis=-1)
+    return logarithms
+
+
+SHARES = {
+    "share": (("source",), "share of each source in the variance of the logarithm of {}"),
+    "share_error": (("source",), "standard error of the share"),
+    "share_difference_error": (
+        ("source", "other_source"),
+        "standard error of the difference of two shares",
+    ),
+    "end": (("source", "end"), "{}, at 5 and 95 % of what a source alone does"),
+    "unexplained": ((), "share of no source in the variance of the logarithm of {}"),
+}
+"""What is kept of the shares of the sources in a variance: dimensions and meaning."""
+
+
+def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -> xr.Dataset:
+    """Return `SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
+    outer, count = samples.isel(sample=0), len(logarithms)
+    row, square = np.full(count, np.nan), np.full((count, count), np.nan)
+    parts: dict[tuple[int, ...], xr.Dataset] = {}
+    for at in np.ndindex(outer.shape):
+        fit = shares(samples.values[at], logarithms)
+        numbers = (row, row, square, np.full((count, 2), np.nan), math.nan)
+        if fit is not None:
+            ends = np.stack([fit.low, fit.high], axis=-1)
+            numbers = (fit.share, fit.error, fit.apart, ends, fit.unexplained)
+        columns = zip(SHARES.items(), numbers, strict=True)
+        parts[at] = xr.Dataset(
+            {f"{name}_{part}": (dims, values) for (part, (dims, _)), values in columns}
+        )
+    return stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
+
+
+FOLDER, RESULT = "uncertainty", "uncertainty.nc"
+"""Where it is in the results folder of the case."""
+
+NO_INPUTS = ("uncertainty", "measured", "output", "compare")
+"""Tables of a case that change no prediction of it."""
+
+FILES = "file_sha256"
+"""Attribute of the result: digests of the files the case names, as JSON."""
+
+
+def stored_uncertainty(results: Path) -> xr.Dataset | None:
+    """Return the uncertainty in the results folder of a case, or None if there is none whole."""
+    return load_stored(results / FOLDER / RESULT)
+
+
+def input_digests(file: CaseFile) -> list[str]:
+    """Return the digests of the files that predictions of a case depend on.
+
+    Raises `FileError` if one cannot be read.
+    """
+    named = [name for role, name in file.case.named_files() if role != "measured"]
+    return [digest(file.resolve(name)) for name in named]
+
+
+def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = None) -> bool:
+    """Return whether uncertainty `data` of `propagate` is of a case file with this text.
+
+    `digests` are those of the files it names; None where they are not known.
+    """
+    if _inputs(str(data.attrs.get("case", ""))) != _inputs(text):
+        return False
+    return digests is None or sorted(json.loads(data.attrs.get(FILES, "[]"))) == sorted(digests)
+
+
+def _inputs(text: str) -> dict[str, Any] | None:
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        return None
+    return {name: table for name, table in tables.items() if name not in NO_INPUTS}
+
+
+FIRST_ORDER = "{}_first_order"
+"""Name of the error of a quantity that each source carries by derivatives alone."""
+MODELS = ("chain", "direct")
+VARIED = ("speed", "pressure")
+"""Inputs that may be varied beside the samples: those of the load, the same samples at each."""
+
+BOTH = {"chain": ("chain",), "direct": ("direct",), "both": MODELS}
+"""Models by the word of a case for one or both of them."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be sampled: the case, its uncertainty, how often, by which models, over what."""
+
+    file: CaseFile
+    uncertainty: Uncertainty
+    samples: int
+    seed: int
+    models: tuple[str, ...]
+    axis: Axis | None
+    tolerance: float | None
+    """Estimated relative error of a direct contact; None: that of its first full grid."""
+
+    @property
+    def key(self) -> str:
+        """A hash of all the result depends on."""
+        axis = self.axis
+        content = {
+            "software": software(),
+            "case": contents(self.file),
+            "uncertainty": canonical_json(self.uncertainty),
+            "samples": [self.samples, self.seed],
+            "models": list(self.models),
+            "tolerance": canonical_json(self.tolerance),
+            "axis": None if axis is None else [axis.name, canonical_json(axis.values)],
+        }
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def propagate(
+    case: CaseFile | str | Path,
+    uncertainty: Uncertainty | None = None,
+    *,
+    samples: int | None = None,
+    seed: int | None = None,
+    models: Sequence[str] | None = None,
+    vary: Mapping[str, Any] | None = None,
+    tolerance: float | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset:
+    """Sample what is not known of a case and predict each sample.
+
+    Parameters
+    ----------
+    case : path or CaseFile
+        The case; its speed is the one of the prediction.
+    uncertainty : Uncertainty, optional
+        What is taken to be uncertain; by default what the case states, or every source it has.
+    samples : int, optional
+        Samples, 10 to 100 000. This, and all that follows, by default as the case states it.
+    seed : int, optional
+        Seed of the random numbers.
+    models : sequence of str, optional
+        "chain" (as the case asks for it), "direct", or both; by default "direct" where profiles
+        were measured.
+    vary : mapping, optional
+        Speeds or pressures, as for `gripscale.questions.Study`; the same samples at each.
+    tolerance : float, optional
+        Estimated relative error of a direct contact, below 1. Without one it is that of the first
+        full grid, about a tenth; asking for less than it has doubles the grid.
+    folder : path, optional
+        Gets `uncertainty.nc`, and the predictions in `predictions`: what it has is not solved
+        again.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    xarray.Dataset
+        The answer of the case (`best_friction`, `best_contact_fraction`, ..., as of `gripscale
+        run`) with its interval and what that is made of, see `sampled_answer`.
+        Over `model`, what is varied, and `sample`: `friction`, `contact_fraction` and `status`,
+        with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`
+        over `quantile`; `_grid_error` of each sample of the direct contact; `failed` samples,
+        which count in no quantile; `_share` of each `source` in the variance (see
+        `variance_shares`). At one load `_first_order` of each source of the
+        direct contact, its error by derivatives (see `first_order`).
+
+    Raises
+    ------
+    InputError, FileError
+        If an argument or a file cannot be used, or a result cannot be written.
+    """
+    file = case if isinstance(case, CaseFile) else read_case(case)
+    table = file.case.uncertainty
+    accuracy = table.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    number = table.samples if samples is None else samples
+    choice = Uncertainty.of_case(table) if uncertainty is None else uncertainty
+    plan = Plan(
+        file,
+        choice,
+        checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
+        checks.whole("seed", table.seed if seed is None else seed, least=0, most=MOST_SEED),
+        _models(stated_models(file, choice) if models is None else models),
+        _axis(vary),
+        accuracy,
+    )
+    path = None if folder is None else Path(folder) / RESULT
+    data = None if path is None else load_stored(path)
+    if data is not None and data.attrs.get("plan_key") == plan.key:
+        return data
+    results = prepare_case(plan.file)
+    chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
+    with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
+        warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
+        data = _solved(plan, results, chosen, bench)
+    return data if path is None else netcdf.load(netcdf.save(data, path))
+
+
+def stated_models(file: CaseFile, uncertainty: Uncertainty) -> tuple[str, ...]:
+    """Return the models a case states; by default the one its answer is of, as far as it is quick.
+
+    The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
+    only the chain has asks for both.
+    """
+    model = file.case.uncertainty.model
+    if model is None and file.case.surface.files is None:
+        model = "chain"
+    elif model is None:
+        of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
+        model = "both" if of_chain else "direct"
+    return BOTH[model]
+
+
+def _models(names: Sequence[str]) -> tuple[str, ...]:
+    chosen = [names] if isinstance(names, str) else list(names)
+    for name in chosen:
+        checks.one_of("model", name, MODELS)
+    if not chosen or len(set(chosen)) < len(chosen):
+        short = checks.short_repr(names)
+        raise InputError(f"models must be one or both of chain, direct; got {short}")
+    return tuple(name for name in MODELS if name in chosen)
+
+
+def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
+    if not vary:
+        return None
+    axes = axes_of(vary)
+    if len(axes) > 1 or axes[0].name not in VARIED:
+        names = ", ".join(axis.name for axis in axes)
+        raise InputError(f"uncertainty varies one of {', '.join(VARIED)}; got {names}")
+    return axes[0]
+
+
+def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> xr.Dataset:
+    """Return all samples, and the answer of the case at each load."""
+    case, axis = Inputs.of(Measurement.of(results)), plan.axis
+    drawn = list(draws(case, chosen.sources, plan.samples, plan.seed))
+    loads, labels = [results.load], [""]
+    if axis is not None:
+        loads = [replace(results.load, **{axis.name: value}) for value in axis.values]
+        labels = [f"{axis.name} {label}, " for label in axis.labels]
+    design = _design(plan, results, [SampledInputs(case, {}), *drawn], loads)
+    references = [
+        reference_design(results, load, label) for load, label in zip(loads, labels, strict=True)
+    ]
+    tasks = design.tasks
+    for reference in references:
+        tasks |= {} if reference is None else reference.tasks
+    answers = bench.solve(tasks, sample_numbers)
+    logarithms = drawn_logarithms(chosen.sources, drawn)
+    data = uncertainty_dataset(design.dataset(answers), drawn, chosen, logarithms)
+    answered = []
+    for at, (load, reference) in enumerate(zip(loads, references, strict=True)):
+        part = data if axis is None else data.isel({axis.name: at}, drop=True)
+        if reference is None:
+            chain = part.sel(model=Chain.name)
+            answered.append(chain_answer(chain, results, load, chosen.sources, logarithms))
+            continue
+        direct = None
+        if DirectContact.name in plan.models:
+            direct = _as_solved(part.sel(model=DirectContact.name))
+        samples = reference.dataset(answers)
+        answered.append(measured_answer(samples, results, load, direct, chosen.sources, logarithms))
+    answer = answered[0] if axis is None else xr.concat(answered, axis.name)
+    if axis is None and DirectContact.name in plan.models and results.load.speed > 0.0:
+        carried = first_order(results, plan.uncertainty, seed=plan.seed)
+        carried = carried.reindex(source=data.source.values)
+        for name in QUANTITIES:
+            data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
+    return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
+        plan.file.attributes
+        | input_doubts([results.surface, results.rubber], loads, plan.file.units),
+        case_file=str(plan.file.path),
+        **{FILES: json.dumps(input_digests(plan.file))},
+        seed=plan.seed,
+        plan_key=plan.key,
+        software=software(),
+    )
+
+
+def _as_solved(direct: xr.Dataset) -> xr.Dataset:
+    """Return samples of the direct contact without the error of the grid that was drawn."""
+    if GRID_PLACE not in direct:
+        return direct
+    drawn = {
+        name: np.exp(direct[GRID_PLACE] * direct[f"{name}_grid_error"].fillna(0.0))
+        for name in QUANTITIES
+    }
+    return direct.assign({name: direct[name] / factor for name, factor in drawn.items()})
+
+
+def _design(
+    plan: Plan, results: CaseResults, samples: Sequence[SampledInputs], loads: Sequence[Load]
+) -> Design:
+    """Return the tasks of the samples, of which the first is the case, by each model and load."""
+    axis = plan.axis
+    points: list[Point] = []
+    refused: dict[Index, str] = {}
+    for at, name in enumerate(plan.models):
+        model: Model = results.chain
+        if name == DirectContact.name:
+            if results.surface.measured is None:
+                raise InputError(
+                    "the direct contact needs a measured profile; got waves stated by hand"
+                )
+            model = DirectContact(tolerance=plan.tolerance, conditions=results.conditions)
+        for sample, inputs in enumerate(samples):
+            by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
+            try:
+                if inputs.inputs is None:
+                    raise InputError(inputs.why_not)
+                tasks = inputs.inputs.tasks(model, loads)
+            except InputError as refusal:
+                refused |= dict.fromkeys(by_load, str(refusal))
+                continue
+            for i, (index, task) in enumerate(zip(by_load, tasks, strict=True)):
+                at_value = "" if axis is None else f", {axis.name} {axis.labels[i]}"
+                subject = f"sample {sample}" if sample else "the case itself"
+                points.append(Point(index, f"{name}{at_value}, {subject}", task))
+    sizes = {"model": len(plan.models)}
+    coords: dict[str, Any] = {"model": list(plan.models)}
+    if axis is not None:
+        sizes[axis.name] = len(loads)
+        coords |= coordinates([axis], plan.file.units)
+    return Design(sizes | {"sample": len(samples)}, points, coords, refused)

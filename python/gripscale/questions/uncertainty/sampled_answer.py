@@ -1,0 +1,252 @@
+"""The answer of a case with what is not known of its inputs, and the parts of its interval.
+
+The number is that of `gripscale run`: the direct contact of the measured surface, solved to 5 %,
+times the factors of `best_estimate`. The samples widen its interval. With y_0 of
+the case itself and y_s of sample s, all on the same grid,
+
+    s_samples^2 = mean (ln y_s - ln y_0)^2,
+    s^2 = s_samples^2 + s_grid^2 + sum over factors s_f^2 (+ s_road^2),
+
+about the case and not about the mean of the samples, because the number is that of the case. Drawn
+blocks of the profiles are the sampling of the road: with them s_road is in s_samples and does not
+count again.
+
+Source k has the part S_k var(ln y_s) of s_samples^2 (`variance_shares`); what no
+source explains alone, and the distance of the case from the mean, is one more part. Degrees of
+freedom are those of the samples; of drawn blocks, and of the part that may be theirs, blocks less
+one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case_file.results import CaseResults
+from gripscale.core.arrays import Array
+from gripscale.half_space.model import resolved_wavelength
+from gripscale.model import TOTALS, Load, answer
+from gripscale.questions.answer.best_estimate import ESTIMATED, SHARES, SampledErrors
+from gripscale.questions.answer.intervals import LogError, combined, half_width
+from gripscale.questions.answer.samples import running, usable
+from gripscale.questions.compare.comparison import reference_totals
+from gripscale.questions.uncertainty.sources import Source
+from gripscale.questions.uncertainty.variance_shares import shares
+from gripscale.rubber.extrapolation import Extrapolation
+
+RUN = "half_width_of_run"
+"""End of the name of the half width without errors of the inputs, as `gripscale run` states it."""
+FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
+"""Name of the share of the friction in waves shorter than the `resolution_limit` [m]."""
+ROAD, GRID, REST = "profile", "grid", "together"
+"""Sources that are errors of the answer itself, too; and what no source does alone."""
+
+
+NOT_ALONE, TOGETHER = "none of them alone", "all inputs together"
+"""What tables call `REST`: beside sources, and where the samples are too few to tell them apart."""
+
+
+class SampledError(NamedTuple):
+    """What samples say of the logarithm of one number."""
+
+    errors: list[LogError]
+    """Independent errors, which add up in squares."""
+    variance: dict[str, float]
+    """Of each source, and `REST` [-]."""
+    share_error: dict[str, float]
+    """Standard error of the variance of a source [-]."""
+
+
+def sampled_error(
+    values: Array, case: float, logarithms: Mapping[str, Array], freedom: Mapping[str, float]
+) -> SampledError:
+    """Return the error that samples of a number show, and its parts; NaN for fewer than two.
+
+    Parameters
+    ----------
+    values : array, shape (samples,)
+        Above zero [-]; NaN samples do not count.
+    case : float
+        The number of the case itself [-].
+    logarithms : mapping
+        What each source drew, as for `gripscale.questions.shares`.
+    freedom : mapping
+        Degrees of freedom of the sources that know theirs.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):  # without friction at rest
+        logs = np.log(values / case)
+    logs = logs[np.isfinite(logs)]
+    if logs.size < 2:
+        return SampledError([LogError(xr.DataArray(math.nan), xr.DataArray(math.nan))], {}, {})
+    square, scatter = float(np.mean(logs**2)), float(np.var(logs))
+    fit = shares(values, logarithms)
+    variance: dict[str, float] = {}
+    share_error: dict[str, float] = {}
+    if fit is not None:
+        explained = np.maximum(fit.share, 0.0)
+        explained /= max(float(explained.sum()), 1.0)
+        variance = dict(zip(fit.names, (explained * scatter).tolist(), strict=True))
+        share_error = dict(zip(fit.names, (fit.error * scatter).tolist(), strict=True))
+    variance[REST] = max(square - sum(variance.values()), 0.0)
+    by_freedom: dict[float, float] = {}
+    of_rest = min(freedom.values(), default=math.inf)
+    for name, part in variance.items():
+        count = min(freedom.get(name, of_rest if name == REST else math.inf), logs.size - 1.0)
+        by_freedom[count] = by_freedom.get(count, 0.0) + part
+    errors = [
+        LogError(xr.DataArray(math.sqrt(part)), xr.DataArray(count))
+        for count, part in by_freedom.items()
+    ]
+    return SampledError(errors, variance, share_error)
+
+
+def measured_answer(
+    reference: xr.Dataset,
+    results: CaseResults,
+    load: Load,
+    direct: xr.Dataset | None,
+    sources: Sequence[Source],
+    logarithms: Mapping[str, Array],
+) -> xr.Dataset:
+    """Return the answer of a case with a measured surface under one load.
+
+    Parameters
+    ----------
+    reference : xarray.Dataset
+        Samples of `gripscale.questions.compare.comparison.reference_design` under the load.
+    results : CaseResults
+        The prepared case.
+    load : Load
+        The load.
+    direct : xarray.Dataset or None
+        Samples of the direct contact over `sample` with `_case` of the case itself; None if only
+        the chain was sampled, whose errors say nothing of the direct contact.
+    sources : sequence of Source
+        What was drawn.
+    logarithms : mapping
+        The draws, as for `gripscale.questions.shares`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Of `reference_totals`, the interval widened by the samples;
+        `best_..._half_width_of_run` is without them; over `part` the standard errors
+        `best_..._part_error` the interval is made of, `part_label`.
+    """
+    total = of_run = reference_totals(reference, results, load)
+    errors, of_road = {}, False
+    if direct is not None and int(direct.contact_fraction.count()) > 1:
+        # the grid of the answer is finer than that of the samples, and counts by itself
+        ours = [s for s in sources if "direct" in s.models and s.name != GRID]
+        of_road = any(source.name == ROAD for source in ours)
+        drawn = {source.name: logarithms[source.name] for source in ours}
+        freedom = {s.name: s.freedom for s in ours if s.freedom is not None}
+        for name, measure in ESTIMATED.items():
+            case = float(direct[f"{measure}_case"])
+            errors[name] = sampled_error(direct[measure].values, case, drawn, freedom)
+        sampled = {name: error.errors for name, error in errors.items()}
+        total = reference_totals(reference, results, load, SampledErrors(sampled, of_road))
+    labels = {source.name: source.label for source in sources}
+    total = total.assign(_below_measurement(reference, results))
+    return _with_parts(total, of_run, errors, labels, of_road=of_road)
+
+
+def _below_measurement(reference: xr.Dataset, results: CaseResults) -> dict[str, float]:
+    """Return the shortest wavelength that was measured [m], and how much friction is below it.
+
+    Roughness that ends there has none: its shorter waves are those of the rubber at edges.
+    """
+    correlation = results.surface.correlation
+    limit = None if correlation is None else correlation.resolution_limit
+    if limit is None or resolved_wavelength(results.surface) > 0.99 * limit:
+        return {}
+    above = float(running(reference, "friction", np.array([limit]))[0])
+    total = float(usable(reference, "friction_from_dissipation").mean("sample"))
+    share = 1.0 - above / total if total > 0.0 else math.nan
+    return {"resolution_limit": limit, FRICTION_BELOW_MEASUREMENT: share}
+
+
+def chain_answer(
+    chain: xr.Dataset,
+    results: CaseResults,
+    load: Load,
+    sources: Sequence[Source],
+    logarithms: Mapping[str, Array],
+) -> xr.Dataset:
+    """Return the answer of a case of waves stated by hand: the chain, with the scatter of samples.
+
+    Arguments and result as of `measured_answer`, with no factors and nothing of a road.
+    """
+    drawn = {source.name: logarithms[source.name] for source in sources}
+    best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
+    errors = {}
+    for name, measure in ESTIMATED.items():
+        case = float(chain[f"{measure}_case"])
+        errors[name] = sampled_error(chain[measure].values, case, drawn, {})
+        error = combined(errors[name].errors)
+        best[f"best_{name}"] = case
+        best[f"best_{name}_uncertainty"] = error.sigma
+        best[f"best_{name}_half_width"] = half_width(error)
+        best[f"best_{name}_sampling_error"] = best[f"best_{name}_grid_error"] = math.nan
+        for part in ("factor", "factor_uncertainty"):
+            best[f"best_{name}_{part}"] = ("factor", np.empty(0))
+    best = best.assign({f"best_{share}": math.nan for share in SHARES})
+    best["cutoff_wavelength"] = results.surface.cutoff_wavelength
+    totals = {name: float(chain[f"{name.removeprefix('total_')}_case"]) for name in TOTALS}
+    beyond = Extrapolation(float(chain["outside_band_case"]), math.nan, math.nan)
+    word = str(chain.status_case_word.item())
+    answered = answer(
+        best, totals, str(chain.status_case.item()), "chain", load, beyond, status_word=word
+    )
+    labels = {source.name: source.label for source in sources}
+    return _with_parts(answered, answered, errors, labels, of_road=True)
+
+
+def _with_parts(
+    total: xr.Dataset,
+    of_run: xr.Dataset,
+    sampled: Mapping[str, SampledError],
+    labels: Mapping[str, str],
+    *,
+    of_road: bool,
+) -> xr.Dataset:
+    """Return an answer with what `run` says, and with the parts of its interval."""
+    parts: dict[str, xr.Variable] = {}
+    for name in ESTIMATED:
+        rows = list(_parts(total, name, sampled.get(name), labels, of_road=of_road))
+        texts, sigma, error = (np.array(column) for column in zip(*rows, strict=True))
+        parts["part_label"] = xr.Variable("part", texts.astype(object))
+        about = {"units": "1"}
+        parts[f"best_{name}_part_error"] = xr.Variable("part", sigma, about)
+        parts[f"best_{name}_part_share_error"] = xr.Variable("part", error, about)
+        parts[f"best_{name}_{RUN}"] = of_run[f"best_{name}_half_width"].variable
+    return total.assign(parts)
+
+
+def _parts(
+    total: xr.Dataset,
+    name: str,
+    sampled: SampledError | None,
+    labels: Mapping[str, str],
+    *,
+    of_road: bool,
+) -> Iterator[tuple[str, float, float]]:
+    """Yield label, standard error and standard error of the share of each part of an interval."""
+    square = float(total[f"best_{name}_uncertainty"]) ** 2
+    variances = {} if sampled is None else sampled.variance
+    for source, variance in variances.items():
+        text = labels.get(source, NOT_ALONE if len(variances) > 1 else TOGETHER)
+        share_error = sampled.share_error.get(source, math.nan) if sampled else math.nan
+        yield text, math.sqrt(variance), share_error / square if square > 0.0 else math.nan
+    if not of_road:
+        yield "stretch of road measured", float(total[f"best_{name}_sampling_error"]), math.nan
+    if math.isfinite(float(total[f"best_{name}_grid_error"])):
+        yield "grid of the answer", float(total[f"best_{name}_grid_error"]), math.nan
+    uncertainties = total[f"best_{name}_factor_uncertainty"].values.tolist()
+    for label, sigma in zip(total.factor_label.values, uncertainties, strict=True):
+        if math.isfinite(sigma):
+            yield f"factor: {label}", sigma, math.nan

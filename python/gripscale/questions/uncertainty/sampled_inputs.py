@@ -1,0 +1,413 @@
+"""What one sample is made of: the inputs of a case, as each source of uncertainty changes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gripscale import model
+from gripscale.case_file.prepare import cleaning_options
+from gripscale.case_file.results import CaseResults
+from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions
+from gripscale.core import checks, provenance
+from gripscale.core.checks import Checked
+from gripscale.core.errors import InputError
+from gripscale.core.units import parse_quantity
+from gripscale.experiment.task import Task
+from gripscale.model import Load, LoadTime, Model
+from gripscale.questions.vary.axis import plain_number
+from gripscale.rubber import PronyFit, Rubber
+from gripscale.rubber.master_curve import MasterCurve
+from gripscale.surface import (
+    HeightDifference,
+    Measured,
+    Profile,
+    Surface,
+    SurfacePart,
+    fit_sines,
+    height_difference,
+)
+from gripscale.surface.resampling import filled_smoothly
+from gripscale.surface.sine_fit import MOST_WAVES
+from gripscale.wave.kernel import RefinableSolver, WaveSolver
+from gripscale.wave.problem import WaveProblem
+from gripscale.wave.result import WaveResult
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
+    """Return the solver for waves loaded `factor` [-] times as long: t_i = factor A_(i-1) / v.
+
+    The load time is that of a mean contact; contacts are shorter and longer than their mean, and
+    the modulus of the mean state goes with it. Raises `InputError` if the factor is not above zero.
+    """
+    times = checks.positive("factor", factor)
+    if isinstance(solver, RefinableSolver):
+        return RefinableLongerLoaded(solver, times)
+    return LongerLoaded(solver, times)
+
+
+@dataclass(frozen=True)
+class LongerLoaded:
+    """What `loaded_longer` makes of a solver that cannot be refined."""
+
+    solver: WaveSolver
+    factor: float
+
+    @property
+    def name(self) -> str:
+        """Word for the solver within."""
+        return self.solver.name
+
+    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+        """Return contact and friction of `problem`, loaded so much longer."""
+        load = replace(problem.load, load_time=self.factor * problem.load.load_time)
+        return self.solver.solve(replace(problem, load=load), start)
+
+
+@dataclass(frozen=True)
+class RefinableLongerLoaded(LongerLoaded):
+    """What `loaded_longer` makes of a `RefinableSolver`."""
+
+    solver: RefinableSolver
+
+    def coarser(self) -> WaveSolver:
+        """Return the coarser solver, loaded as long."""
+        return loaded_longer(self.solver.coarser(), self.factor)
+
+
+END_KEYS = ("cut_off", "smallest_wavelength")
+"""Arguments of `fit_sines` that say where the waves end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """What a case is known from: prepared surface and rubber, and what they were fitted to."""
+
+    surface: Surface
+    rubber: Rubber
+    master: MasterCurve | None = None
+    fit: PronyFit | None = None
+    speed: float = 0.0
+    """Sliding speed of the case [m/s]."""
+    pressure: float = math.nan
+    """Nominal pressure of the case [Pa]."""
+    temperature: float | None = None
+    """Before the contact [K]; None where it is not known."""
+    load_time: LoadTime = "passage"
+    cleaning: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
+
+    @classmethod
+    def of(cls, case: CaseResults) -> Measurement:
+        """Return what a prepared case is known from."""
+        rubber, load = case.rubber, case.load
+        cleaning = cleaning_options(case.file.case.surface)
+        kelvin = (case.conditions or Conditions()).temperature_of(rubber.rubber)
+        return cls(
+            case.surface,
+            rubber.rubber,
+            rubber.master,
+            rubber.fit,
+            load.speed,
+            load.pressure,
+            kelvin,
+            load.load_time,
+            cleaning,
+        )
+
+    @property
+    def profiles(self) -> list[Profile]:
+        """The cleaned profiles or the lines of a map; none of waves stated by hand."""
+        return [] if self.surface.measured is None else self.surface.measured.cleaned
+
+    @property
+    def is_map(self) -> bool:
+        """Whether a map was measured."""
+        return self.surface.measured is not None and self.surface.measured.map is not None
+
+    @property
+    def fitted(self) -> bool:
+        """Whether the waves were fitted to a measured correlation."""
+        return self.surface.correlation is not None and bool(self.surface.fit)
+
+
+@dataclass(frozen=True, eq=False)
+class CleanedProfiles:
+    """The profiles of a case, cleaned in another way."""
+
+    profiles: Sequence[Profile]
+    counted: Mapping[str, Any]
+    """Arguments of `height_difference`."""
+
+    @cached_property
+    def correlation(self) -> HeightDifference:
+        """C_z of the profiles."""
+        return height_difference(list(self.profiles), **self.counted)
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """The inputs of one sample, before any model is asked: as prepared, or as drawn."""
+
+    surface: Surface
+    rubber: Rubber
+    fit: Mapping[str, Any] = field(default_factory=dict)
+    """Arguments of `fit_sines`."""
+    raw: Callable[[], Sequence[Profile]] | None = None
+    """Gives profiles before cleaning, where their heights are not those measured."""
+    cleaned: CleanedProfiles | None = None
+    """The profiles, where they are not cleaned as in the case."""
+    recorrelated: Callable[[], HeightDifference] | None = None
+    """Gives C_z of drawn blocks."""
+    redrawn: Callable[[], tuple[Profile, ...]] | None = None
+    """Gives profiles of drawn blocks."""
+    smooth_gaps: bool = False
+    """Whether gaps of the profiles are filled by cubics without a kink, not by straight lines."""
+    load_time_factor: float = 1.0
+    """How much longer each wave is loaded than the model says [-]."""
+    warming: float = 0.0
+    """Above the temperature before the contact [K]."""
+    log_pressure: float = 0.0
+    """Logarithm of the nominal pressure over that of the load [-]."""
+
+    @classmethod
+    def of(cls, measurement: Measurement) -> Inputs:
+        """Return the inputs of the case itself."""
+        surface = measurement.surface
+        return cls(surface, measurement.rubber, surface.fit)
+
+    @property
+    def correlation(self) -> HeightDifference | None:
+        """What the waves are fitted to; None for waves stated by hand."""
+        if self.recorrelated is not None:
+            return self.recorrelated()
+        return self.surface.correlation if self.cleaned is None else self.cleaned.correlation
+
+    @property
+    def measured(self) -> Measured | None:
+        """What the direct contact is solved on."""
+        lines: Sequence[Profile]
+        if self.redrawn is not None:
+            lines = self.redrawn()
+        elif self.cleaned is not None:
+            lines = self.cleaned.profiles
+        else:
+            return self.surface.measured
+        if self.smooth_gaps:
+            lines = [replace(line, z=filled_smoothly(line.z)) for line in lines]
+        return Measured.of(lines)
+
+    @property
+    def end(self) -> float:
+        """Where the waves end [m]: the cut-off or, without one, the last wave."""
+        ends = (self.fit.get(name) for name in END_KEYS)
+        return next((float(end) for end in ends if end), self.surface.cutoff_wavelength)
+
+    def ended_at(self, wavelength: float) -> Inputs:
+        """Return the inputs with the end of the waves at a wavelength [m].
+
+        It is the cut-off where the case states one, else the last wave.
+        """
+        name = "cut_off" if self.fit.get("cut_off") is not None else "smallest_wavelength"
+        fit = {**self.fit, **dict.fromkeys(END_KEYS), name: wavelength}
+        if fit.get("s_wavelength") is not None:
+            fit["scales"] = None  # the factor and the end say how many
+        return replace(self, fit=fit)
+
+    def for_model(self, model: Model) -> tuple[Surface, Model]:
+        """Return surface and model as `model` takes this sample.
+
+        Without waves only where they end is kept of them. Raises `InputError` if no waves fit.
+        """
+        surface = self.surface
+        if self.warming:
+            model = self._warmed(model)
+        if "waves" not in model.needs:
+            return Surface(None, surface.source, measured=self.measured, end=self.end), model
+        if isinstance(model, Chain) and self.load_time_factor != 1.0:
+            model = replace(model, solver=loaded_longer(model.solver, self.load_time_factor))
+        correlation = self.correlation
+        prepared = correlation is surface.correlation and dict(self.fit) == dict(surface.fit)
+        if correlation is None or prepared:
+            return surface, model
+        return replace(surface, waves=fit_sines(correlation, **self.fit)), model
+
+    def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
+        """Return what has to be solved under each load; a refusal of the model is an answer.
+
+        Raises `InputError` as `for_model` does.
+        """
+        surface, changed = self.for_model(model)
+        relevant = surface.only(changed.needs)
+        solved = FailSafeModel(changed)
+        return [Task(self.rubber, relevant, self.under(load), solved) for load in loads]
+
+    def under(self, load: Load) -> Load:
+        """Return a load with the pressure of this sample."""
+        return replace(load, pressure=load.pressure * math.exp(self.log_pressure))
+
+    def _warmed(self, model: Model) -> Model:
+        conditions = model.conditions or Conditions()
+        kelvin = conditions.temperature_of(self.rubber)
+        assert kelvin is not None  # the source has asked for it
+        return model.with_conditions(replace(conditions, temperature=kelvin + self.warming))
+
+
+class Range(Checked):
+    """Values a number may have: anywhere between two ends, one of a few, or one.
+
+    Between two ends it is spread evenly in its logarithm, as befits a factor that may be too large
+    or too small by as much: its reciprocal is then spread evenly, too.
+
+    Parameters
+    ----------
+    values : tuple of float
+        Above zero, rising.
+    between : bool
+        Whether the two values are ends, with anything between them; otherwise each of the values
+        is as likely as the others.
+
+    Raises
+    ------
+    InputError
+        If there are no values, one is not above zero, they do not rise, or there are other than
+        two ends.
+    """
+
+    values: tuple[float, ...]
+    between: bool = True
+
+    def __post_init__(self) -> None:
+        values = tuple(checks.positive("each value of a range", value) for value in self.values)
+        if not values or any(b <= a for a, b in pairwise(values)):
+            raise InputError(f"a range must be rising values; got {checks.short_repr(self.values)}")
+        if self.between and len(values) != 2:
+            raise InputError(f"a range must have two ends; got {checks.short_repr(self.values)}")
+        self._set(values=values)
+
+    @classmethod
+    def about(cls, value: float, factor: float) -> Range:
+        """Return the range from `value` / `factor` to `value` x `factor`."""
+        return cls((value / factor, value * factor))
+
+    @classmethod
+    def read(cls, name: str, text: Any, quantity: Callable[[Any], float]) -> Range:
+        """Return the range of a text such as `1 GPa:3 GPa` or `1 GPa,2 GPa`, a number or several.
+
+        Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units and
+        raises `InputError` for one that cannot be used.
+        """
+        if isinstance(text, Range):
+            return text
+        entries: list[Any] = [text]
+        between = isinstance(text, str) and ":" in text
+        if isinstance(text, str):
+            entries = text.split(":" if between else ",")
+        elif isinstance(text, Iterable):
+            entries = list(text)
+            between = len(entries) == 2
+        try:
+            return cls(tuple(quantity(entry) for entry in entries), between)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from error
+
+    def at(self, quantile: float) -> float:
+        """Return the value below which a share `quantile` [0 to 1] of all lie."""
+        if not self.between:
+            return self.values[min(int(quantile * len(self.values)), len(self.values) - 1)]
+        low, high = np.log(self.values)
+        return float(np.exp(low + quantile * (high - low)))
+
+    def levels(self, count: int) -> Range:
+        """Return `count` equally likely values in place of all between two ends."""
+        if not self.between:
+            return self
+        return Range(tuple(self.at((k + 0.5) / count) for k in range(count)), between=False)
+
+
+def factor(text: Any) -> float:
+    """Return a factor [-]; raise `InputError` for what is none."""
+    return checks.positive("a factor", plain_number(text))
+
+
+def count(text: Any) -> float:
+    """Return a number of waves; raise `InputError` for what is none."""
+    return float(checks.whole("waves", plain_number(text), least=2, most=MOST_WAVES))
+
+
+def _quantity(text: Any, kind: str, unit: str) -> float:
+    """Return a quantity [SI] above zero; raise `InputError` for what is none."""
+    value = plain_number(text)
+    if isinstance(value, str):
+        try:
+            value = parse_quantity(value, kind)
+        except ValueError as error:
+            raise InputError(f"{text!r}: {error}") from error
+    return checks.positive(f"a {kind}", value, unit=unit)
+
+
+modulus = partial(_quantity, kind="pressure", unit="Pa")
+length = partial(_quantity, kind="length", unit="m")
+kelvins = partial(_quantity, kind="temperature difference", unit="K")
+
+
+@dataclass(frozen=True)
+class FailSafeModel(Model):
+    """Another model, whose refusal of an input is an answer without totals that says why.
+
+    So one sample of many does not end them all.
+    """
+
+    model: Model
+
+    @property
+    def name(self) -> str:
+        """Word for the model within."""
+        return self.model.name
+
+    @property
+    def needs(self) -> frozenset[SurfacePart]:
+        """Parts of a surface that the model within depends on."""
+        return self.model.needs
+
+    @property
+    def takes_conditions(self) -> bool:
+        """Whether the model within takes conditions."""
+        return self.model.takes_conditions
+
+    @property
+    def conditions(self) -> Conditions | None:
+        """Conditions of the model within."""
+        return self.model.conditions
+
+    def with_conditions(self, conditions: Conditions | None) -> FailSafeModel:
+        """Return the model within under other conditions."""
+        return FailSafeModel(self.model.with_conditions(conditions))
+
+    def predict(
+        self,
+        rubber: Rubber,
+        surface: Surface,
+        load: Load,
+        *,
+        on_progress: Callable[[Any], None] | None = None,
+    ) -> xr.Dataset:
+        """Return the answer of the model within, or why there is none as `prediction_status`."""
+        import xarray as xr
+
+        try:
+            return self.model.predict(rubber, surface, load, on_progress=on_progress)
+        except InputError as refusal:
+            nothing = xr.Dataset(attrs=provenance.attributes())
+            totals = dict.fromkeys(model.TOTALS, math.nan)
+            return model.answer(nothing, totals, str(refusal), self.name, load)

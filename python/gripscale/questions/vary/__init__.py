@@ -1,0 +1,1 @@
+"""How does the answer vary with an input."""

@@ -1,0 +1,489 @@
+"""Charts of a study: totals over what was varied, which waves make them, speed and temperature.
+
+Contact area and friction against wavelength over a study are figures 5 to 9 of LW.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import chart, draw, style
+from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.page_elements import Chart, is_evidence, telling, words_of
+from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
+from gripscale.core.arrays import Array
+from gripscale.core.units import MILLI
+from gripscale.questions.chain.view import AXIS_TITLES, believed
+from gripscale.questions.vary.axis import (
+    WORDS,
+    axis_label,
+    axis_shown,
+    dimensions,
+    name_of,
+    numeric,
+    of_numbers,
+)
+from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MOST_CURVES = 12
+"""Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
+MOST_BANDS = 3
+"""Curves beyond which intervals would cover each other, and are not drawn."""
+PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
+TITLES = {
+    f"{kind}_{name}": f"{title} [-]"
+    for kind in ("total", "best")
+    for name, title in AXIS_TITLES.items()
+}
+"""Titles of axes."""
+REPLACED = {f"total_{name}": f"best_{name}" for name in AXIS_TITLES}
+"""Totals of a model that are not drawn where there is a best estimate."""
+FRICTIONS = ("best_friction", "total_friction")
+"""Drawn from zero."""
+INTERVAL = "90 % interval"
+
+
+def varied_axis(data: xr.Dataset, name: str) -> tuple[Axis, Array]:
+    """Return a varied axis of numbers and its values as they are drawn."""
+    x = axis_shown(data, name).of(data[name].values)
+    low, high = float(x.min()), float(x.max())
+    limits: dict[str, Any] = {"low": low, "high": high} if high > low else {}
+    return Axis(axis_label(data, name), log=low > 0.0 and high > 8.0 * low, **limits), x
+
+
+def study_charts(data: xr.Dataset) -> list[Chart]:
+    """Return a chart for each total over each numeric axis, and for each number per wave."""
+    axes = [axis for axis in dimensions(data) if of_numbers(data, axis) and data.sizes[axis] > 1]
+    best = [name for name in map(partial(believed, data), AXIS_TITLES) if name in data]
+    totals = [
+        str(name)
+        for name, variable in data.data_vars.items()
+        if variable.dims
+        and set(variable.dims) <= set(dimensions(data))
+        and variable.dtype.kind in "fi"
+        and telling(variable)
+        and name not in best
+        and not is_evidence(str(name))
+        and REPLACED.get(str(name)) not in best
+    ]
+    totals = [name for name in best if telling(data[name])] + totals
+    panels = [
+        _total_panel(data, name, axis)
+        for axis in axes
+        for name in totals
+        if axis in data[name].dims
+    ]
+    if "friction_by_decade" in data and data.sizes["decade"] > 1:
+        panels.append(_relaxation_panel(data))
+    if REDUCED_SPEED in data.coords:
+        panels += [_reduced_panel(data, believed(data, name)) for name in reversed(AXIS_TITLES)]
+    for name in PER_WAVE if "wavelength" in data else ():
+        if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
+            panels.append(_wave_panel(data, name, thinned=True))
+    return draw.on_page(panels)
+
+
+def _curves(
+    data: xr.Dataset, over: list[str], *, thinned: bool = True
+) -> Iterator[tuple[dict[str, int], str, str]]:
+    """Yield the points of the axes `over`, with colour and name; evenly spaced ones of many."""
+    points = list(product(*(range(data.sizes[name]) for name in over)))
+    if thinned and len(points) > MOST_CURVES:
+        chosen = np.linspace(0, len(points) - 1, MOST_CURVES).round().astype(int)
+        points = [points[i] for i in chosen]
+    colours = style.colours(len(points), ordered=len(over) == 1 and over[0] in numeric(data))
+    if over == ["temperature"]:
+        colours = style.shades(len(points), "Plasma")
+    for point, colour in zip(points, colours, strict=True):
+        at = dict(zip(over, point, strict=True))
+        names = [
+            name_of(data, name, i) if name in data.coords else f"{name.replace('_', ' ')} {i + 1}"
+            for name, i in at.items()
+        ]
+        yield at, colour, ", ".join(names)
+
+
+def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
+    """Return which predictions rest on extrapolation; at rest, or where it is not known, none."""
+    flags = data["total_friction"].copy(data=style.predictions_beyond(data))
+    covered = set(flags.dims) <= set(variable.dims)
+    return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
+
+
+def _label(data: xr.Dataset, name: str) -> str:
+    unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
+    return TITLES.get(name, f"{words_of(data, name)} [{'-' if unit == '1' else unit}]")
+
+
+def _sentence(data: xr.Dataset, name: str) -> str:
+    """Return what a variable means, with a capital unless a letter of an equation comes first."""
+    text = str(data[name].attrs.get("long_name", words_of(data, name)))
+    return text if text[1:2] == " " else text[:1].upper() + text[1:]
+
+
+def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
+    """Return a total over an axis, a curve for each point of the others; names are points."""
+    variable, numbers = data[name], of_numbers(data, axis)
+    flags = _beyond(data, variable)
+    if numbers:
+        abscissa, x = varied_axis(data, axis)
+    else:
+        # A point over a name has no line to dash: a star is behind the name.
+        stars = flags.any([dim for dim in variable.dims if dim != axis]).values
+        names = [f"{name_of(data, axis, i)}{' *' * bool(star)}" for i, star in enumerate(stars)]
+        x = np.arange(len(names), dtype=float)
+        abscissa = Axis(f"{WORDS[axis]} [-]", ticks=dict(enumerate(names)), margin=0.3)
+    others = [str(dim) for dim in variable.dims if dim != axis]
+    marks: list[Mark] = []
+    curves = list(_curves(data, others, thinned=numbers and len(others) > 1))
+    for at, colour, label in curves:
+        only = colour if others else BLUE
+        y, beyond = (part.isel(at).transpose(axis).values for part in (variable, flags))
+        ends = _interval(data, name, at, axis)
+        bars: dict[str, Any] = {}
+        if ends is not None and numbers and len(curves) <= MOST_BANDS:
+            marks.append(Band(x, *ends, only, "" if others else INTERVAL, 0.15))
+        elif ends is not None and not numbers:
+            bars = dict(zip(("low", "high"), ends, strict=True))
+        marks.append(Series(x, y, only, label or "sliding", "solid" if numbers else "", marker="o",
+                            size=3.0 if numbers else 4.5, beyond=beyond if numbers else False,
+                            clip=not numbers, **bars))  # fmt: skip
+    area = name.endswith("contact_fraction")
+    words, over = words_of(data, name), words_of(data, axis)
+    return Panel(
+        abscissa,
+        Axis(_label(data, name), log=area, low=0.0 if name in FRICTIONS else None),
+        marks,
+        name=f"{name}-over-{axis}",
+        caption=f"{_sentence(data, name)}, over {over}.",
+        alt=f"{words} against {over}.",
+    )
+
+
+def _interval(
+    data: xr.Dataset, name: str, at: dict[str, int], axis: str
+) -> tuple[Array, Array] | None:
+    """Return the ends of the intervals of a curve; None without any."""
+    if f"{name}_low" not in data:
+        return None
+    ends = (data[f"{name}_{end}"].isel(at).transpose(axis).values for end in ("low", "high"))
+    low, high = ends
+    return (low, high) if np.isfinite(low).any() else None
+
+
+def totals_figure(result: xr.Dataset) -> Figure:
+    """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
+
+    They are the best estimates with their 90 % intervals where there are any, else the totals.
+    Without a numeric axis they are drawn as points over the names of the first one. Contact at
+    rest is dotted where it was solved. Predictions that did not converge leave gaps. What rests on
+    the rubber beyond its measured band is dashed, of names has a star.
+    """
+    names = dimensions(result)
+    axis = (numeric(result) or names)[0]
+    area, friction = (_total_panel(result, believed(result, name), axis) for name in AXIS_TITLES)
+    keys = []
+    if _at_rest(result) in result:
+        area = area.with_marks(_rest(result, axis, [name for name in names if name != axis]))
+        if len(names) > 1:
+            numbers = of_numbers(result, axis)
+            dash, marker = ("dotted", "") if numbers else ("", "o")
+            keys.append(Series([], [], INK, "at rest", dash, 1.1, marker, filled=False))
+    if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
+        keys.append(Series([], [], GREY, BEYOND, dash="", marker="$*$"))
+    several = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
+    several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
+    legend = "above" if several else ""
+    return draw.on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
+
+
+def _at_rest(result: xr.Dataset) -> str:
+    """Return the name of the contact of rubber at rest."""
+    return f"static_{believed(result, 'contact_fraction')}"
+
+
+def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
+    """Yield contact at rest, which has no speed: a dotted level, or over the same axis."""
+    rest = result[_at_rest(result)]
+    numbers = of_numbers(result, axis)
+    x = varied_axis(result, axis)[1] if numbers else np.arange(result.sizes[axis], dtype=float)
+    for at, colour, _ in _curves(result, others, thinned=False):
+        piece = rest.isel({name: i for name, i in at.items() if name in rest.dims})
+        label, colour = ("", colour) if others else ("at rest", INK)
+        if axis not in piece.dims:
+            yield CrossLine(float(piece), colour, label, "dotted", 1.1)
+        else:
+            yield Series(x, piece.values, colour, label, "dotted" if numbers else "", 1.1,
+                         "" if numbers else "o", filled=False)  # fmt: skip
+
+
+def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
+    """Return a number of each wave against wavelength, a curve for each prediction."""
+    flags = data["wavelength"].copy(data=style.waves_beyond(data))
+    values, lengths, flags = xr.broadcast(data[name], data["wavelength"] / MILLI, flags)
+    over = [str(dim) for dim in values.dims if dim != "scale"]
+    curves = list(_curves(data, over, thinned=thinned))
+    every = -(-len(curves) // MOST_CURVES)
+    marks: list[Mark] = []
+    for i, (at, colour, label) in enumerate(curves):
+        x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
+        beyond = style.down_to(beyond) if name.startswith("running") else beyond
+        marks.append(Series(x, y, colour, label or words_of(data, name), marker="o", size=3.0,
+                            beyond=beyond, listed=i % every == 0))  # fmt: skip
+    area = "fraction" in name
+    down = " down to each wave" if name.startswith("running") else " of each wave"
+    label = f"{AREA if area else 'friction coefficient'}{down} [-]"
+    return Panel(
+        chart.wavelength_axis(lengths.values),
+        Axis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
+        marks,
+        name=f"{name}-per-wave",
+        caption=f"{_sentence(data, name)}, against wavelength.",
+        alt=f"{words_of(data, name)} against wavelength, which falls to the right.",
+        height=400,
+    )
+
+
+def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
+    """Draw running contact area and running friction against wavelength over one axis.
+
+    Dashed is what rests on the rubber beyond its measured band.
+    """
+    assert axis in result.dims
+    panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
+    return draw.on_paper(Sheet(panels, legend="beside"))
+
+
+HEIGHT = 3.4
+AREA = "real contact area $A_r/A_0$"
+LEAST_SHARE = 0.005
+"""Decades of relaxation time that never reach this share of the friction are not drawn."""
+
+
+def wavelength_names(result: xr.Dataset) -> list[str]:
+    """Return the wavelengths of a study over one axis, for a legend; ranges where they vary."""
+    names = []
+    for i in range(result.sizes["scale"]):
+        values = result.wavelength.isel(scale=i).values / MILLI
+        values = values[np.isfinite(values)]
+        low, high = (values.min(), values.max()) if values.size else (math.nan, math.nan)
+        same = high <= low * 1.01
+        names.append(f"{high:.3g} mm" if same else f"{low:.3g} to {high:.3g} mm")
+    return names
+
+
+def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
+    """Draw friction as the sum of its waves, and contact area down to each of them, over one axis.
+
+    Each band of friction is the friction coefficient of a wave. Waves beyond the measured band of
+    the rubber are hatched, and dashed.
+    """
+    abscissa, x = varied_axis(result, axis)
+    beyond = _waves_beyond(result, axis)
+    friction = result.friction.transpose("scale", axis).values
+    running = result.running_contact_fraction.transpose("scale", axis).values
+    looks = zip(running, style.shades(len(running)), beyond, strict=True)
+    total = Series(
+        x, result.total_friction, INK, width=1.2, beyond=style.predictions_beyond(result)
+    )
+    panels = [
+        Panel(
+            abscissa,
+            Axis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
+            [*_wave_bands(result, x, *_stack(friction), beyond), total],
+        ),
+        Panel(
+            abscissa,
+            Axis(f"{AREA} down to each wave [-]", log=True),
+            [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
+        ),
+    ]
+    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength"))
+
+
+def _waves_beyond(result: xr.Dataset, axis: str) -> Flags:
+    """Return for each wave and point whether it excites the rubber beyond the measured band."""
+    return style.waves_beyond(result.transpose("scale", axis, ...))
+
+
+def _stack(rows: Array) -> tuple[Array, Array]:
+    """Return the lower and upper ends of rows upon each other; all missing leaves a gap."""
+    upper = np.cumsum(np.where(np.isnan(rows), 0.0, rows), axis=0)
+    upper[:, np.isnan(rows).all(axis=0)] = np.nan
+    return np.vstack([np.zeros_like(upper[:1]), upper[:-1]]), upper
+
+
+def _wave_bands(result: xr.Dataset, x: Array, low: Array, high: Array, beyond: Flags) -> list[Mark]:
+    """Return a band for each wave, the last first: so they stand in the legend as in the stack."""
+    bands: list[Mark] = [
+        Band(x, least, most, colour, name, 1.0, flags, edged=True)
+        for least, most, colour, name, flags in zip(
+            low, high, style.shades(len(low)), wavelength_names(result), beyond, strict=True
+        )
+    ]
+    return bands[::-1]
+
+
+def decades_figure(result: xr.Dataset, axis: str) -> Figure:
+    """Draw the share of each decade of relaxation time in the friction over one axis.
+
+    The split is that of small strain (see
+    `gripscale.questions.vary.speed_and_temperature`), and the figure says so.
+    """
+    share = (result.friction_by_decade / result.total_friction).transpose("decade", axis)
+    share = share.isel(decade=np.nanmax(share.values, axis=1) >= LEAST_SHARE)
+    abscissa, x = varied_axis(result, axis)
+    low, high = _stack(np.nan_to_num(share.values))
+    scale = style.shades(max(share.sizes["decade"], 2), "Cividis")
+    marks: list[Mark] = [
+        Band(x, least, most, colour, style.power_of_ten(round(math.log10(time))), 1.0, edged=True)
+        for least, most, colour, time in zip(low, high, scale, share.decade.values, strict=False)
+    ]
+    total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
+                   beyond=style.predictions_beyond(result))  # fmt: skip
+    ordinate = Axis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
+    panel = Panel(abscissa, ordinate, [*marks[::-1], total])
+    look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
+    return draw.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
+
+
+def _relaxation_panel(data: xr.Dataset) -> Panel:
+    """Return friction summed up over relaxation times.
+
+    The sum at the end of a decade is exact whatever the spacing of the Maxwell elements; the parts
+    of the decades would rise and fall with how many of them one holds.
+    """
+    name = "friction_by_decade"
+    parts = data[name]
+    summed = parts.cumsum("decade", skipna=True).where(parts.notnull())
+    times = 10.0 * data["decade"].values.astype(float)
+    over = [str(dim) for dim in parts.dims if dim != "decade"]
+    return Panel(
+        Axis("relaxation times up to [s]", log=True),
+        Axis(f"{words_of(data, name)} [-]"),
+        [
+            Series(times, summed.isel(at).values, colour, label or words_of(data, name), marker="o")
+            for at, colour, label in _curves(data, over)
+        ],
+        name=f"{name}-over-decade",
+        caption="Friction coefficient of all Maxwell elements up to a relaxation time, split as at "
+        "small strain.",
+        alt="Friction summed up over relaxation times.",
+    )
+
+
+def map_figure(result: xr.Dataset) -> Figure:
+    """Draw friction and A_r/A_0 over the speed, to the right, and the temperature.
+
+    Dots are the predictions; open where some of the friction rests on the rubber beyond its
+    measured band, crosses where the temperature lies beyond those the shift rests on. What did not
+    converge is left white.
+    """
+    result = result.transpose("temperature", "speed", ...)
+    (abscissa, speeds), (ordinate, celsius) = (
+        varied_axis(result, name) for name in ("speed", "temperature")
+    )
+    beyond = style.predictions_beyond(result).astype(bool)
+    shifted = result[BEYOND_SHIFT].values.astype(bool)
+    solved = np.isfinite(result.total_friction.values)
+    x, y = np.meshgrid(speeds, celsius)
+    kinds = (
+        (solved & ~beyond & ~shifted, "solved", ".", INK, 2.5),
+        (solved & beyond & ~shifted, BEYOND, "o", INK, 3.0),
+        (solved & shifted, "beyond the temperatures of the shift", "x", GREY, 3.0),
+    )
+    points = [
+        Series(x[rows], y[rows], colour, label, "", marker=marker, size=size,
+               filled=marker != "o", clip=False)
+        for rows, label, marker, colour, size in kinds
+        if rows.any()
+    ]  # fmt: skip
+    panels = [
+        Panel(
+            replace(abscissa, grid=False),
+            replace(ordinate, grid=False),
+            [
+                chart.ValueMap(
+                    *_finer(abscissa.log, speeds, celsius, result[name].values),
+                    TITLES[name],
+                    levels=9,
+                ),
+                *points,
+            ],
+        )
+        for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES))
+    ]
+    return draw.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
+
+
+FINE = 120
+"""Points along each side of a map between those that were solved."""
+
+
+def _finer(log: bool, x: Array, y: Array, values: Array) -> tuple[Array, Array, Array]:
+    """Return a map at more points, without new extremes; as it is where points are missing or few.
+
+    Monotone cubics along one side, then the other: F. N. Fritsch & J. Butland, SIAM J. Sci. Stat.
+    Comput. 5 (1984) 300, doi:10.1137/0905021.
+    """
+    if min(values.shape) < 2 or not np.isfinite(values).all():
+        return x, y, values
+    from scipy.interpolate import PchipInterpolator
+
+    along = np.log(x) if log else x
+    fine_x, fine_y = (np.linspace(ends[0], ends[-1], FINE) for ends in (along, y))
+    across = PchipInterpolator(along, values, axis=1)(fine_x)
+    return np.exp(fine_x) if log else fine_x, fine_y, PchipInterpolator(y, across)(fine_y)
+
+
+def friction_master_figure(result: xr.Dataset) -> Figure:
+    """Draw friction and A_r/A_0 of all temperatures over the reduced speed a_T v.
+
+    Where temperature does nothing but shift the relaxation times, they are one curve. Dashed is
+    what rests on the rubber beyond its measured band.
+    """
+    celsius = axis_shown(result, "temperature").of(result.temperature)
+    label = axis_label(result, "temperature")
+    bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
+    panels = [
+        _reduced_panel(result, believed(result, quantity)) for quantity in reversed(AXIS_TITLES)
+    ]
+    return draw.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
+
+
+def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
+    """Return a total at every temperature over the reduced speed."""
+    speeds = axis_shown(data, "speed")
+    celsius = axis_shown(data, "temperature").of(data.temperature)
+    shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
+    scale = style.shades(256, "Plasma")
+    flags = _beyond(data, data[name])
+    marks: list[Mark] = []
+    for i, share in enumerate(shares):
+        x, y, beyond = (
+            part.isel(temperature=i) for part in (data[REDUCED_SPEED], data[name], flags)
+        )
+        marks.append(Series(speeds.of(x), y.values, scale[round(255 * float(share))],
+                            name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
+                            beyond=beyond.values, listed=False))  # fmt: skip
+    words, area = words_of(data, name), name.endswith("contact_fraction")
+    return Panel(
+        Axis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
+        Axis(_label(data, name), log=area, low=None if area else 0.0),
+        marks,
+        name=f"{name}-over-{REDUCED_SPEED}",
+        caption=f"{words}, over the reduced speed a_T v: one curve where temperature does nothing "
+        "but shift the relaxation times of the rubber.",
+        alt=f"{words} against a_T v at every temperature.",
+    )

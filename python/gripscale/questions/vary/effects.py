@@ -1,0 +1,201 @@
+"""The answer of a model under all its conditions, without each effect in turn, and without any.
+
+    change by an effect = answer with all effects / answer without it - 1
+
+The area term does nothing to the rubber: it needs no answer of its own, and stands beside each.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from gripscale.case_file.results import CaseResults
+from gripscale.core import provenance
+from gripscale.core.errors import InputError
+from gripscale.experiment.design import (
+    CHANGES,
+    WITH_AREA_TERM,
+    Design,
+    Point,
+    attributes,
+    solve_design,
+)
+from gripscale.experiment.solve import Bench, OnTask
+from gripscale.experiment.task import Store, Task, load_stored
+from gripscale.io import netcdf
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    OUTSIDE_BAND,
+    STATUS,
+    STATUS_WORD,
+    TOTALS,
+    Load,
+    Model,
+)
+from gripscale.questions.vary import inputs
+from gripscale.rubber import Rubber
+from gripscale.surface import Surface
+
+KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, STATUS, STATUS_WORD, "prediction_key")
+
+
+def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:
+    """Return what has to be solved, by the effects that count: "all", "no heat", ..., "none".
+
+    Raises
+    ------
+    InputError
+        If the model has no conditions, its conditions do nothing to the rubber, or the rubber has
+        no shift to the temperature they state.
+    """
+    asked = inputs.effects_asked(model)
+    if not asked:
+        raise InputError(
+            "effects need conditions with a temperature, softening or heat; got none with the "
+            f"model {model.name}"
+        )
+    tasks = {}
+    for selection in (inputs.ALL, *(f"no {effect}" for effect in asked), inputs.NONE):
+        changed = inputs.with_effects(model, selection)
+        inputs.rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
+        tasks[selection] = Task(rubber, surface, load, changed)
+    return tasks
+
+
+def effects(
+    model: Model,
+    rubber: Rubber,
+    surface: Surface,
+    load: Load,
+    *,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset:
+    """Return what each effect of the conditions of a model is worth.
+
+    Parameters
+    ----------
+    model : Model
+        With conditions, such as `Chain(conditions=...)` or `DirectContact(conditions=...)`.
+    rubber, surface, load
+        As for `Model.predict`.
+    folder : path, optional
+        Keeps the finished predictions: what was interrupted goes on where it stopped, and what was
+        solved by a study or a comparison that shares the folder is not solved again.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over `effect`: "all", "no" each effect that was asked for, "none": the totals of the model,
+        friction with the area term if there is one, `prediction_status`, and the changes by what
+        was left out [-], which are NaN for "all" and where one of both did not converge.
+
+    Raises
+    ------
+    InputError
+        As `effect_tasks`, and for an input that cannot be used.
+    FileError
+        If a result cannot be written.
+    """
+    tasks = effect_tasks(model, rubber, surface, load)
+    points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
+    coords = {"effect": ("effect", list(tasks), attributes("effects that count"))}
+    design = Design({"effect": len(tasks)}, points, coords)
+    store = None if folder is None else Store(folder)
+    data = solve_design(design, Bench(store, workers, client, on_task))
+    data = data[[name for name in KEPT if name in data]]
+    if ADHESIVE_FRICTION in data:
+        both = data.total_friction + data[ADHESIVE_FRICTION]
+        words = "friction coefficient of hysteresis and area term together"
+        data = data.assign({WITH_AREA_TERM: both.assign_attrs(attributes(words))})
+    for name, change in CHANGES.items():
+        if name in data:
+            relative = (data[name].sel(effect=inputs.ALL, drop=True) / data[name] - 1.0).transpose()
+            words = f"what the effects left out change in {data[name].attrs['long_name']}"
+            data[change] = relative.where(data.effect != inputs.ALL).assign_attrs(attributes(words))
+    return data.assign_attrs(
+        {
+            "title": "What each effect of the conditions is worth",
+            "model": model.name,
+            "conditions": json.dumps(inputs.conditions_of(model).to_dict()),
+            "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
+            "surface": surface.source,
+            "nominal_pressure": load.pressure,
+            "nominal_speed": load.speed,
+            "footprint": load.footprint,
+            "load_time": str(load.load_time),
+            **provenance.attributes(),
+        }
+    )
+
+
+FILE = "effects_{model}.nc"
+"""What they are kept in, beside the result."""
+
+
+def case_effects(
+    results: CaseResults,
+    model: Model,
+    folder: str | Path,
+    store: str | Path,
+    *,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> xr.Dataset | None:
+    """Return what each effect is worth in a sliding case, and write it into `folder`.
+
+    Parameters
+    ----------
+    results : CaseResults
+        The case; a prediction it has already is not solved again.
+    model : Model
+        With the conditions of the case.
+    folder : path
+        Gets `effects_<model>.nc`.
+    store : path
+        Keeps the finished predictions.
+    workers, client, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    xarray.Dataset or None
+        As `effects`; None of a case at rest, or whose conditions do nothing to the rubber.
+
+    Raises
+    ------
+    FileError
+        If a result cannot be written.
+    """
+    asked, load = inputs.effects_asked(model), results.load
+    if not asked or load.speed == 0.0:
+        return None
+    setup = (model, results.rubber.rubber, results.surface, load)
+    if model == results.chain and results.dynamic is not None and results.dynamic.converged:
+        key = effect_tasks(*setup)[inputs.ALL].key
+        solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
+        Store(store).put(key, solved)
+    data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)
+    data = data.assign_attrs(results.file.attributes)
+    netcdf.save(data, Path(folder) / FILE.format(model=model.name))
+    return data
+
+
+def stored_effects(folders: Iterable[Path], case: object) -> list[xr.Dataset]:
+    """Return what the first of `folders` that has effects of this text of a case keeps."""
+    for folder in folders:
+        stored = map(load_stored, sorted(folder.glob(FILE.format(model="*"))))
+        same = [data for data in stored if data is not None and data.attrs.get("case") == case]
+        if same:
+            return same
+    return []

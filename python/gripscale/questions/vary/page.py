@@ -1,0 +1,241 @@
+"""A study in tables and sentences: what was varied, the totals of each prediction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts.page_elements import is_evidence, telling, words_of
+from gripscale.core.units import MILLI
+from gripscale.io.table import NONE, Column, Table, digits, percent, significant
+from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
+from gripscale.questions.chain.view import CONVERGED, SYMBOLS, believed
+from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
+from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
+from gripscale.report.notices import Failure, study_sentence
+
+MOST_ROWS = 200
+"""Predictions in the terminal; a page has all of them."""
+ONE_CURVE = 1e-3
+"""Relative distance up to which temperatures over a_T v are one curve."""
+COLLAPSING = {"total_friction": "friction", "total_contact_fraction": "A_r/A_0"}
+
+
+def study_table(data: xr.Dataset) -> Table:
+    """Return area, friction and status of each prediction of a study, over what was varied."""
+    chosen = list(places(data))
+    rows = [data.isel(index) for index in chosen[:MOST_ROWS]]
+
+    def each(name: str) -> list[float]:
+        return [float(row[name]) for row in rows]
+
+    columns = []
+    for axis in dimensions(data):
+        names = [name_of(data, axis, index[axis]) for index in chosen[:MOST_ROWS]]
+        columns.append(Column(axis, names, axis.replace("_", " ")))
+    if BEYOND_SHIFT in data:
+        marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]
+        columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
+    keys = len(columns)
+    for name in reversed(SYMBOLS):
+        column = believed(data, name)
+        columns.append(Column(column, each(column), SYMBOLS[name]))
+        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
+            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
+            columns.append(Column(f"{column}_interval", ends, "90 %"))
+    friction = believed(data, "friction")
+    if friction.startswith("total") and "total_friction_from_dissipation" in data:
+        lost = each("total_friction_from_dissipation")
+        columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
+    if ADHESIVE_FRICTION in data:
+        term = np.array(each(ADHESIVE_FRICTION))
+        total = term + np.array(each(friction))
+        columns += [
+            Column("area_term", term, "μ", "area term"),
+            Column("friction_with_area_term", total, "μ", "with it"),
+        ]
+    largest = [
+        float(row.wavelength[int(np.nanargmax(row.friction.values))])
+        if {"wavelength", "friction"} <= set(row) and float(row.total_friction) > 1e-9
+        else math.nan
+        for row in rows
+    ]
+    if np.isfinite(largest).any():
+        columns.append(
+            Column("largest_wave", largest, "largest μ of", "mm", MILLI, format="{:.3g}".format)
+        )
+    if study_sentence(data):
+        shares = each(FRICTION_OUTSIDE_BAND)
+        columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
+    rest = f"static_{believed(data, 'contact_fraction')}"
+    if rest in data:
+        columns.append(Column("static", each(rest), "A_r/A_0", "at rest"))
+    status = [str(row.prediction_status.item()) for row in rows]
+    columns.append(Column("status", status))
+    more = len(chosen) - len(rows)
+    notes = [f"{more} more predictions are in the result file."] if more else []
+    bad = [text != CONVERGED for text in status]
+    return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
+
+
+def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
+    """Yield the table and the sentences below it: extrapolation, temperatures over a_T v."""
+    yield study_table(data)
+    yield from filter(None, [study_sentence(data)])
+    shifted = shift_sentence(data)
+    if shifted:
+        yield f"* {shifted}"
+    yield from (f"Over a_T v, {words}: {text}." for words, text in collapse_sentences(data))
+
+
+def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
+    """Return each prediction without totals, and how many predictions there are."""
+    endings = [
+        Failure(str(sentence), str(word))
+        for name in (STATUS, f"static_{STATUS}")
+        if name in data
+        for sentence, word in zip(
+            data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
+        )
+    ]
+    return [ending for ending in endings if ending.sentence != CONVERGED], len(endings)
+
+
+def shift_sentence(data: xr.Dataset) -> str:
+    """Return which temperatures lie beyond the shift; empty if none does."""
+    if BEYOND_SHIFT not in data or not bool(data[BEYOND_SHIFT].any()):
+        return ""
+    flags = data[BEYOND_SHIFT]
+    if "temperature" in flags.dims:
+        others = [dim for dim in flags.dims if dim != "temperature"]
+        which = np.flatnonzero(flags.any(dim=others).values)
+        names = ", ".join(name_of(data, "temperature", int(i)) for i in which)
+        text = f"{names} {'lie' if which.size > 1 else 'lies'}"
+    else:
+        text = f"{int(flags.sum())} of {flags.size} predictions lie"
+    return f"{text} beyond the temperatures of the shift of the rubber."
+
+
+def collapse_sentences(data: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Yield quantities of a study over speed and temperature, and how far over a_T v they differ.
+
+    Nothing of other studies.
+    """
+    for name, words in COLLAPSING.items():
+        if COLLAPSED[name] in data:
+            yield words, _collapse(data[COLLAPSED[name]])
+
+
+def _collapse(collapsed: xr.DataArray) -> str:
+    distance = float(collapsed)
+    if np.isnan(distance):
+        return (
+            "cannot be compared: the temperatures do not overlap, or the speeds are too far apart "
+            "to interpolate"
+        )
+    attrs = collapsed.attrs
+    reached = (
+        f"temperatures up to {percent(distance)} apart, at {attrs['points']} of "
+        f"{attrs['overlapping_points']} points, where the interpolation errs by less than "
+        f"{percent(float(attrs['interpolation_error']))}"
+    )
+    if distance <= max(ONE_CURVE, float(attrs["interpolation_error"])):
+        return f"one curve, {reached}"
+    return f"{reached}; one curve would be below {100.0 * ONE_CURVE:g} % but for errors of the mesh"
+
+
+def axes_table(data: xr.Dataset) -> Table:
+    """Return the axes of a study with their values."""
+    axes = dimensions(data)
+    units = [axis_shown(data, name).unit if of_numbers(data, name) else "" for name in axes]
+    values = [[place_text(data, name, i) for i in range(data.sizes[name])] for name in axes]
+    meanings = [
+        str(data[name].attrs.get("long_name", name)) if name in data.variables else name
+        for name in axes
+    ]
+    columns = [
+        Column("axis", [name.replace("_", " ") for name in axes]),
+        Column("meaning", meanings),
+        Column("unit", units, words=True),
+        Column("values", [str(len(each)) for each in values]),
+        Column("which", [", ".join(each) for each in values]),
+    ]
+    return Table("axes", columns, "The axes of the study")
+
+
+def place_text(data: xr.Dataset, axis: str, i: int) -> str:
+    """Return a value of an axis as tables show it, without its unit."""
+    if axis not in data.coords:
+        return str(i + 1)
+    if not of_numbers(data, axis):
+        return name_of(data, axis, i)
+    text = significant(float(axis_shown(data, axis).of(data[axis].values[i])), 4)
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def totals_of(data: xr.Dataset) -> list[str]:
+    """Return the names of what there is one number or text of per prediction, best ones first."""
+    axes = set(dimensions(data))
+    names = [
+        str(name)
+        for name, variable in data.data_vars.items()
+        if variable.dims
+        and set(variable.dims) <= axes
+        and not str(name).endswith(("_key", "_status_word"))
+        and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
+    ]
+    return sorted(names, key=lambda name: not name.startswith("best_"))
+
+
+def totals_table(data: xr.Dataset) -> Table | None:
+    """Return all totals of all predictions that tell something; None without any."""
+    axes, names = dimensions(data), [n for n in totals_of(data) if telling(data[n])]
+    if not names:
+        return None
+    chosen = list(places(data))
+    rows = [data.isel(index) for index in chosen]
+    columns = [
+        Column(
+            axis,
+            [place_text(data, axis, index[axis]) for index in chosen],
+            words_of(data, axis),
+            axis_unit(data, axis),
+            words=axis in data.variables and data[axis].dtype.kind not in "fiub",
+        )
+        for axis in axes
+    ]
+    for name in names:
+        values: list[Any] = [row[name].values[()] for row in rows]
+        unit = str(data[name].attrs.get("units", "")).replace("1", "")
+        columns.append(Column(name, values, words_of(data, name), unit, format=digits(4)))
+    states = [name for name in names if name.endswith("status")]
+    bad = [any(str(row[name].values[()]) != CONVERGED for name in states) for row in rows]
+    return Table("totals", columns, f"Totals of all {len(rows)} predictions", bad=bad)
+
+
+def axis_unit(data: xr.Dataset, axis: str) -> str:
+    """Return the unit in which an axis is shown, empty without one."""
+    return axis_shown(data, axis).unit if of_numbers(data, axis) else ""
+
+
+def failures(data: xr.Dataset) -> Iterator[Failure]:
+    """Yield each prediction that is not `converged`, or has a NaN total."""
+    names = totals_of(data)
+    states = [name for name in names if name.endswith("status")]
+    totals = [name for name in names if name in ("total_contact_fraction", "contact_fraction")]
+    for index in places(data):
+        row = data.isel(index)
+        where = ", ".join(
+            " ".join(filter(None, [words_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
+            for n, i in index.items()
+        )
+        for name in states:
+            if (status := str(row[name].values[()])) != CONVERGED:
+                word = str(status_words(row, name).item())
+                yield Failure(f"{where}: NOT converged: {status or NONE}", word)
+        if not states and any(math.isnan(float(row[name])) for name in totals):
+            yield Failure(f"{where}: no total")

@@ -1,0 +1,432 @@
+"""A study: one case with one or two of its inputs varied, into one Dataset.
+
+    study = Study("case.toml", vary={"speed": "0.003:30:log9", "pressure": ["1 bar", "3 bar"]})
+    result = study.run("results/speed_and_pressure")
+
+Each prediction is kept as soon as it is made. A study that was stopped, however abruptly, goes on
+where it was when it is run again, and ends in the same Dataset to the last bit.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case_file.prepare import PreparedRubber, prepare_conditions
+from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case_file.results import CaseResults
+from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions
+from gripscale.core import provenance
+from gripscale.core.errors import InputError
+from gripscale.core.provenance import software
+from gripscale.core.units import GIVEN
+from gripscale.experiment.design import SURFACE, Design, Index, Point, attributes, basis_numbers
+from gripscale.experiment.solve import Bench, OnTask, Progress
+from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
+from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.io import netcdf
+from gripscale.model import BASIS, Model, input_doubts
+from gripscale.questions.vary import inputs
+from gripscale.questions.vary.axis import LONG_NAMES, UNITS, Axis, axes_of
+from gripscale.questions.vary.speed_and_temperature import (
+    beyond_shift,
+    friction_by_decade,
+    with_master_curve,
+)
+from gripscale.rubber import Rubber
+from gripscale.surface import Surface
+
+RENAMED = {"temperature": "wave_temperature"}
+"""Variables over waves that have the name of an axis."""
+
+
+def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
+    """Return what a study keeps of an answer: numbers by wave and of the whole surface.
+
+    Of an answer from a measured surface also what it rests on, with its estimated errors.
+    """
+    names = [
+        name
+        for name, variable in answer.data_vars.items()
+        if name in SURFACE
+        or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
+    ]
+    kept = answer[names].rename({old: new for old, new in RENAMED.items() if old in names})
+    kept = kept.assign(basis_numbers(answer))
+    parts = friction_by_decade(answer, task.rubber)
+    if not parts:
+        return kept
+    return kept.assign(friction_by_decade=xr.DataArray([*parts.values()], {"decade": [*parts]}))
+
+
+def with_decades(data: xr.Dataset) -> xr.Dataset:
+    """Return a study with the friction of all decades of relaxation time from first to last."""
+    if "friction_by_decade" not in data:
+        return data
+    first, last = int(data.decade[0]), int(data.decade[-1])
+    data = data.reindex(decade=range(first, last + 1))
+    parts = data.friction_by_decade.transpose(..., "decade")
+    parts = parts.fillna(0.0).where(parts.notnull().any("decade"))
+    text = "friction coefficient by relaxation time, split as at small strain"
+    data = data.assign(friction_by_decade=parts.assign_attrs(attributes(text)))
+    time = [10.0**n for n in data.decade.values.tolist()]
+    described = attributes("shortest relaxation time of the decade", "s")
+    return data.assign_coords(decade=xr.Variable("decade", time, described))
+
+
+def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.Variable]:
+    """Return the coordinates of the axes of a study of a case that states `units`."""
+    coords = {}
+    for axis in axes:
+        values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
+        attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name] if axis.numeric else "1")
+        display = axis.display_unit(units)
+        if display is not None:
+            attrs[GIVEN] = display.unit
+        coords[axis.name] = xr.Variable(axis.name, values, attrs)
+        if axis.name == "factors":
+            for at, name in enumerate(("s_wavelength", "s_amplitude")):
+                factors = [pair[at] for pair in axis.values]
+                attrs = attributes(f"magnification factor {name}")
+                coords[name] = xr.Variable("factors", factors, attrs)
+    return coords
+
+
+OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
+"""Inputs that vary the waves of a surface."""
+
+UPPER_HEIGHT = "upper_height"
+"""Name of how far the measured lines reach up, which a best estimate needs."""
+
+RESULT = "study.nc"
+"""The Dataset, in the folder of the study."""
+
+
+class Study:
+    """A case with one or two of its inputs varied.
+
+    Parameters
+    ----------
+    case
+        The case, prepared, read, or its file. What is not varied is as it says.
+    vary
+        One or two of speed, pressure, temperature, smallest_wavelength, cut_off (numbers in SI
+        units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
+        `CutOffRule`), top_height_fraction (numbers), waves, pressure_classes (whole numbers),
+        factors (pairs of magnification factors, or "3.5/2.4"), effects (of the conditions: "all",
+        "no heat", "none"), rubber and surface (names and files, or a mapping from names to
+        `Rubber`, `SineStack`, names and files), each with its values, or with a text as on the
+        command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
+    static
+        Whether the relaxed rubber at rest is solved, too; as the case says by default.
+    model
+        What predicts: "direct", "chain" with the solver of the case, both under its conditions, or
+        a model. One that takes no conditions gets the rubber at the temperature of the case. By
+        default the direct contact where every surface was measured and no input of the chain alone
+        is varied, else the chain.
+    tolerance
+        Estimated relative error of a direct contact that is chosen by name or by default.
+
+    Raises
+    ------
+    InputError, FileError
+        A value or a file that cannot be used.
+    """
+
+    def __init__(
+        self,
+        case: CaseResults | CaseFile | str | Path,
+        vary: Mapping[str, Any],
+        *,
+        static: bool | None = None,
+        model: Model | str | None = None,
+        tolerance: float = JUDGED_TO,
+    ) -> None:
+        self.prepared = case if isinstance(case, CaseResults) else None
+        file = case.file if isinstance(case, CaseResults) else case
+        self.file = file if isinstance(file, CaseFile) else read_case(file)
+        self.axes: tuple[Axis, ...] = axes_of(vary)
+        self.static = self.file.case.load.static if static is None else static
+        if model is None:
+            model = inputs.default_model(self.file, {axis.name: axis.values for axis in self.axes})
+        self.model = inputs.model_of(model, self.file, tolerance)
+        for value in self._values("temperature"):
+            inputs.at_temperature(self.model, value)
+        for value in self._values("effects"):
+            inputs.with_effects(self.model, value)
+        if "pressure_classes" in vary and not isinstance(self.model, Chain):
+            raise InputError(
+                f"pressure_classes belongs to the chain; got the model {self.model.name}"
+            )
+        self._varied: dict[Any, Surface] = {}
+
+    @cached_property
+    def surfaces(self) -> list[Surface]:
+        """The varied surfaces, or the one of the case, read and fitted."""
+        default = "case" if self.prepared is None else self.prepared.surface
+        values = self._values("surface") or (default,)
+        return [inputs.surface_of(value, self.file) for value in values]
+
+    @cached_property
+    def rubbers(self) -> list[Rubber]:
+        """The varied rubbers, or the one of the case, read and fitted."""
+        return [prepared.rubber for prepared in self.prepared_rubbers]
+
+    @cached_property
+    def prepared_rubbers(self) -> list[PreparedRubber]:
+        """The `rubbers` with what they come from and what is doubtful of them."""
+        values = self._values("rubber")
+        if not values and self.prepared is not None:
+            return [self.prepared.rubber]
+        return [inputs.prepared_rubber_of(value, self.file) for value in values or ("case",)]
+
+    @cached_property
+    def _case_conditions(self) -> Conditions | None:
+        return prepare_conditions(self.file.case.conditions, self.file.resolve)
+
+    def _values(self, name: str) -> tuple[Any, ...]:
+        return next((axis.values for axis in self.axes if axis.name == name), ())
+
+    @cached_property
+    def key(self) -> str:
+        """A hash of all the study depends on, its files unread but for their bytes."""
+        named = {name: self._values(name) for name in ("surface", "rubber")}
+        settings = {
+            "software": software(),
+            "case": inputs.contents(self.file),
+            "axes": {axis.name: axis.labels for axis in self.axes},
+            "values": {
+                axis.name: canonical_json(axis.values)
+                for axis in self.axes
+                if axis.name not in named
+            },
+            "named": {n: [inputs.stated_by(v, self.file) for v in vs] for n, vs in named.items()},
+            "static": self.static,
+            "model": canonical_json(self.model),
+        }
+        return hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()
+
+    def description(self) -> list[str]:
+        """Return in words what is varied, and on what."""
+        count = len({point.task.key for point in [*self.points, *self.static_design.points]})
+        names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in self.axes)
+        return [
+            f"Study of {self.file.path}",
+            f"  varied: {names}; {count} different predictions",
+            *(f"  surface: {s.source}, {len(s.sines)} sine waves" for s in self.surfaces),
+            *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
+        ]
+
+    @cached_property
+    def design(self) -> Design:
+        """The points in motion (or at rest, where the speed is zero), last axis fastest."""
+        return self._design(self.axes, static=False)
+
+    @cached_property
+    def static_axes(self) -> tuple[Axis, ...]:
+        """The axes without speed, on which contact at rest does not depend."""
+        return tuple(axis for axis in self.axes if axis.name != "speed")
+
+    @cached_property
+    def static_design(self) -> Design:
+        """The points of the rubber at rest; none if they are not wanted."""
+        return self._design(self.static_axes, static=True)
+
+    @property
+    def points(self) -> Sequence[Point]:
+        """All points of `design`."""
+        return self.design.points
+
+    def run(
+        self,
+        folder: str | Path,
+        *,
+        workers: int | None = None,
+        client: Any = None,
+        on_task: OnTask | None = None,
+    ) -> xr.Dataset:
+        """Solve what `folder` does not have yet, and write and return the Dataset.
+
+        Parameters
+        ----------
+        folder
+            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one
+            folder for their predictions, one after the other; the last one's Dataset stays.
+        workers, client, on_task
+            As for `solve_all`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Per wave and in total, over the varied axes; at rest with the prefix `static_`.
+            A prediction that did not converge has NaN totals and says why in `prediction_status`.
+
+        Raises
+        ------
+        InputError, FileError
+            An input that cannot be used, a result that cannot be written.
+        """
+        folder = Path(folder)
+        bench = Bench(Store(folder / PREDICTIONS), workers, client, on_task)
+        data = self.stored(folder)
+        if data is not None and self._all_there(data, bench):
+            return data
+        answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
+        return netcdf.load(netcdf.save(self.assemble(answers), folder / RESULT))
+
+    def stored(self, folder: str | Path) -> xr.Dataset | None:
+        """Return the Dataset an earlier run of just this study left in `folder`, or None."""
+        data = load_stored(Path(folder) / RESULT)
+        return data if data is not None and data.attrs.get("study_key") == self.key else None
+
+    def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
+        """Report every prediction as stored, if the store misses none that `data` rests on."""
+        labels: dict[str, str] = {}
+        for prefix, axes in (("", self.axes), ("static_", self.static_axes)):
+            if f"{prefix}prediction_key" in data:
+                keys = data[f"{prefix}prediction_key"]
+                for index, label in self._labels(axes, static=bool(prefix)):
+                    labels.setdefault(str(keys.values[index]), label)
+        answers: dict[str, xr.Dataset] = {}
+        assert bench.store is not None, "a study keeps its predictions"
+        for key in labels:
+            answer = bench.store.get(key)
+            if answer is None:
+                return False
+            answers[key] = answer
+        for number, (key, answer) in enumerate(answers.items(), start=1):
+            if bench.on_task is not None:
+                count = number, len(answers)
+                bench.on_task(Progress(*count, labels[key], answer, 0.0, stored=True))
+        return True
+
+    def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
+        """Return the Dataset of the study from its predictions by their keys."""
+        result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
+        if self.static_design.points:
+            rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
+            result = xr.merge([result, rest], join="outer", compat="no_conflicts")
+        if set(BASIS) <= set(result):
+            result = result.assign(self._measured_numbers())
+        result = result.assign_coords(coordinates(self.axes, self.file.units))
+        result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
+        if {"speed", "temperature"} == {axis.name for axis in self.axes}:
+            result = with_master_curve(result, self.rubbers[0])
+        return result.assign_attrs(self._provenance())
+
+    def _measured_numbers(self) -> dict[str, Any]:
+        """Return what a best estimate needs of the measured surfaces, and their common cut-off."""
+        heights = [upper_height_of(surface) or math.nan for surface in self.surfaces]
+        varied = any(axis.name == "surface" for axis in self.axes)
+        text = "height that 1 % of the measured lines exceed, over the rms height; NaN of a map"
+        numbers: dict[str, Any] = {
+            UPPER_HEIGHT: ("surface", heights, attributes(text))
+            if varied
+            else ((), heights[0], attributes(text))
+        }
+        direct = isinstance(self.model, DirectContact)
+        cut_offs = {
+            resolved_wavelength(surface) if direct else surface.cutoff_wavelength
+            for surface in (point.task.surface for point in self.points)
+        }
+        if len(cut_offs) == 1:
+            text = "shortest wavelength of the roughness"
+            numbers["cutoff_wavelength"] = ((), cut_offs.pop(), attributes(text, "m"))
+        return numbers
+
+    def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
+        """Yield the index of each point on the axes, and its label."""
+        for index in product(*(range(len(axis.values)) for axis in axes)):
+            words = [
+                f"{axis.name} {axis.called(i, self.file.units)}"
+                for axis, i in zip(axes, index, strict=True)
+            ]
+            yield index, ", ".join(["static", *words] if static else words)
+
+    def _design(self, axes: tuple[Axis, ...], *, static: bool) -> Design:
+        points = []
+        for index, label in self._labels(axes, static=static) if self.static or not static else ():
+            at = {axis.name: i for axis, i in zip(axes, index, strict=True)}
+            values = {axis.name: axis.values[at[axis.name]] for axis in axes}
+            points.append(Point(index, label, self._task(values, at, static=static)))
+        return Design({axis.name: len(axis.values) for axis in axes}, points)
+
+    def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
+        load = self.file.case.load.nominal
+        pressure, speed = (values.get(key, getattr(load, key)) for key in ("pressure", "speed"))
+        speed = 0.0 if static else speed
+        load_time = load.load_time if speed > 0.0 else "passage"
+        model, rubber = self._model(values), self.rubbers[at.get("rubber", 0)]
+        if not model.takes_conditions and self._case_conditions is not None:
+            rubber = self._case_conditions.before(rubber)
+        # nothing is solved if one point of the study is impossible
+        inputs.rubber_before(rubber, model)
+        load = replace(load, pressure=pressure, speed=speed, load_time=load_time)
+        return Task(rubber, self._surface(at.get("surface", 0), values), load, model)
+
+    def _model(self, values: dict[str, Any]) -> Model:
+        model = self.model
+        if "pressure_classes" in values and isinstance(model, Chain):
+            model = replace(model, pressure_classes=values["pressure_classes"])
+        if "temperature" in values:
+            model = inputs.at_temperature(model, values["temperature"])
+        return inputs.with_effects(model, values["effects"]) if "effects" in values else model
+
+    def _surface(self, number: int, values: dict[str, Any]) -> Surface:
+        """Return the surface of a point; each choice of waves is fitted once."""
+        changes = {name: value for name, value in values.items() if name in OF_A_SURFACE}
+        key = (number, *sorted(changes.items()))
+        if key not in self._varied:
+            self._varied[key] = self.surfaces[number].varied(**changes)
+        return self._varied[key]
+
+    def _provenance(self) -> dict[str, Any]:
+        """Return what the study is of; nothing in it depends on when or how often it was run."""
+        load, model = self.file.case.load.nominal, self.model
+        conditions = model.conditions if model.takes_conditions else self._case_conditions
+        return {
+            "title": "Study of real contact area and friction of rubber on a rough surface",
+            **self.file.attributes,
+            **input_doubts(
+                [*self.surfaces, *self.prepared_rubbers],
+                [point.task.load for point in self.points],
+                self.file.units,
+            ),
+            "nominal_pressure": load.pressure,
+            "nominal_speed": load.speed,
+            "footprint": load.footprint,
+            "conditions": json.dumps(None if conditions is None else conditions.to_dict()),
+            "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
+            "surfaces": "; ".join(surface.source for surface in self.surfaces),
+            "surface_measured": int(all(s.measured is not None for s in self.surfaces)),
+            "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
+            "rubber_parameters": json.dumps(canonical_json(self.rubbers)),
+            "notes": "\n".join(
+                dict.fromkeys(n for surface in self.surfaces for n in surface.notes)
+            ),
+            "software": software(),
+            "study_key": self.key,
+            "description": json.dumps(self.description()),
+            "model": model.name,
+            **provenance.attributes(),
+        }
+
+
+def _at_rest(data: xr.Dataset) -> xr.Dataset:
+    """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
+    moving = ["friction", "angular_frequency", "loss_factor", "loss_modulus_ratio", "load_time"]
+    moving += ["speed", "_band", "_missing", "_steep"]
+    names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
+    return data[names].rename({name: f"static_{name}" for name in names})

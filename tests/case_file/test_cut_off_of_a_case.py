@@ -1,0 +1,155 @@
+"""The cut-off of a case: rules as they are stated, found, told, kept and varied."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gripscale as gs
+from gripscale import surface
+from gripscale.case_file import prepare_case, read_case, run_case
+from gripscale.cli import app
+from gripscale.io import netcdf
+from gripscale.questions import Study, compare_over
+from tests.samples import HALF_PLANE, case_text, write_road
+
+CASE = case_text('files = ["road.txt"]\nscales = 3\n{end}', solver=HALF_PLANE, static=False)
+ROAD = surface.self_affine_profile(0.8, 3e-3, 6e-4, length=0.1, step=1e-4, seed=1)
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    write_road(tmp_path / "road.txt", ROAD)
+    path = tmp_path / "case.toml"
+    path.write_text(CASE.format(end='cut_off = "instrument"'))
+    return path
+
+
+def stated(case: Path, end: str) -> surface.Surface:
+    case.write_text(CASE.format(end=end))
+    return prepare_case(case).surface
+
+
+def test_every_model_ends_where_the_rule_says(case: Path) -> None:
+    prepared = stated(case, "cut_off = { rms_slope = 0.4 }")
+    assert prepared.cut_off is not None
+    assert prepared.measured is not None
+    exact = surface.find_cut_off(prepared.measured.cleaned, surface.RmsSlope(0.4))
+    assert prepared.sines.cutoff_wavelength == exact.wavelength
+    assert prepared.cut_off == exact
+    assert prepared.cut_off.surface_slope == pytest.approx(0.4, rel=1e-6)
+    persson = gs.theory.Persson().predict(
+        gs.rubber.styrene_butadiene(), prepared, gs.model.Load(3e5, 0.3, 0.1)
+    )
+    assert float(persson.rms_gradient) == pytest.approx(0.4, rel=1e-6)
+
+
+def test_instrument_and_lengths(case: Path) -> None:
+    assert stated(case, 'cut_off = "instrument"').sines.cutoff_wavelength == pytest.approx(4e-4)
+    inside = stated(case, 'cut_off = "1 mm"')
+    assert inside.cut_off is not None
+    assert inside.cut_off.rule == "a stated length"
+    assert not inside.cut_off.beyond_measurement
+    last = stated(case, 'smallest_wavelength = "1 mm"')
+    assert last.cut_off is not None
+    assert last.cut_off.rule == "the last wave"
+
+
+def test_what_was_not_measured_is_refused_or_marked(case: Path) -> None:
+    with pytest.raises(gs.InputError, match=r"road\.txt: cut_off must be .*at most .* at 0.4 mm"):
+        stated(case, "cut_off = { rms_slope = 3 }")
+    found = stated(case, "cut_off = { rms_slope = 1.0, extrapolate = true }")
+    assert found.cut_off is not None
+    assert found.cut_off.beyond_measurement
+    assert any("beyond what the measurement carries, 0.4 mm" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("end", "sentence"),
+    [
+        ('cut_off = "dust"', r'\[surface\] cut_off = .dust.: expected a length .*"instrument"'),
+        ("cut_off = { slope = 1.3 }", r"\[surface\] cut_off: expected a table such as"),
+        ('cut_off = { rms_slope = 1.3, of = "road" }', "of must be one of surface, profile"),
+        ('cut_off = "instrument"\nsmallest_wavelength = "1 mm"', "either smallest_wavelength"),
+    ],
+)
+def test_other_words_are_refused_by_name(case: Path, end: str, sentence: str) -> None:
+    case.write_text(CASE.format(end=end))
+    with pytest.raises(gs.InputError, match=sentence):
+        read_case(case)
+
+
+def test_waves_by_hand_have_no_cut_off(case: Path) -> None:
+    waves = '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'
+    text = CASE.format(end="").split("[rubber]")[1]
+    case.write_text(f'[surface]\ncut_off = "instrument"\n{waves}\n[rubber]{text}')
+    with pytest.raises(gs.InputError, match="cut_off belongs to a measured surface"):
+        read_case(case)
+
+
+def test_a_run_keeps_and_tells_it(case: Path, tmp_path: Path) -> None:
+    results = run_case(case, output=tmp_path / "out")
+    inputs = netcdf.load_tree(tmp_path / "out" / "dynamic.nc")["inputs"]
+    assert inputs.attrs["cut_off_m"] == pytest.approx(4e-4)
+    assert "the measurement carries" in inputs.attrs["cut_off_rule"]
+    slopes = inputs["rms_slope_of_surface"].values
+    assert (np.diff(slopes) >= 0.0).all()
+    assert slopes[-1] == pytest.approx(inputs.attrs["cut_off_surface_slope"])
+    assert results.dynamic is not None
+    outcome = CliRunner().invoke(app, ["run", str(case), "--output", str(tmp_path / "again")])
+    assert outcome.exit_code == 0, outcome.output
+    words = " ".join(outcome.output.split())
+    assert "cut-off: 0.4 mm (the shortest wavelength that the measurement carries)" in words
+    exponent = results.dynamic.cut_off_exponents.friction
+    assert f"d ln μ / d ln λ_min = {exponent:.2f}" in words
+    outcome = CliRunner().invoke(app, ["report", str(tmp_path / "again")])
+    assert outcome.exit_code == 0, outcome.output
+    page = next((tmp_path / "again").glob("*.html")).read_text(encoding="utf-8")
+    assert "The cut-off" in page
+    assert "d ln μ / d ln λ_min" in page
+
+
+def test_fit_surface_takes_the_same_words(case: Path) -> None:
+    road = str(case.parent / "road.txt")
+    command = ["fit-surface", road, "--cut-off", "rms_slope 0.4 of surface", "--slopes"]
+    outcome = CliRunner().invoke(app, [*command, "--scales", "3"])
+    assert outcome.exit_code == 0, outcome.output
+    words = " ".join(outcome.output.split())
+    assert "(rms slope 0.4 of the surface), rms slope down to it 0.4 of the surface" in words
+    assert "Rms slope by the smallest wavelength that counts" in words
+    assert "down to rms slope of along a mm the surface profile" in words
+
+
+def test_a_study_varies_lengths_and_rules_side_by_side(case: Path, tmp_path: Path) -> None:
+    study = Study(case, vary={"cut_off": "1 mm,instrument,rms_slope 0.4"}, model="chain")
+    found = study.run(tmp_path / "study", workers=1)
+    names = ["0.001 m", "instrument", "rms slope 0.4 of the surface"]
+    assert found.cut_off.values.tolist() == names
+    alone = [
+        run_case(write(case, end)).dynamic
+        for end in ('"1 mm"', '"instrument"', "{ rms_slope = 0.4 }")
+    ]
+    assert found.total_friction.values.tolist() == [one.friction for one in alone if one]
+    exponents = [one.cut_off_exponents.friction for one in alone if one]
+    assert found.total_friction_cut_off_exponent.values.tolist() == exponents
+    outcome = CliRunner().invoke(
+        app, ["study", str(case), "--vary", "cut_off=1 mm,instrument", "--workers", "1"]
+    )
+    assert outcome.exit_code == 0, outcome.output
+    assert "instrument" in outcome.output
+
+
+def write(case: Path, end: str) -> Path:
+    case.write_text(CASE.format(end=f"cut_off = {end}"))
+    return case
+
+
+def test_numbers_are_still_an_axis_of_numbers(case: Path) -> None:
+    assert Study(case, vary={"cut_off": "0.5 mm:1 mm:log3"}).axes[0].numeric
+    with pytest.raises(gs.InputError, match="varies cut_off by numbers; got instrument"):
+        compare_over(case, {"cut_off": "instrument,1 mm"})
+    with pytest.raises(gs.InputError, match="cut_off = 'dust': expected a length"):
+        Study(case, vary={"cut_off": "dust"})

@@ -1,0 +1,400 @@
+"""Wrong inputs of daily life: none passes in silence, the answer or the refusal says so.
+
+Each trap changes one thing of a case that has no doubt.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gripscale.case_file import CaseFile, read_case
+from gripscale.case_file.run import prepare_case
+from gripscale.core.errors import FileError, InputError
+from gripscale.model import INPUT_DOUBTS, Load, load_doubts
+from gripscale.questions import (
+    Study,
+    case_sensitivity,
+    compare_case,
+    compare_compounds,
+    compare_over,
+    compare_surfaces,
+)
+from gripscale.questions.answer.page import answer_lines, no_answer
+from gripscale.questions.compare.comparison import reference
+from gripscale.questions.inputs import record
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.vary.inputs import rubber_notes, surface_note, surface_of
+from gripscale.report import write_report
+from gripscale.report.notices import case_notices
+from gripscale.surface import self_affine_profile
+from tests.report.reading import Page
+from tests.samples import Shell
+
+ROUGH = self_affine_profile(0.8, 2e-3, 0.4e-3, 0.2, 1e-4, 3)
+CASE = """\
+[surface]
+files = ["road.txt"]
+scales = 4
+smallest_wavelength = "1 mm"
+[rubber]
+file = "dma.txt"
+reference_temperature = "20 C"
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+"""
+DMA = "f [Hz]\tE' [MPa]\tE'' [MPa]\n" + "\n".join(
+    f"{f:.5g}\t{5.0 * f**0.1:.6g}\t{1.0 * f**0.1:.6g}" for f in np.geomspace(1e-2, 1e6, 33)
+)
+
+
+def dma_text(storage: float, loss: str | float, titles: str = "E' [MPa],E'' [MPa]") -> str:
+    """A power law as in `DMA` with moduli of other sizes; E'' a number of its size or a text."""
+    rows = (
+        f"{f:.5g},{storage * f**0.1:.6g},{loss if isinstance(loss, str) else loss * f**0.1}"
+        for f in np.geomspace(1e-2, 1e6, 33)
+    )
+    return "\n".join([f"f [Hz],{titles}", *rows])
+
+
+def road_text(z: np.ndarray = ROUGH.z, titles: str = "x [mm]\tz [mm]") -> str:
+    rows = (f"{1e3 * a:.2f}\t{1e3 * b:.5f}" for a, b in zip(ROUGH.x, z, strict=True))
+    return "\n".join([titles, *rows])
+
+
+def write(folder: Path, *, case: str = CASE, road: str | bytes = "", dma: str = DMA) -> CaseFile:
+    content = road or road_text()
+    raw = content if isinstance(content, bytes) else content.encode("utf-8")
+    (folder / "road.txt").write_bytes(raw)
+    (folder / "dma.txt").write_text(dma, encoding="utf-8")
+    (folder / "case.toml").write_text(case, encoding="utf-8")
+    return read_case(folder / "case.toml")
+
+
+def with_plate(height: float, *, where: slice = slice(0, 300)) -> str:
+    z = ROUGH.z.copy()
+    z[where] = height + 0.02 * ROUGH.z[where]
+    return road_text(z)
+
+
+def with_sentinel() -> str:
+    z = ROUGH.z.copy()
+    z[500:540] = -0.05
+    return road_text(z)
+
+
+TRAPS: dict[str, tuple[dict[str, Any], str]] = {
+    "a plate at one end": ({"road": with_plate(20e-3)}, "plates, supports or filled gaps"),
+    "a support below": ({"road": with_plate(-9e-3)}, "mm below the road"),
+    "a plate in the middle": (
+        {"road": with_plate(12e-3, where=slice(900, 1200))},
+        "they carry the rubber in place of the road",
+    ),
+    "a crop that keeps the plate": (
+        {
+            "road": with_plate(20e-3),
+            "case": CASE.replace("scales", 'crop = ["0 mm", "150 mm"]\nscales'),
+        },
+        "plates, supports or filled gaps",
+    ),
+    "a mark of missing heights": ({"road": with_sentinel()}, "does it mark missing heights?"),
+    "heights in another unit": (
+        {"road": road_text(titles="x [mm]\tz [um]")},
+        "is the unit of heights right?",
+    ),
+    "distances in another unit": (
+        {"road": road_text(titles="x [m]\tz [mm]")},
+        "is the unit of",
+    ),
+    "axes exchanged": (
+        {"road": "\n".join(["z [mm]\tx [mm]", *road_text().split("\n")[1:]])},
+        "expected",
+    ),
+    "a picture as a road": (
+        {"road": b"\x89PNG\r\n" + bytes(range(256)) * 9},
+        "expected a file with measured values; got a picture (PNG)",
+    ),
+    "no temperature anywhere": (
+        {"case": CASE.replace('reference_temperature = "20 C"\n', "")},
+        "states the temperature of its moduli",
+    ),
+    "moduli exchanged": (
+        {
+            "dma": "f [Hz],E'' [MPa],E' [MPa],tan delta\n"
+            + "\n".join(
+                f"{f:.5g},{5 * f**0.1:.6g},{f**0.1:.6g},0.2" for f in np.geomspace(1, 1e6, 20)
+            )
+        },
+        "look exchanged",
+    ),
+    "tan delta as a loss modulus": (
+        {"dma": dma_text(60.0, "0.2")},
+        "E'' looks like the loss factor (tan delta)",
+    ),
+    "a loss modulus in another unit": (
+        {"dma": dma_text(5.0, 1e3)},
+        "E'' looks 1000 times too large",
+    ),
+    "a loss factor in % without its unit": (
+        {"dma": dma_text(5.0, "20", "E' [MPa],tan delta")},
+        "E'' looks like one of a loss factor in %",
+    ),
+    "an angle in degrees as a loss factor": (
+        {"dma": dma_text(5.0, "11.3", "E' [MPa],tan delta")},
+        "E'' looks like one of a phase angle in degrees",
+    ),
+    "a loss modulus above the storage modulus": (
+        {"dma": dma_text(5.0, 20.0)},
+        "storage and loss modulus look exchanged",
+    ),
+    "moduli in another unit, too large": (
+        {
+            "dma": dma_text(5e6, 1e6),
+            "case": CASE.replace("[load]", 'bulk_modulus = "1e8 GPa"\n[load]'),
+        },
+        "is that of no rubber: is the unit of the moduli right (modulus_unit)?",
+    ),
+    "moduli in another unit, too small": (
+        {"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
+        "is that of no rubber: is the unit of the moduli right (modulus_unit)?",
+    ),
+    "sweeps without their temperatures": (
+        {"dma": "\n".join([dma_text(5.0, 1.0), *dma_text(50.0, 10.0).split("\n")[1:]])},
+        "the same frequencies again with moduli 10 times apart",
+    ),
+    "moduli of temperatures that are not named": (
+        {
+            "dma": "\n".join(
+                ["f [Hz],E' [MPa],E'' [MPa]"]
+                + [f"{f * s**0.1:.5g},{5 * s:g},{s:g}" for f in (0.1, 1, 10) for s in range(1, 25)]
+            )
+        },
+        "rows of nearly one frequency differ",
+    ),
+    "heights in another unit, too large": (
+        {"road": road_text(1e3 * ROUGH.z)},
+        "of the heights are spikes",
+    ),
+    "distances in another unit, too small": (
+        {"road": road_text(titles="x [um]\tz [mm]")},
+        "is the unit of heights or of distances right?",
+    ),
+    "a pressure without its unit": (
+        {"case": CASE.replace('"3 bar"', "3")},
+        "is its unit right?",
+    ),
+    "a pressure in another unit": (
+        {"case": CASE.replace('"3 bar"', '"3 GPa"')},
+        "Pressure = 3",
+    ),
+    "a speed in another unit": (
+        {"case": CASE.replace('"0.3 m/s"', "300")},
+        "Speed = 300 m/s",
+    ),
+    "a footprint without its unit": (
+        {"case": CASE.replace('"100 mm"', "100")},
+        "Footprint = ",
+    ),
+    "a rubber in place of a road": (
+        {"road": DMA},
+        "expected",
+    ),
+    "a road in place of a rubber": (
+        {"dma": road_text()},
+        "expected",
+    ),
+    "a footprint in another unit": (
+        {"case": CASE.replace('"100 mm"', '"100 um"')},
+        "is its unit right?",
+    ),
+}
+
+
+def said(folder: Path, changes: dict[str, Any]) -> str:
+    """Return what stands first in the answer of a case, or why it is refused."""
+    try:
+        results = prepare_case(write(folder, **changes))
+    except (FileError, InputError) as error:
+        return str(error)
+    attrs = {name: "\n".join(getattr(results, name)()) for name in ("doubts", "load_notes")}
+    first = [
+        n.text for n in InputRecord(xr.Dataset(attrs=attrs)).warnings() if n.effect == math.inf
+    ]
+    return " | ".join(first)
+
+
+@pytest.mark.parametrize("trap", TRAPS)
+def test_no_trap_is_silent(tmp_path: Path, trap: str) -> None:
+    changes, words = TRAPS[trap]
+    assert words in said(tmp_path, changes)
+
+
+def test_the_case_without_a_trap_has_no_doubt(tmp_path: Path) -> None:
+    assert said(tmp_path, {}) == ""
+
+
+def test_an_answer_on_plates_is_none_to_rely_on() -> None:
+    names = ("best_friction", "best_contact_fraction")
+    values = dict.fromkeys(names, 0.5) | {f"{name}_half_width": 0.1 for name in names}
+    data = xr.Dataset({**values, "nominal_speed": 1.0})
+    assert no_answer(data) == ""
+    doubted = data.assign_attrs({INPUT_DOUBTS: "Plates lie in the profile."})
+    assert no_answer(doubted) == "none to rely on. Plates lie in the profile."
+
+
+def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path: Path) -> None:
+    direct = reference(prepare_case(write(tmp_path, dma=dma_text(60.0, "0.2"))))
+    assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
+
+
+@pytest.mark.parametrize("vary", [{"speed": "0.1,1"}, {"rubber": ["case", "other.txt"]}])
+def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any]) -> None:
+    misread = dma_text(60.0, "0.2")
+    file = write(tmp_path, dma=misread if "speed" in vary else DMA)
+    (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
+    study = Study(file, vary=vary, model="chain").run(tmp_path / "study", workers=1)
+    assert study.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+
+
+def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
+    misread = write(tmp_path, dma=dma_text(60.0, "0.2"))
+    ladder = compare_case(misread, rungs=["direct"]).data
+    roads = compare_surfaces(misread, {"a": "case", "b": "case"}, tmp_path / "roads", samples=None)
+    (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
+    rubbers = {"right": "case", "misread": "other.txt"}
+    compounds = compare_compounds(write(tmp_path), rubbers, tmp_path / "rubbers", uncertainty=False)
+    for data in (ladder, roads.data, compounds.data):
+        assert data.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+
+
+def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
+    data = xr.Dataset({"status": "contact too narrow"}, attrs={INPUT_DOUBTS: "Is the unit right?"})
+    assert no_answer(data) == (
+        "none. Is the unit right? The direct contact of the measured surface has no result: "
+        "contact too narrow."
+    )
+
+
+@pytest.mark.parametrize(
+    ("stated", "wrong", "words"),
+    [
+        ('"0.3 m/s"', '"1e6 m/s"', "Speed = 1e+06 m/s is not between 1e-09 m/s and 100 m/s"),
+        ('"3 bar"', "3", "Pressure = 3e-06 MPa is not between 0.0001 MPa and 100 MPa"),
+    ],
+)
+def test_an_answer_under_an_impossible_load_is_none_to_rely_on(
+    tmp_path: Path, stated: str, wrong: str, words: str
+) -> None:
+    direct = reference(prepare_case(write(tmp_path, case=CASE.replace(stated, wrong))))
+    assert no_answer(direct).startswith(f"none to rely on. {words}: is its unit right?")
+
+
+def test_the_answer_of_the_case_without_a_trap_stands(tmp_path: Path) -> None:
+    direct = reference(prepare_case(write(tmp_path)))
+    assert direct is not None
+    assert INPUT_DOUBTS not in direct.attrs
+
+
+def test_the_farthest_load_of_a_study_is_named() -> None:
+    loads = [Load(3e5, speed, 0.1) for speed in (0.0, 1.0, 200.0, 1e7)]
+    (text,) = load_doubts(loads, {"speed": "km/h"})
+    assert text.startswith("Speed = 3.6e+07 km/h is not between 3.6e-09 km/h and 360 km/h")
+    assert load_doubts(loads[:2], {}) == []
+
+
+TRAPPED = (
+    CASE.replace('reference_temperature = "20 C"\n', "").replace('"100 mm"', '"1 mm"')
+    + '[solver]\nmodel = "half_plane"\npoints = 64\n'
+    + '[measured]\nfriction = "friction.csv"\n[output]\nfolder = "results"\n'
+)
+"""The temperature of the moduli is missing, and the footprint is shorter than the largest wave."""
+AT_200 = "Speed = 200 m/s is not between 1e-09 m/s and 100 m/s: is its unit right?"
+
+
+@pytest.mark.parametrize(
+    ("command", "of_its_load"),
+    [
+        (("sensitivity", "--model", "chain", "--vary", "speed=0.3,200"), AT_200),
+        (("cut-off", "--down-to", "0.8 mm"), ""),
+        (("calibrate", "--model", "chain", "--law", "constant"), ""),
+        (("design", "--levels", "1", "--goal", "speed=200 m/s"), AT_200),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_commands_and_their_pages_say_the_doubts_of_a_run(
+    tmp_path: Path, shell: Shell, command: tuple[str, ...], of_its_load: str
+) -> None:
+    file = write(tmp_path, case=TRAPPED, road=with_plate(20e-3))
+    (tmp_path / "friction.csv").write_text("speed [m/s],friction\n0.1,2\n1,2\n200,2\n")
+    said = [n.text for n in case_notices(None, InputRecord(record.inputs(prepare_case(file))))]
+    first = [*said[:3], *filter(None, [of_its_load])]
+    for words in ("plates", "states the temperature of its moduli", "The footprint, 1 mm"):
+        assert any(words in text for text in first)
+    name, *options = command
+    out = tmp_path / name
+    printed = shell(name, file.path, *options, "--output", out, columns=1000)
+    assert printed.exit_code == 0, printed.output
+    answer, _, warnings = printed.stdout.partition("Warnings, by what they change:\n")
+    assert "Answer: " in answer
+    assert (name == "calibrate") == ("none to rely on. The measured speeds, 0.1 to 200" in answer)
+    assert {line.strip() for line in warnings.splitlines()[: len(first)]} == {*first}
+    (file_text,) = (path.read_text(encoding="utf-8") for path in out.glob("*.txt"))
+    page = Page(write_report(out)).text
+    for text in {*said, *first}:
+        assert text in page
+        assert text in " ".join(file_text.split())
+
+
+def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) -> None:
+    file = write(tmp_path, case=f'{CASE}[solver]\nmodel = "half_plane"\npoints = 64\n')
+    study = Study(file, vary={"speed": "1,1e6"}, model="chain").run(tmp_path / "study", workers=1)
+    assert study.attrs[INPUT_DOUBTS].startswith("Speed = 1e+06 m/s is not between")
+    over = compare_over(file, {"speed": "1,1e6"}, rungs=["persson"]).data
+    assert over.attrs[INPUT_DOUBTS] == study.attrs[INPUT_DOUBTS]
+
+
+def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:
+    crop = CASE.replace("scales", 'crop = ["50 mm", "150 mm"]\nspike_slope = 2\nscales')
+    file = write(tmp_path, case=crop)
+    (tmp_path / "other.txt").write_text(road_text(ROUGH.z[::-1]), encoding="utf-8")
+    for name, length in (("road.txt", 0.1), ("other.txt", 0.2)):
+        measured = surface_of(name, file).measured
+        assert measured is not None
+        assert measured.cleaned[0].length == pytest.approx(length, abs=1e-9)
+    assert surface_note("road.txt", file) == ""
+    assert surface_note("other.txt", file) == (
+        "other.txt: read with scales, smallest_wavelength, spike_slope of the case, but not crop, "
+        "which belongs to the road of the case"
+    )
+
+
+def test_an_answer_ends_where_the_heights_do_whatever_the_cut_off(tmp_path: Path) -> None:
+    file = write(tmp_path, case=CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "0.02 mm"'))
+    results = prepare_case(file)
+    direct = reference(results, tmp_path)
+    assert "roughness down to 0.2 mm" in " ".join(answer_lines(direct))  # two steps
+    warnings = case_notices(direct, InputRecord(record.inputs(results)))
+    assert warnings[0].text.startswith("The cut-off of the case is 0.02 mm, but the heights hold")
+
+
+def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Path) -> None:
+    file = write(tmp_path)
+    (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
+    (tmp_path / "warm.txt").write_text(f"T = 40 °C\n{DMA}", encoding="utf-8")
+    assert "its moduli are assumed to be those at 20 °C" in rubber_notes(["other.txt"], file)[0]
+    assert rubber_notes(["warm.txt"], file) == ()
+
+
+def test_a_sensitivity_doubts_a_foreign_rubber_without_a_temperature(tmp_path: Path) -> None:
+    file = write(tmp_path)
+    (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
+    case_sensitivity(file, folder=tmp_path, vary={"rubber": ["case", "other.txt"]}, model="chain")
+    warnings = case_notices(None, InputRecord.of_file(tmp_path / "sensitivity.nc"))
+    assert warnings[0].text.startswith("other.txt: the file states no temperature")

@@ -1,0 +1,53 @@
+"""Intervals hold drawn truths as often as they say."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy import stats
+
+from gripscale.questions.answer.intervals import LEVEL, LogError, combined, half_width
+
+DRAWS = 20_000
+
+
+def test_interval_of_a_product_holds_the_truth_nine_times_in_ten() -> None:
+    """Two factors whose errors are estimated from 4 and 12 values, one whose error is certain."""
+    random = np.random.default_rng(7)
+    logs, errors = np.zeros(DRAWS), []
+    for sigma, count in ((0.1, 4), (0.06, 12)):
+        draws = sigma * random.standard_normal((DRAWS, count))
+        logs += draws.mean(axis=1)
+        scatter = draws.std(axis=1, ddof=1) / math.sqrt(count)
+        freedom = np.full(DRAWS, count - 1.0)
+        errors.append(LogError(*(xr.DataArray(v, dims="draw") for v in (scatter, freedom))))
+    logs += 0.04 * random.standard_normal(DRAWS)
+    certain = xr.DataArray(np.full(DRAWS, 0.04), dims="draw")
+    errors.append(LogError(certain, xr.full_like(certain, math.inf)))
+    width = np.arcsinh(half_width(combined(errors)))
+    share = float((np.abs(logs) < width.values).mean())
+    # Welch and Satterthwaite is an approximation: one in a hundred; the draws add 0.2 %
+    assert share == pytest.approx(LEVEL, abs=0.01)
+
+
+def test_closed_forms() -> None:
+    one = LogError(xr.DataArray(0.1), xr.DataArray(5.0))
+    alone = combined([one])
+    assert alone.sigma == pytest.approx(0.1)
+    assert alone.freedom == pytest.approx(5.0)
+    assert half_width(one) == pytest.approx(math.sinh(0.1 * stats.t.ppf(0.95, 5)))
+    certain = LogError(xr.DataArray(0.1), xr.DataArray(math.inf))
+    assert half_width(combined([certain, certain])) == pytest.approx(
+        math.sinh(0.1 * math.sqrt(2.0) * stats.norm.ppf(0.95))
+    )
+
+
+def test_what_is_not_known_is_not_left_out() -> None:
+    known = LogError(xr.DataArray(0.1), xr.DataArray(5.0))
+    unknown = LogError(xr.DataArray(math.nan), xr.DataArray(math.nan))
+    assert math.isnan(half_width(combined([known, unknown])))
+    single = LogError(xr.DataArray(0.1), xr.DataArray(0.0))
+    assert math.isnan(half_width(single))

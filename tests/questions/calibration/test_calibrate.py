@@ -1,0 +1,271 @@
+"""The fit of the area term: what it finds, what it refuses to say, what it predicts."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+
+import numpy as np
+import pytest
+
+from gripscale.conditions import (
+    ConstantStress,
+    GaussianStress,
+    InterfacialShearStress,
+    LeGalKlueppelStress,
+    shear_stress_from_dict,
+)
+from gripscale.core.errors import InputError
+from gripscale.experiment import MeasuredFriction
+from gripscale.io import netcdf
+from gripscale.questions import Predicted, calibrate
+from gripscale.questions.calibration.calibration_text import notes, shear_stress_table
+from tests.samples import DOCS
+
+from .synthetic import REFERENCE, TRUE, hysteresis, measurement
+
+PLATEAUS = LeGalKlueppelStress(2e6, 3.0, 0.01, 0.8)
+FLANK = np.geomspace(1e-6, 1e-4, 6)
+"""Speeds far below the top of the bell."""
+
+
+@pytest.mark.parametrize(
+    ("law", "fixed"),
+    [(ConstantStress(3e6), {}), (TRUE, REFERENCE), (PLATEAUS, {})],
+)
+def test_a_law_is_found_from_what_it_made(
+    law: InterfacialShearStress, fixed: dict[str, float]
+) -> None:
+    fit = calibrate(*measurement(law, seed=None), law=law.kind, fixed=fixed)
+    found, true = vars(fit.law), vars(law)
+    assert found == pytest.approx(true, rel=1e-5)
+    assert fit.friction == pytest.approx(fit.measured.friction, abs=1e-7)
+
+
+def test_the_law_does_not_depend_on_where_it_is_referred_to() -> None:
+    here, there = (
+        calibrate(*measurement(), fixed={"reference_temperature": kelvin})
+        for kelvin in (280.0, 310.0)
+    )
+    assert here.friction == pytest.approx(there.friction, abs=1e-5)
+    assert here.estimates[3].low == pytest.approx(there.estimates[3].low, rel=2e-3)
+
+
+def test_points_are_paired_in_the_order_of_the_caller() -> None:
+    """The law is found from points with any order of speeds, and each keeps its place."""
+    for order in (np.arange(27)[::-1], np.random.default_rng(0).permutation(27)):
+        inside, _ = measurement(seed=None)
+        mixed = MeasuredFriction(
+            inside.speed[order], inside.friction[order], inside.spread[order],
+            inside.temperature[order],
+        )  # fmt: skip
+        there = hysteresis(inside.speed[order], inside.temperature[order])
+        fit = calibrate(mixed, there, fixed=REFERENCE)
+        assert vars(fit.law) == pytest.approx(vars(TRUE), rel=1e-5)
+        assert fit.friction == pytest.approx(inside.friction[order], abs=1e-7)
+        assert fit.measured.speed.tolist() == inside.speed[order].tolist()
+
+
+def test_predictions_at_other_pressures_are_refused() -> None:
+    """Points in another order than those measured show where pressures differ."""
+    measured = MeasuredFriction([1.0, 0.1, 10.0], [0.4] * 3, pressure=[1e5, 3e5, 2e5])
+    predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5, 1e5, 2e5], [293.15] * 3)
+    with pytest.raises(InputError, match=r"index 0 100000 Pa was measured and 300000 Pa predicted"):
+        calibrate(measured, predicted, law="constant")
+
+
+def test_points_weigh_by_their_spread() -> None:
+    """A point of tiny spread is followed, wherever it is."""
+    speed, spread = [0.1, 1.0, 10.0], [0.1, 1e-4, 0.1]
+    predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
+    measured = MeasuredFriction(speed, [0.4, 0.6, 0.4], spread)
+    assert calibrate(measured, predicted, law="constant").friction == pytest.approx(0.6, abs=1e-5)
+
+
+def test_a_wrong_law_shows_in_what_is_left_out() -> None:
+    right, wrong = (
+        calibrate(*measurement(), law=law, hold_out="temperature")
+        for law in ("gaussian", "constant")
+    )
+    assert [one.value for one in right.held_out] == [278.0, 293.0, 313.0]
+    assert [one.points for one in right.held_out] == [9, 9, 9]
+    # the right law misses by the spread, and by what three parameters more cost; chi^2_9 / 9 is
+    # below 2.4 with probability 0.99
+    assert all(one.rms_outside_in_spread < math.sqrt(2.4) + 0.5 for one in right.held_out)
+    assert all(one.rms_outside_in_spread > 5.0 for one in wrong.held_out)
+
+
+def test_extrapolating_a_wrong_law_costs_more_than_following_the_data() -> None:
+    """A bell can follow two plateaus where it sees them, and not beyond."""
+    fit = calibrate(
+        *measurement(PLATEAUS, seed=None, temperatures=(293.15,)), law="gaussian", hold_out="speed"
+    )
+    first = fit.held_out[0]
+    assert first.rms_outside > 3.0 * first.rms_inside
+
+
+def test_one_temperature_gives_no_activation_energy() -> None:
+    fit = calibrate(*measurement(temperatures=(293.15,)))
+    assert isinstance(fit.law, GaussianStress)
+    assert [one.name for one in fit.estimates] == ["stress_0", "width", "speed_0"]
+    assert fit.law.reference_temperature is None
+    assert "No activation energy" in " ".join(notes(fit))
+    assert "activation_energy" not in shear_stress_table(fit).partition("[conditions")[2]
+
+
+def test_what_one_temperature_cannot_say_is_not_predicted_for_another() -> None:
+    fit = calibrate(*measurement(temperatures=(283.15, 303.15)), hold_out="temperature")
+    for one in fit.held_out:
+        assert math.isnan(one.rms_outside)
+        assert one.why_not == "the other points do not determine activation_energy"
+
+
+def test_a_flank_does_not_determine_the_top() -> None:
+    fit = calibrate(*measurement(speeds=FLANK, temperatures=(293.15,)))
+    by_name = {one.name: one for one in fit.estimates}
+    assert math.isnan(by_name["stress_0"].high)
+    assert math.isnan(by_name["speed_0"].high)
+    assert not by_name["speed_0"].determined
+    said = " ".join(notes(fit))
+    assert "The upper end of stress_0 is not determined by the data." in said
+    assert "upper end not determined" in shear_stress_table(fit)
+
+
+def test_one_speed_determines_the_height_of_the_bell_alone() -> None:
+    """Three temperatures are three points of a parabola in eps/T.
+
+    Its height is tau_0; c eps^2 is known, c and eps are not.
+    """
+    fit = calibrate(*measurement(speeds=np.full(4, 0.02)))
+    determined = {one.name for one in fit.estimates if one.determined}
+    assert determined == {"stress_0"}
+    assert "width is not determined by the data." in " ".join(notes(fit))
+
+
+def test_fixed_parameters_stay() -> None:
+    fit = calibrate(*measurement(), fixed={"width": 0.15, **REFERENCE})
+    assert isinstance(fit.law, GaussianStress)
+    assert fit.law.width == 0.15
+    assert [one.name for one in fit.estimates] == ["stress_0", "speed_0", "activation_energy"]
+    assert "width = 0.15  # held" in shear_stress_table(fit)
+
+
+def test_spreads_too_small_for_the_law_are_said() -> None:
+    fit = calibrate(*measurement(), law="constant")
+    assert fit.chance < 1e-10
+    assert "times the stated spread" in " ".join(notes(fit))
+
+
+def test_points_without_a_prediction_do_not_count() -> None:
+    measured, predicted = measurement()
+    friction = predicted.friction.copy()
+    friction[3] = np.nan
+    status = ["converged"] * 3 + ["wave 2 did not converge"] + ["converged"] * 23
+    holes = Predicted(
+        friction, predicted.contact_fraction, predicted.pressure, predicted.temperature,
+        status=status,
+    )  # fmt: skip
+    fit = calibrate(measured, holes, hold_out="temperature")
+    assert fit.problem.points.speed.size == 26
+    assert np.isnan(fit.friction).tolist() == [at == 3 for at in range(27)]
+    assert [one.points for one in fit.held_out] == [8, 9, 9]
+    assert "without a prediction, which do not count: 1, as wave 2 did not converge" in " ".join(
+        notes(fit)
+    )
+
+
+def test_the_table_of_a_case_gives_the_law_back() -> None:
+    fit = calibrate(*measurement(), fixed=REFERENCE)
+    table = tomllib.loads(shear_stress_table(fit))["conditions"]["shear_stress"]
+    scales = {"MPa": 1e6, "m/s": 1.0, "eV": 1.0}
+    values = {
+        name: float(text.split()[0]) * scales[text.split()[1]] if isinstance(text, str) else text
+        for name, text in table.items()
+        if name not in ("kind", "reference_temperature")
+    }
+    assert table["reference_temperature"] == "20 C"
+    law = shear_stress_from_dict({"kind": table["kind"], **values, **REFERENCE})
+    assert vars(law) == pytest.approx(vars(fit.law), rel=1e-5)
+
+
+def test_everything_is_in_the_dataset(tmp_path) -> None:
+    fit = calibrate(*measurement(), hold_out="speed")
+    data = netcdf.load(netcdf.save(fit.to_dataset(), tmp_path / "calibration.nc"))
+    assert data.parameter.values.tolist() == [
+        "stress_0", "width", "speed_0", "activation_energy",
+    ]  # fmt: skip
+    assert data.estimate.values == pytest.approx([one.value for one in fit.estimates])
+    assert (data.hysteresis + data.area_term).values == pytest.approx(data.friction.values)
+    assert np.diag(data.correlation) == pytest.approx(1.0)
+    assert data.left_out.values == pytest.approx([1e-4, 1e-3, 1e-2, 1e-1, 1.0])
+    # a profile is lowest, and nothing, at the estimate
+    lowest = data.profile_excess.values.min(axis=1)
+    assert (lowest >= 0.0).all()
+    assert (lowest < 0.1).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"law": "table"}, "law must be one of constant, gaussian, le_gal_klueppel; got 'table'"),
+        (
+            {"fixed": {"widt": 1.0}},
+            "unknown parameter widt; did you mean width",
+        ),
+        ({"fixed": {"width": -1.0}}, "width must be greater than zero; got -1"),
+        ({"law": "constant", "fixed": {"stress_0": 1e6}}, "must leave a parameter"),
+        ({"hold_out": "pressure"}, "hold_out must be one of temperature, speed; got 'pressure'"),
+        (
+            {"fixed": {"activation_energy": 0.0, **REFERENCE}},
+            "reference_temperature belongs to an activation_energy",
+        ),
+    ],
+)
+def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        calibrate(*measurement(), **change)
+
+
+@pytest.mark.parametrize(
+    ("friction", "more", "sentence"),
+    [
+        (
+            [0.1, 0.1, 0.3],
+            {},
+            "hysteresis alone exceeds the measured friction at 2 of 3 points, by",
+        ),
+        ([0.3, 0.3, 0.3], {"spread": [0.1, np.nan, 0.1]}, "spread must be stated for all"),
+        (
+            [0.3, 0.3, 0.3],
+            {"spread": [0.1, 0.0, 0.1]},
+            "spread must be above zero to weigh a point",
+        ),
+        (
+            [0.3, 0.3, 0.3],
+            {"law": "gaussian"},
+            "fitting stress_0, width, speed_0 needs more than 3 measured points; got 3",
+        ),
+        ([0.3, 0.3, 0.3], {"hold_out": "temperature"}, "needs the temperature of every point"),
+        (
+            [0.3, 0.3, 0.3],
+            {"hold_out": "temperature", "temperature": [293.0] * 3},
+            "hold_out needs at least two groups to leave one of them out; got 1",
+        ),
+    ],
+)
+def test_what_does_not_suffice_is_one_sentence(
+    friction: list[float], more: dict, sentence: str
+) -> None:
+    columns = {name: more.pop(name) for name in ("spread", "temperature") if name in more}
+    measured = MeasuredFriction([0.1, 1.0, 10.0], friction, **columns)
+    predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
+    with pytest.raises(InputError, match=sentence):
+        calibrate(measured, predicted, **({"law": "constant"} | more))
+
+
+def test_the_page_lists_every_variable() -> None:
+    page = (DOCS / "measured-friction.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"`(\w+)`", page))
+    data = calibrate(*measurement(), hold_out="speed").to_dataset()
+    assert set(map(str, data.variables)) <= listed

@@ -1,0 +1,133 @@
+"""The interval of 90 % holds the true value in 90 % of the measurements: that is what it claims.
+
+Of 50 measurements 45 are expected. With 41 to 49 of them the claim passes with probability 0.97
+for one parameter (binomial: 0.0245 for 40 or fewer, 0.0052 for all 50).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.stats
+
+from gripscale.conditions import LeGalKlueppelStress
+from gripscale.questions import Calibration, calibrate
+from gripscale.questions.calibration.calibration_law import Problem, best, family_of, points_of
+from gripscale.questions.calibration.profile_likelihood import Profile, threshold_of
+
+from .synthetic import REFERENCE, TRUTH, measurement
+
+SETS = 50
+FEWEST, MOST = 41, 49
+
+
+def held(fits: list[Calibration], truth: dict[str, float]) -> dict[str, int]:
+    """Return in how many fits the interval of each parameter holds its true value."""
+    return {
+        name: sum(
+            one.low <= true <= one.high for fit in fits for one in fit.estimates if one.name == name
+        )
+        for name, true in truth.items()
+    }
+
+
+def below_threshold(factor: float) -> dict[str, int]:
+    """Return in how many sets the profile at each true value is below the end of an interval.
+
+    That is what an interval holds (the tests below), at a tenth of the time. The spread is stated
+    `factor` times what it is.
+    """
+    counts = dict.fromkeys(TRUTH, 0)
+    for seed in range(SETS):
+        measured, predicted = measurement(seed=seed)
+        object.__setattr__(measured, "spread", factor * measured.spread)
+        points = points_of(measured, predicted)
+        problem = Problem(points, family_of("gaussian", points, REFERENCE))
+        optimum = best(problem)
+        for place, one in enumerate(problem.family.free):
+            excess, _ = Profile(problem, optimum, place).excess(one.scaled(TRUTH[one.name]))
+            counts[one.name] += excess < threshold_of(optimum, spread_known=True)
+    return counts
+
+
+def test_the_band_is_one_of_binomial_probability_097() -> None:
+    counts = scipy.stats.binom(SETS, 0.9)
+    assert counts.cdf(MOST) - counts.cdf(FEWEST - 1) == pytest.approx(0.970, abs=0.001)
+
+
+def test_intervals_hold_the_true_parameters_as_often_as_they_say() -> None:
+    for name, count in below_threshold(1.0).items():
+        assert FEWEST <= count <= MOST, (name, count)
+
+
+def test_half_the_spread_would_be_seen() -> None:
+    """Ends at 1.645/2 standard errors hold 0.59 of the true values."""
+    for name, count in below_threshold(0.5).items():
+        assert count < FEWEST, (name, count)
+
+
+@pytest.mark.verification
+@pytest.mark.parametrize("stated", [True, False])
+def test_intervals_over_many_measurements(stated: bool) -> None:
+    """Of 400, 360 are expected; 342 to 377 hold with probability 0.997 for one parameter."""
+    fits = [
+        calibrate(*measurement(seed=1000 + seed, stated=stated), fixed=REFERENCE)
+        for seed in range(400)
+    ]
+    for name, count in held(fits, TRUTH).items():
+        assert 342 <= count <= 377, (name, count)
+
+
+@pytest.mark.verification
+def test_intervals_of_the_other_law() -> None:
+    truth = {"stress_0": 2e6, "ratio": 3.0, "critical_speed": 0.01, "exponent": 0.8}
+    law = LeGalKlueppelStress(**truth)
+    fits = [calibrate(*measurement(law, seed=seed), law="le_gal_klueppel") for seed in range(200)]
+    for name, count in held(fits, truth).items():
+        assert 166 <= count <= 192, (name, count)  # probability 0.997
+
+
+def test_an_interval_ends_where_the_profile_says() -> None:
+    fit = calibrate(*measurement(), fixed=REFERENCE)
+    threshold = threshold_of(fit.optimum, spread_known=True)
+    assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
+    for place, one in enumerate(fit.problem.family.free):
+        profile = Profile(fit.problem, fit.optimum, place)
+        for end in (fit.estimates[place].low, fit.estimates[place].high):
+            # the distance to an end is known to 1e-3, its square to twice that
+            assert profile.excess(one.scaled(end))[0] == pytest.approx(threshold, rel=4e-3)
+
+
+def test_the_profile_of_a_factor_is_a_parabola() -> None:
+    """A parameter that only multiplies, not in logarithms: linear least squares in closed form."""
+    measured, predicted = measurement()
+    fit = calibrate(measured, predicted, law="constant")
+    one = fit.estimates[0]
+    weight = predicted.leverage / measured.spread
+    error = 1.0 / np.sqrt(weight @ weight)
+    best = (weight @ ((measured.friction - predicted.friction) / measured.spread)) * error**2
+    assert one.value == pytest.approx(best, rel=1e-7)
+    assert one.standard_error == pytest.approx(error, rel=1e-5)
+    half = np.sqrt(2.7055) * error
+    assert (one.low, one.high) == pytest.approx((best - half, best + half), rel=1e-4)
+    band = np.sqrt(2.7055) * error * predicted.leverage
+    assert fit.band == pytest.approx(band, rel=1e-3)
+
+
+def test_without_spreads_the_residuals_give_them() -> None:
+    measured, predicted = measurement(stated=False)
+    fit = calibrate(measured, predicted, law="constant")
+    one, freedom = fit.estimates[0], measured.speed.size - 1
+    apart = fit.friction - measured.friction
+    scatter = np.sqrt(apart @ apart / freedom)
+    assert fit.scatter == pytest.approx(scatter)
+    error = scatter / np.sqrt(predicted.leverage @ predicted.leverage)
+    assert one.standard_error == pytest.approx(error, rel=1e-5)
+    half = scipy.stats.t.ppf(0.95, freedom) * error
+    assert (one.low, one.high) == pytest.approx((one.value - half, one.value + half), rel=1e-4)
+
+
+def test_well_determined_intervals_are_the_standard_errors() -> None:
+    """Where the valley is nearly straight half an interval is 1.645 standard errors."""
+    for one in calibrate(*measurement(seed=None), fixed=REFERENCE).estimates:
+        assert 0.5 * (one.high - one.low) == pytest.approx(1.645 * one.standard_error, rel=0.05)

@@ -1,0 +1,158 @@
+"""What models say at measured points is what they say when asked for each point by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import gripscale as gs
+from gripscale import model
+from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
+from gripscale.core.errors import InputError
+from gripscale.experiment import MeasuredFriction, Store
+from gripscale.experiment.measured_friction import TemperatureProbe
+from gripscale.half_space.model import DirectContact
+from gripscale.model import Load
+from gripscale.questions import Predicted, averaged, predictions_at
+from gripscale.surface import Measured, Surface
+from gripscale.theory.half_plane import HalfPlane
+from tests.samples import SHIFTED_LOAD as LOAD
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
+
+LAW = GaussianStress(6e6, 0.1, 6e-3, 0.97, 293.15)
+HEAT = ThermalProperties(0.25, 1150.0, 1500.0)
+MEASURED = MeasuredFriction(
+    [0.1, 1.0, 1.0],
+    [0.5, 0.6, 0.7],
+    temperature=[303.15, 313.15, np.nan],
+    pressure=[2e5, np.nan, np.nan],
+)
+TURNS = 2.0 * np.pi * np.arange(256) / 256
+LINE = gs.Profile(np.arange(256) * 4e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS))
+
+
+@pytest.mark.parametrize("heat", [None, HEAT])
+def test_each_point_is_the_prediction_at_its_speed_temperature_and_pressure(
+    tmp_path: Path, heat: ThermalProperties | None
+) -> None:
+    chain = Chain(HalfPlane(points=64), conditions=Conditions(temperature=298.15, heat=heat))
+    found = predictions_at(MEASURED, chain, RUBBER, Surface(SINES, ""), LOAD, Store(tmp_path))
+    assert found.pressure.tolist() == [2e5, 3e5, 3e5]
+    term = found.area_term(LAW, MEASURED.speed)
+    for at, kelvin in enumerate([303.15, 313.15, 298.15]):
+        alone = gs.predict(
+            RUBBER, SINES, solver=HalfPlane(points=64), pressure=found.pressure[at],
+            speed=MEASURED.speed[at], footprint=0.05,
+            conditions=Conditions(temperature=kelvin, heat=heat, shear_stress=LAW),
+        )  # fmt: skip
+        assert found.friction[at] == alone.friction
+        assert found.contact_fraction[at] == alone.contact_fraction
+        # the probe's answer is T to rounding; the law is steep: d ln tau / d T is below 0.1 per K
+        assert term[at] == pytest.approx(alone.adhesive_friction, rel=1e-9)
+        contact = alone.scales[-1].details.get("contact_temperature", kelvin)
+        assert found.temperature[at] == pytest.approx(contact, rel=1e-12)
+
+
+def test_the_direct_contact_of_a_line(tmp_path: Path) -> None:
+    surface = Surface(SINES, "", measured=Measured.of([LINE]))
+    direct = DirectContact(2e-4, 0.2, periodic=True, conditions=Conditions(heat=HEAT))
+    one = MeasuredFriction([1.0], [0.5], temperature=[303.15])
+    found = predictions_at(one, direct, RUBBER, surface, LOAD, Store(tmp_path))
+    alone = gs.solve_rough_contact(
+        RUBBER, LINE, pressure=3e5, speed=1.0, smallest_wavelength=2e-4, tolerance=0.2,
+        periodic=True, footprint=0.05,
+        conditions=Conditions(temperature=303.15, heat=HEAT, shear_stress=LAW),
+    )  # fmt: skip
+    assert found.friction[0] == alone.friction
+    assert found.temperature[0] > 303.2
+    assert found.area_term(LAW, one.speed)[0] == pytest.approx(alone.adhesive_friction, rel=1e-9)
+
+
+def test_what_was_solved_is_not_solved_again(tmp_path: Path) -> None:
+    stored: list[bool] = []
+    chain, surface = Chain(HalfPlane(points=64)), Surface(SINES, "")
+    for _ in range(2):
+        predictions_at(
+            MEASURED, chain, RUBBER, surface, LOAD, Store(tmp_path),
+            on_task=lambda progress: stored.append(progress.stored),
+        )  # fmt: skip
+    assert stored == [False] * 3 + [True] * 3
+
+
+@dataclass(frozen=True)
+class Thermometer(model.Model):
+    """A model without conditions: friction is the reference temperature of its rubber."""
+
+    name: ClassVar[str] = "thermometer"
+
+    def predict(self, rubber: gs.Rubber, surface: Surface, load: Load, **_: Any) -> xr.Dataset:
+        totals = dict.fromkeys(model.TOTALS, rubber.reference_temperature or 0.0)
+        status = "converged" if load.speed > 0.5 else "too slow"
+        return model.answer(xr.Dataset(), totals, status, self.name, load)
+
+
+def test_a_model_without_conditions_gets_the_rubber_at_the_temperature(tmp_path: Path) -> None:
+    surface = Surface(SINES, "")
+    found = predictions_at(MEASURED, Thermometer(), RUBBER, surface, LOAD, Store(tmp_path))
+    assert found.friction.tolist() == [303.15, 313.15, 293.15]
+    assert found.temperature.tolist() == [303.15, 313.15, 293.15]
+    assert list(found.status) == ["too slow", "converged", "converged"]
+
+
+def test_another_temperature_needs_a_shift(tmp_path: Path) -> None:
+    plain = gs.Rubber(5e6, [3e6], [1e-3])
+    with pytest.raises(InputError, match="time-temperature shift is missing"):
+        predictions_at(
+            MEASURED,
+            Chain(HalfPlane(points=64)),
+            plain,
+            Surface(SINES, ""),
+            LOAD,
+            Store(tmp_path),
+        )
+
+
+def test_without_any_temperature_none_is_needed(tmp_path: Path) -> None:
+    plain, surface = gs.Rubber(5e6, [3e6], [1e-3]), Surface(SINES, "")
+    one = MeasuredFriction([1.0], [0.5])
+    found = predictions_at(one, Chain(HalfPlane(points=64)), plain, surface, LOAD, Store(tmp_path))
+    assert np.isnan(found.temperature).all()
+    with pytest.raises(InputError, match="temperature must be given"):
+        found.area_term(LAW, one.speed)
+
+
+def test_samples_of_a_model_are_averaged() -> None:
+    one = Predicted([0.2, 0.3], [0.02, 0.03], [3e5] * 2, [300.0, 310.0], [0.0, 0.1])
+    other = Predicted(
+        [0.4, np.nan], [0.06, np.nan], [3e5] * 2, [320.0, np.nan], [0.2, np.nan],
+        ["converged", "no contact"],
+    )  # fmt: skip
+    both = averaged([one, other])
+    np.testing.assert_allclose(both.friction, [0.3, np.nan])
+    np.testing.assert_allclose(both.contact_fraction, [0.04, np.nan])
+    np.testing.assert_allclose(both.temperature, [315.0, np.nan])  # by area, 1 to 3
+    np.testing.assert_allclose(both.outside_band, [0.1, np.nan])
+    assert list(both.status) == ["converged", "no contact"]
+    assert list(both.status_word) == ["converged", ""]
+    # a law linear in the temperature gives the mean of both terms
+    term = averaged([one]).area_term(TemperatureProbe(), np.ones(2))[0]
+    mean = 0.5 * (term + other.area_term(TemperatureProbe(), np.ones(2))[0])
+    assert both.area_term(TemperatureProbe(), np.ones(2))[0] == pytest.approx(mean)
+    with pytest.raises(InputError, match="at least one Predicted; got"):
+        averaged([])
+    with pytest.raises(InputError, match="same pressures"):
+        averaged([one, Predicted([0.2], [0.02], [3e5], [300.0])])
+
+
+def test_lengths_must_agree() -> None:
+    with pytest.raises(
+        InputError, match=r"equally many values of each quantity; got 2 of pressure, 1 of fric"
+    ):
+        Predicted([0.1], [0.03], [3e5, 3e5], [293.15])

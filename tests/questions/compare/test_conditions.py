@@ -1,0 +1,116 @@
+"""A comparison in its conditions: what reaches which model, and what is said of it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case_file import prepare_case
+from gripscale.io.table import as_text, significant
+from gripscale.questions import Comparison, compare_case, compare_over
+from gripscale.questions.answer.page import basis_lines
+from gripscale.questions.compare.page import comparison_table, remarks
+from gripscale.surface import self_affine_profile
+from tests.samples import SOFTENING
+
+CASE = f"""
+[surface]
+files = ["road.dat"]
+x_unit = "m"
+z_unit = "m"
+scales = 3
+smallest_wavelength = "0.5 mm"
+[rubber]
+name = "styrene_butadiene"
+shift = {{ kind = "wlf", c1 = 8.0, c2 = "120 K" }}
+[load]
+pressure = "3 bar"
+speed = "0.1 m/s"
+footprint = "50 mm"
+[solver]
+model = "half_plane"
+[conditions]
+temperature = "35 C"
+{SOFTENING}[conditions.shear_stress]
+kind = "constant"
+stress_0 = "2 MPa"
+"""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
+    folder = tmp_path_factory.mktemp("conditions")
+    line = self_affine_profile(0.8, 5e-3, 0.1e-3, 0.1, 1e-4, seed=4)
+    np.savetxt(folder / "road.dat", np.column_stack([line.x, line.z]))
+    case = folder / "case.toml"
+    case.write_text(CASE, encoding="utf-8")
+    return compare_case(
+        prepare_case(case), seeds=1, rungs=["chain_half_plane", "direct", "persson"]
+    )
+
+
+def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
+    (subject,) = made.setups
+    alone = gs.solve_rough_contact(
+        subject.rubber,
+        subject.surface.measured.cleaned[0],  # type: ignore[union-attr]
+        pressure=3e5,
+        speed=0.1,
+        footprint=0.05,
+        smallest_wavelength=float(subject.surface.sines.wavelength[-1]),
+        tolerance=subject.tolerance,
+        conditions=subject.conditions,
+    )
+    direct = made.data.sel(rung="direct")
+    assert direct.total_friction == pytest.approx(alone.friction, rel=1e-12)
+    assert direct.total_adhesive_friction == pytest.approx(
+        2e6 * alone.contact_fraction / 3e5, rel=1e-12
+    )
+    chain = made.data.sel(rung="chain_half_plane")
+    assert chain.total_adhesive_friction == pytest.approx(
+        2e6 * float(chain.total_contact_fraction) / 3e5, rel=1e-12
+    )
+
+
+def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
+    subject, persson = made.setups[0], made.data.sel(rung="persson")
+    warm = subject.rubber.at(308.15)
+    spectrum = gs.surface.areal_spectrum(
+        gs.surface.profile_spectrum(subject.surface.measured.cleaned[0])  # type: ignore[union-attr]
+    )
+    smallest = max(
+        float(subject.surface.sines.wavelength[-1]), 2 * math.pi / spectrum.wavenumber[-1]
+    )
+    alone = gs.theory.persson(warm, spectrum, pressure=3e5, speed=0.1, smallest_wavelength=smallest)
+    assert persson.total_friction == pytest.approx(alone.friction, rel=1e-9)
+    own = 2e6 * alone.contact_fraction / 3e5
+    assert persson.total_adhesive_friction == pytest.approx(own, rel=1e-9)
+    data = made.to_dataset()
+    assert any("Softening: in the chains" in line for line in remarks(data))
+
+
+def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
+    data = made.to_dataset()
+    text = as_text(comparison_table(data))
+    direct = made.data.sel(rung="direct")
+    total = float(direct.total_friction + direct.total_adhesive_friction)
+    assert f"{total:.2f}" in text
+    # 2 MPa on the contact area of the estimate, not on that of the direct contact
+    both = float(data.best_friction) + 2e6 * float(data.best_contact_fraction) / 3e5
+    assert f"comes on top: μ = {significant(both)} with it" in " ".join(basis_lines(data))
+
+
+def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparison) -> None:
+    over = compare_over(
+        made.file, {"temperature": "20 C,35 C"}, seeds=1, rungs=["chain_half_plane", "persson"]
+    )
+    data = over.to_dataset()
+    warm = data.sel(temperature=308.15)
+    for rung in ("chain_half_plane", "persson"):
+        own = float(made.data.total_friction.sel(rung=rung))
+        assert float(warm.total_friction.sel(rung=rung)) == pytest.approx(own, rel=1e-12)
+        cold = float(data.total_friction.sel(temperature=293.15, rung=rung))
+        assert abs(cold / own - 1.0) > 0.01

@@ -1,0 +1,99 @@
+"""Windows and maps as rungs: the same surfaces for both, and the solvers' own answers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.experiment import Task
+from gripscale.half_space import BlockOnProfile, solve_both_ways, surface_of_sines
+from gripscale.half_space.model import DirectContact
+from gripscale.model import Load
+from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.compare.ladder import LADDER, ComparisonSetup, chosen
+from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap, Measured, SineStack, Surface, self_affine_profile
+from gripscale.theory import HalfPlane
+from gripscale.wave import Status
+from tests.samples import GENTLE_SINES as STACK
+
+RUBBER = Rubber(1e6, [9e6], [0.01])
+LINE = surface_of_sines(STACK, 20e-3, 1)
+SURFACE = Surface(STACK, "", measured=Measured.of([LINE]))
+LOAD = Load(5e4, 0.1, 0.1, math.inf)
+ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.3, 1e-4, seed=4)
+MEASURED = Measured.of([ROAD])
+SUBJECT = ComparisonSetup(RUBBER, Surface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
+
+
+def test_both_models_answer_as_the_pair_does() -> None:
+    (pair,) = solve_both_ways(RUBBER, [LINE], pressure=LOAD.pressure, speed=LOAD.speed).pairs
+    block, half_space = (
+        sample_numbers(model.predict(RUBBER, SURFACE, LOAD), Task(RUBBER, SURFACE, LOAD, model))
+        for model in (BlockOnProfile(periodic=True), DirectContact(periodic=True))
+    )
+    assert block.prediction_status == half_space.prediction_status == "converged"
+    for name in ("contact_fraction", "friction", "friction_from_dissipation"):
+        assert getattr(block, name) == pytest.approx(getattr(pair.block, name), rel=1e-12)
+        # another first grid: the linear solver's tolerance is what is left
+        assert getattr(half_space, name) == pytest.approx(getattr(pair.half_space, name), rel=1e-6)
+    assert block.contact_fraction_error == pytest.approx(pair.block.contact_fraction_error)
+    assert half_space.friction_error == pytest.approx(pair.half_space.friction_error)
+    assert half_space.curve_friction.notnull().all()
+
+
+def test_mesh_too_coarse_counts_as_failed(monkeypatch: pytest.MonkeyPatch) -> None:
+    good = gs.solve_profile(RUBBER, LINE, pressure=5e4, speed=0.1, periodic=True)
+    bad = replace(good, status=Status.FRICTIONS_DISAGREE)
+    monkeypatch.setattr("gripscale.half_space.model.solve_profile", lambda *_, **__: bad)
+    model = BlockOnProfile(periodic=True)
+    task = Task(RUBBER, SURFACE, LOAD, model)
+    sample = sample_numbers(model.predict(RUBBER, SURFACE, LOAD), task)
+    assert "frictions disagree" in str(sample.prediction_status.item())
+    assert math.isnan(sample.friction)
+
+
+def test_windows_are_the_same_for_both() -> None:
+    small, finite = chosen(["windows"])
+    assert finite.follows == small.name
+    drawn = [rung.draws(SUBJECT) for rung in (small, finite)]
+    assert [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]]
+    assert len({one.subject for one in drawn[0]}) == SUBJECT.windows
+    assert chosen([]) == [rung for rung in LADDER if rung.group not in ("map", "below")]
+    short = Surface(SineStack([0.3], [1e-3]), "", measured=MEASURED)
+    assert small.draws(replace(SUBJECT, surface=short)) == []
+
+
+def test_maps_and_their_lines_are_of_the_same_seeds() -> None:
+    lines, whole = chosen(["map"])
+    assert whole.follows == lines.name
+    fine = Surface(SineStack([10e-3, 2e-4], [2e-4, 5e-6]), "", measured=MEASURED)
+    drawn = [rung.draws(replace(SUBJECT, surface=fine)) for rung in (lines, whole)]
+    assert (
+        [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]] == ["map 0", "map 1"]
+    )
+    assert drawn[0][0].model.smallest_wavelength == pytest.approx(4.0 * ROAD.step)
+
+
+def test_no_map_of_what_is_a_map_or_too_short() -> None:
+    whole = chosen(["map"])[-1]
+    short = Surface(SineStack([0.03], [1e-3]), "", measured=MEASURED)
+    x = np.arange(16) * 1e-4
+    measured = HeightMap(x, x, np.random.default_rng(1).normal(0.0, 1e-5, (16, 16)))
+    mapped = Surface(STACK, "", measured=Measured.of(measured))
+    for surface in (short, mapped, Surface(STACK, "")):
+        assert whole.draws(replace(SUBJECT, surface=surface)) == []
+
+
+def test_a_map_is_one_sample_of_the_direct_contact() -> None:
+    x = np.arange(16) * 1e-4
+    measured = HeightMap(x, x, np.random.default_rng(1).normal(0.0, 1e-5, (16, 16)), name="mine")
+    mapped = Surface(STACK, "", measured=Measured.of(measured))
+    (draw,) = chosen(["direct"])[0].draws(replace(SUBJECT, surface=mapped))
+    assert draw.subject == "mine"
+    assert draw.surface.measured is not None
+    assert draw.surface.measured.map is measured

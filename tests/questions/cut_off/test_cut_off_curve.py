@@ -1,0 +1,182 @@
+"""Contact and friction against the cut-off: command, page, run, best estimate and rule."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gripscale import surface as surfaces
+from gripscale.case_file import read_case
+from gripscale.case_file.prepare import case_surface, prepare_rubber
+from gripscale.core.errors import InputError
+from gripscale.half_space import HurstExponent, contact_by_cut_off
+from gripscale.io import netcdf
+from gripscale.questions import case_cut_off
+from gripscale.questions.cut_off.cut_off_curve import AREA, FILE, FRICTION, at_cut_off
+from gripscale.report import write_report
+from tests.half_space.rough_cases import isotropic_heights
+from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
+
+SURFACE = 'files = ["road.txt"]\nscales = 3\ncut_off = "0.5 mm"'
+RUBBER = 'file = "dma.txt"\nterms = 6'
+BELOW = '\n[below_measurement]\ndown_to = "0.15 mm"\nhurst = 0.8\n'
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A case on 0.1 m of road with points every 0.1 mm."""
+    folder = tmp_path_factory.mktemp("cut_off")
+    write_short_road(folder)
+    text = case_text(SURFACE, RUBBER, HALF_PLANE, static=False)
+    (folder / "case.toml").write_text(text)
+    (folder / "below.toml").write_text(text + BELOW)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def data(folder):
+    return case_cut_off(folder / "below.toml", folder=folder / "result")
+
+
+def test_the_curves_are_those_of_the_lines(folder, data):
+    file = read_case(folder / "below.toml")
+    surface = case_surface(file)
+    direct = contact_by_cut_off(
+        prepare_rubber(file.case.rubber, file.resolve).rubber,
+        surface.measured.cleaned,
+        pressure=3e5,
+        speed=0.3,
+        down_to=0.15e-3,
+        roughness=HurstExponent(0.8),
+    )
+    assert data.cut_off.values == pytest.approx(direct.wavelength)
+    assert data[FRICTION].values == pytest.approx(direct.values("friction_from_dissipation"))
+    assert data.total_friction_from_dissipation == pytest.approx(float(data[FRICTION][-1]))
+    assert float(data.resolved) == pytest.approx(0.4e-3)
+    assert data.curve_measured.values.tolist() == (data.cut_off.values > 0.39e-3).tolist()
+
+
+def test_rules_lie_on_the_curve(data):
+    rules = dict(zip(data.rule.values.tolist(), data.rule_cut_off.values.tolist(), strict=True))
+    assert rules["cut-off of the case"] == pytest.approx(0.5e-3)
+    assert rules["shortest wavelength measured"] == pytest.approx(0.4e-3)
+    at = data.sel(rule="shortest wavelength measured")
+    assert float(at.rule_friction) == pytest.approx(at_cut_off(data, FRICTION, 0.4e-3))
+    assert math.isnan(at_cut_off(data, FRICTION, 1e-6))
+
+
+def test_a_second_call_solves_nothing(folder, data):
+    stored = []
+    again = case_cut_off(
+        folder / "below.toml",
+        folder=folder / "result",
+        on_task=lambda progress: stored.append(progress.stored),
+    )
+    assert stored == [True]
+    assert np.array_equal(again[AREA], data[AREA])
+
+
+def test_command_and_page_lead_with_the_answer(folder, shell: Shell):
+    out = folder / "command"
+    result = shell("cut-off", folder / "case.toml", "--down-to", "0.2 mm", "--output", out)
+    lines = [line for line in result.stdout.splitlines() if line]
+    answer = next(i for i, line in enumerate(lines) if line.startswith("Answer: μ = "))
+    assert answer <= 3
+    assert "roughness down to 0.2" in " ".join(lines[answer : answer + 2])
+    assert (out / "figures" / "cut_off.png").is_file()
+    assert (out / "cut_off.txt").read_text(encoding="utf-8").startswith("Answer: ")
+    assert (out / "summary.xlsx").is_file()
+    page = write_report(out).read_text(encoding="utf-8")
+    assert "Contact and friction of case.toml against the cut-off" in page
+    refused = shell("cut-off", folder / "case.toml", "--down-to", "soon")
+    assert refused.exit_code == 2
+    assert "--down-to = 'soon'" in refused.stderr
+
+
+def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data):
+    """Its answer is that without it, times the ratio of the curve."""
+    answers = {}
+    for name in ("case", "below"):
+        result = shell("run", folder / f"{name}.toml", "--output", folder / name)
+        assert result.exit_code == 0, result.output
+        answers[name] = netcdf.load(folder / name / "direct.nc")
+    without, with_it = answers["case"], answers["below"]
+    for quantity, curve in (("friction", FRICTION), ("contact_fraction", AREA)):
+        ratio = float(with_it[f"best_{quantity}"] / without[f"best_{quantity}"])
+        expected = float(data[curve][-1]) / at_cut_off(data, curve, 0.5e-3)
+        assert ratio == pytest.approx(expected, rel=1e-9)
+    wider = with_it.best_friction_half_width > without.best_friction_half_width
+    assert bool(wider) or not math.isfinite(float(without.best_friction_half_width))
+    report = (folder / "below" / "report.txt").read_text(encoding="utf-8")
+    assert "roughness continued from 0.5 mm to 0.15 mm" in " ".join(report.split())
+    assert (folder / "below" / FILE).is_file()
+    assert (folder / "below" / "figures" / "cut_off.png").is_file()
+    assert not (folder / "case" / FILE).exists()
+
+
+def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, monkeypatch):
+    """The slope is interpolated between octaves; the contact there has it within a few per cent."""
+    cleaned = []
+    clean = surfaces.clean
+    monkeypatch.setattr(
+        surfaces, "clean", lambda line, **given: cleaned.append(line.name) or clean(line, **given)
+    )
+    text = (folder / "case.toml").read_text()
+    wanted = float(np.sqrt(data.curve_slope_in_contact[3] * data.curve_slope_in_contact[4]))
+    path = folder / "slope.toml"
+    path.write_text(text.replace('"0.5 mm"', f"{{ contact_slope = {wanted:.4f} }}"))
+    surface = case_surface(read_case(path))
+    assert cleaned == ["road"]
+    assert str(surface.rule) == f"rms slope {wanted:.4g} in the contact"
+    assert data.cut_off[4] < surface.cutoff_wavelength < data.cut_off[3]
+    assert surface.cut_off.rule == str(surface.rule)
+    path.write_text(text.replace('"0.5 mm"', "{ contact_slope = 9.0 }"))
+    with pytest.raises(
+        InputError, match=r"a slope in contact that the measurement reaches, .*got 9"
+    ):
+        case_surface(read_case(path))
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ('down_to = "0.1 mm"\nhurst = 1.3', "expected at most 1"),
+        ('down_to = "0.1 mm"\nhurst = 0.8\nfiner = { file = "road.txt" }', "either hurst"),
+        ('down_to = "0.1 mm"\nfiner = { x_unit = "mm" }', "either file"),
+        ('down_to = "-1 mm"', "greater than zero"),
+    ],
+)
+def test_tables_that_cannot_be_used_are_refused(folder, table, message):
+    path = folder / "bad.toml"
+    path.write_text((folder / "case.toml").read_text() + f"\n[below_measurement]\n{table}\n")
+    with pytest.raises(InputError, match=message):
+        read_case(path)
+
+
+def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
+    path = folder / "finer.toml"
+    finer = '\n[below_measurement]\ndown_to = "0.4 mm"\nfiner = { file = "road.txt" }\n'
+    path.write_text((folder / "case.toml").read_text() + finer)
+    assert ("below_measurement", "road.txt") in read_case(path).case.named_files()
+    result = case_cut_off(path, folder=folder / "finer", down_to=0.4e-3)
+    assert bool(result.curve_measured[-1])
+
+
+def test_a_map_is_continued_by_diffusion(tmp_path):
+    heights = 1e3 * isotropic_heights(128, length=0.0256, rms=2e-4)
+    np.savetxt(tmp_path / "map.txt", heights.T)
+    surface = (
+        'map = "map.txt"\nstep = ["0.2 mm", "0.2 mm"]\nz_unit = "mm"\nscales = 3\ncut_off = "1 mm"'
+    )
+    rubber = 'name = "styrene_butadiene"'
+    text = case_text(surface, rubber, HALF_PLANE, static=False)
+    (tmp_path / "case.toml").write_text(text)
+    data = case_cut_off(tmp_path / "case.toml", folder=tmp_path / "result", down_to=1e-6)
+    assert float(data.resolved) == pytest.approx(0.8e-3)
+    assert data.curve_measured.values.sum() == 3
+    assert float(data.cut_off[-1]) == pytest.approx(1e-6)
+    assert data.total_friction_from_dissipation == pytest.approx(float(data[FRICTION][-1]))
+    assert np.all(np.diff(data[AREA]) < 0.0)

@@ -1,0 +1,340 @@
+"""A whole design from a case: promised friction, gain with its interval, files, and the command."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case_file import read_case
+from gripscale.case_file.prepare import case_surface
+from gripscale.charts.paper import png
+from gripscale.core.errors import InputError
+from gripscale.half_space.model import DirectContact
+from gripscale.half_space.sampling_error import (
+    error_of_residuals,
+    friction_residuals,
+    sampling_error,
+)
+from gripscale.io import netcdf
+from gripscale.model import Load
+from gripscale.questions import design_compound, designed_rubber
+from gripscale.questions.design import compound_design
+from gripscale.questions.design.charts import design_figure
+from gripscale.questions.design.compound_gain import gain
+from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
+from gripscale.questions.design.compound_search import design_problem
+from gripscale.questions.design.design_text import (
+    parse_goal,
+    parse_levels,
+    parse_limit,
+    rolling_at_todays_friction,
+)
+from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.design.page import design_cards, design_lines
+from gripscale.report import write_report
+from gripscale.rubber import ShiftTable
+from gripscale.surface import self_affine_profile
+from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road
+
+CASE = case_text(
+    'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"',
+    'file = "dma.txt"',
+    HALF_PLANE,
+)
+LEVELS = [0.8, 1.0, 1.2]
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("design")
+    write_short_road(folder)
+    road = self_affine_profile(0.8, 3e-3, 8e-4, length=0.4, step=1e-4, seed=1)
+    write_road(folder / "road.txt", road)  # long enough for a sampling error
+    path = folder / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+@pytest.fixture(scope="module")
+def data(case):
+    return design_compound(case, case.parent / "stored", levels=LEVELS)
+
+
+def test_the_page_begins_with_the_gain(case, data):
+    cards = list(design_cards(data))
+    same = data.isel(point=1)
+    assert cards[0].value == f"{100.0 * float(same.gain):+.0f} %"
+    page = write_report(case.parent / "stored" / "design.nc", case.parent / "design.html")
+    text = page.read_text(encoding="utf-8")
+    assert "Compound for case.toml" in text
+    assert text.index(cards[0].value) < text.index("Points of the curve")
+
+
+def test_the_promised_friction_is_that_of_a_new_contact(case, data):
+    """Solved by the model of every comparison, from nothing, for the rubber of the files."""
+    surface = compound_design.design_problem(read_case(case)).friction.parts[0].surface
+    for at in range(data.sizes["point"]):
+        rubber = designed_rubber(data, at)
+        contact = gs.solve_rough_contact(
+            rubber, surface, pressure=3e5, speed=0.3, smallest_wavelength=1e-3, tolerance=0.02
+        )
+        promised = float(data.friction[at, 0])
+        assert contact.friction_from_dissipation == pytest.approx(promised, rel=0.01)
+        # the search has a coarser grid, and its gain is the same within its own error
+        assert float(data.gain_searched[at]) == pytest.approx(float(data.gain[at]), abs=0.02)
+
+
+def test_the_curve_rises_and_keeps_to_its_levels(data):
+    assert data.rolling_level.values.tolist() == LEVELS[: data.sizes["point"]]
+    assert (data.rolling_ratio.values <= data.rolling_level.values * (1.0 + 1e-6)).all()
+    assert (np.diff(data.gain_optimum.values) > -1e-4).all()
+    # a design gives away 0.1 % to stay near today's compound
+    assert (data.gain_optimum.values - data.gain_searched.values < 4e-3).all()
+    assert (data.gap.values < 4e-3).all()
+    assert ((data.gain_low < data.gain) & (data.gain < data.gain_high)).all()
+    for at in range(data.sizes["point"]):
+        rubber, today = (
+            designed_rubber(data, at),
+            gs.Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
+        )
+        omega = 2.0 * np.pi * 10.0
+        ratio = float(rubber.loss_factor(omega) / today.loss_factor(omega))
+        assert ratio == pytest.approx(float(data.rolling_ratio[at]), rel=1e-9)
+        stiff = float(rubber.complex_modulus(omega).real / today.complex_modulus(omega).real)
+        assert stiff == pytest.approx(float(data.limited_ratio[at, 0]), rel=1e-9)
+        assert 0.9 - 1e-6 < stiff < 1.1 + 1e-6
+
+
+def test_a_compound_has_no_gain_over_itself(case):
+    friction = design_problem(read_case(case)).friction
+    same = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
+    result = gain(friction, same, same)
+    assert (result.log_ratio, result.sampling, result.grid) == (0.0, 0.0, 0.0)
+    assert result.interval == (0.0, 0.0)
+
+
+def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
+    """Less than those of both frictions, of which most cancels, and that of one against none."""
+    friction = design_problem(read_case(case)).friction
+    ratio = np.linspace(1.3, 0.8, 1 + friction.rubber.moduli.size)
+    before = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
+    after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05, warm=False)
+    piece = 2.0 * friction.parts[0].largest_wavelength
+    each = [sampling_error(contacts[0], piece).friction for contacts in (before, after)]
+    whole = error_of_residuals(friction_residuals(before[0], piece))
+    assert whole == pytest.approx(each[0], rel=1e-12)
+    result = gain(friction, before, after)
+    assert 0.0 < result.sampling < 0.5 * np.hypot(*each)
+    low, high = result.interval
+    assert low < np.expm1(result.log_ratio) < high
+
+
+def test_stored_points_are_not_solved_again(case, data, monkeypatch):
+    def refuse(*_):
+        raise AssertionError("solved again")
+
+    monkeypatch.setattr(compound_design, "best_change", refuse)
+    again = design_compound(case, case.parent / "stored", levels=LEVELS)
+    np.testing.assert_array_equal(again.modulus_ratio.values, data.modulus_ratio.values)
+    np.testing.assert_array_equal(again.gain.values, data.gain.values)
+    wider = CompoundLimits(largest_factor=3.0)
+    with pytest.raises(AssertionError, match="solved again"):
+        design_compound(case, case.parent / "stored", levels=LEVELS, limits=wider)
+
+
+def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
+    """A search that ends lower at a looser level makes no point: the one below is admissible."""
+    nearest = compound_design.nearest_design
+
+    def worse(friction, admissible, optimum):
+        design = nearest(friction, admissible, optimum)
+        if admissible.points[-1].high < 1.0:
+            return design
+        return replace(design, ratio=0.9 + 0.1 * design.ratio)
+
+    monkeypatch.setattr(compound_design, "nearest_design", worse)
+    worst = design_compound(case, tmp_path, levels=LEVELS)
+    assert worst.rolling_level.values.tolist() == [0.8]
+    assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
+    lines = list(design_lines(worst))
+    assert "with rolling resistance -20 %" in lines[0]
+    assert "still with friction" not in lines[0]  # the only point is not said twice
+    assert "more rolling resistance than -20 % gives no more friction" in lines[1]
+    monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
+    again = design_compound(case, tmp_path, levels=LEVELS)
+    np.testing.assert_array_equal(again.gain.values, worst.gain.values)
+
+
+def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_path, shell):
+    """The rolling resistance is taken where the sweeps end, and the answer says so."""
+    rows = ["Temperature [C],Frequency [Hz],E' [MPa],E'' [MPa]"]
+    for celsius in (10, 20, 30, 40):
+        body = SHIFTED_RUBBER.at(273.15 + celsius)
+        frequency = np.geomspace(0.01, 100.0, 15)
+        moduli = body.complex_modulus(2.0 * np.pi * frequency) / 1e6
+        rows += [
+            f"{celsius},{hertz:.5g},{modulus.real:.6g},{modulus.imag:.6g}"
+            for hertz, modulus in zip(frequency, moduli, strict=True)
+        ]
+    (tmp_path / "sweeps.csv").write_text("\n".join(rows), encoding="utf-8")
+    text = CASE.replace("dma.txt", "sweeps.csv").replace("road.txt", str(case.parent / "road.txt"))
+    text = text.replace("[load]", 'reference_temperature = "20 C"\n[load]')
+    (tmp_path / "case.toml").write_text(text, encoding="utf-8")
+    result = shell("design", tmp_path / "case.toml", "--levels", "1", "--output", tmp_path / "out")
+    assert result.exit_code == 0, result.output
+    written = " ".join((tmp_path / "out" / "design.txt").read_text(encoding="utf-8").split())
+    assert "tan δ at 10 Hz and 40 °C (the shift ends there, not at 60 °C)" in written
+    assert "tan δ wet: at 10 Hz and 10 °C (the shift ends there, not at 0 °C)" in written
+
+    short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
+    others = {"short": replace(SHIFTED_RUBBER, shift=short)}
+    data = design_compound(tmp_path / "case.toml", tmp_path, levels=[1.0], rubbers=others)
+    assert np.isfinite(data.compound_gain).all()
+    assert np.isnan(data.compound_rolling_ratio).all()
+    assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
+
+
+@pytest.mark.parametrize("which", [0, 1, 2], ids=["factor", "per decade", "E'"])
+def test_wider_limits_are_worth_what_is_said(case, data, tmp_path, which):
+    """First order against an optimum with a tenth more room."""
+    point = data.isel(point=LEVELS.index(1.0))
+    factor, per_decade, stiff = 2.0, 2.0, PointLimit("storage_modulus", 0.9, 1.1)
+    wider = [
+        CompoundLimits(1.1 * factor, per_decade),
+        CompoundLimits(factor, 1.1 * per_decade),
+        CompoundLimits(factor, per_decade, (replace(stiff, low=0.9 / 1.1, high=1.21),)),
+    ][which]
+    more = design_compound(case, tmp_path, levels=[1.0], limits=wider)
+    gained = np.log1p(float(more.gain_optimum[0])) - np.log1p(float(point.gain_optimum))
+    # second order in a tenth; the contacts of the search start elsewhere
+    assert float(point.limit_worth[which]) == pytest.approx(gained, rel=0.2, abs=1e-3)
+    assert point.limit_worth[2] > 0.02
+
+
+def test_todays_friction_between_two_points(data):
+    """By hand: from -10 to +20 % between 0.6 and 0.9 today's friction is at 0.7."""
+    made = data.isel(point=slice(0, 2)).assign(
+        rolling_ratio=("point", [0.6, 0.9]), gain=("point", [-0.1, 0.2])
+    )
+    assert rolling_at_todays_friction(made) == pytest.approx(0.7)
+    assert np.isnan(rolling_at_todays_friction(made.assign(gain=("point", [0.1, 0.2]))))
+
+
+def test_answer_first_and_the_limits_named(data):
+    lines = list(design_lines(data))
+    assert lines[0].startswith("Answer: friction +")
+    assert lines[0].endswith("the limits decide")
+    assert any("moduli are at the largest factor (2)" in line for line in lines)
+    assert any(
+        "a limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines
+    )
+
+
+def test_the_figure_draws_the_answer_and_no_near_copy_of_it(data):
+    made = data.isel(point=[0, 1, 1]).assign(rolling_ratio=("point", [0.8, 1.0, 1.015]))
+    labels = {text.get_text() for text in design_figure(made).legends[0].get_texts()}
+    assert {"same rolling resistance", "rolling resistance -20 %"} < labels
+    assert "rolling resistance +1 %" not in labels
+    apart = made.assign(rolling_ratio=("point", [0.8, 1.0, 1.15]))
+    labels = {text.get_text() for text in design_figure(apart).legends[0].get_texts()}
+    assert "rolling resistance +15 %" in labels
+
+
+def test_frequencies_on_the_figure_keep_apart(data):
+    wide = data.assign_coords(frequency=np.geomspace(0.01, 2e6, data.sizes["frequency"]))
+    figure = design_figure(wide)
+    png(figure)
+    for axes in figure.axes[1:]:
+        low, high = axes.get_xlim()
+        places = [at for at in axes.get_xticks() if low <= at <= high]
+        boxes = [
+            label.get_window_extent()
+            for label, at in zip(axes.get_xticklabels(), axes.get_xticks(), strict=True)
+            if at in places
+        ]
+        assert len(boxes) > 2
+        assert all(a.x1 + 4.0 < b.x0 for a, b in pairwise(boxes))
+
+
+def test_no_level_within_the_limits_is_refused(case, tmp_path):
+    with pytest.raises(InputError, match="levels must include one above"):
+        design_compound(case, tmp_path, levels=[0.01])
+    stiff = CompoundLimits(points=[PointLimit("storage_modulus", 3.0, 4.0)])
+    with pytest.raises(InputError, match="limits must leave an admissible change"):
+        design_compound(case, tmp_path, limits=stiff)
+
+
+def test_limits_that_today_does_not_keep(case, tmp_path):
+    """A stiffer rubber is asked for: the search starts outside and ends inside."""
+    stiff = CompoundLimits(points=[PointLimit("storage_modulus", 1.2, 1.5)])
+    data = design_compound(case, tmp_path, levels=[1.0], limits=stiff)
+    assert float(data.limited_ratio[0, 0]) == pytest.approx(1.2, abs=1e-4)
+
+
+def test_a_goal_on_another_road(case, tmp_path):
+    """Each road counts with its weight, and has a friction of its own."""
+    other = self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=1e-4, seed=2)
+    write_road(tmp_path / "smooth.txt", other)
+    smooth = str(tmp_path / "smooth.txt")
+    goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road=smooth)]
+    free = CompoundLimits(points=[])
+    data = design_compound(case, tmp_path, goals=goals, levels=[1.0], limits=free)
+    assert data.sizes["limit"] == 0
+    rough, mild = data.today_friction.values
+    assert mild < 0.8 * rough
+    ratios = np.log(data.friction.values[0] / data.today_friction.values)
+    mean = float(np.array([0.75, 0.25]) @ ratios)
+    assert float(data.gain[0]) == pytest.approx(np.expm1(mean), rel=1e-9)
+    assert len(list(design_lines(data))) > 5
+
+
+def test_goals_and_limits_as_text():
+    default = CompoundGoal(0.3, 3e5)
+    goal = parse_goal("speed=3 mm/s, weight=2, temperature=0 C", default)
+    assert goal == CompoundGoal(3e-3, 3e5, 273.15, 2.0)
+    limit = parse_limit("loss_factor, 10 Hz, 0 C, 1:2")
+    assert (limit.quantity, limit.frequency, limit.temperature) == ("loss_factor", 10.0, 273.15)
+    assert (limit.low, limit.high) == (1.0, 2.0)
+    assert parse_limit("storage_modulus,1 Hz,0.9:inf").temperature is None
+    assert parse_levels("0.8,1") == [0.8, 1.0]
+    for wrong in ("colour=red", "speed", "speed=fast"):
+        with pytest.raises(InputError, match="goal"):
+            parse_goal(wrong, default)
+    for wrong in ("loss_factor, 10 Hz", "stiffness, 10 Hz, 0.9:1.1", "loss_factor, ten, 1:2"):
+        with pytest.raises(InputError, match="limit"):
+            parse_limit(wrong)
+    with pytest.raises(InputError, match="low must be below high"):
+        parse_limit("loss_factor, 10 Hz, 2:1")
+    with pytest.raises(InputError, match="levels must be"):
+        parse_levels("0.8,much")
+
+
+def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Path) -> None:
+    arguments = ["design", case, "--output", tmp_path, "--levels", "0.8,1,1.2"]
+    result = shell(*arguments, "--rubber", "styrene_butadiene", "--goal", "speed=0.1 m/s")
+    assert result.exit_code == 0, result.output
+    text = (tmp_path / "design.txt").read_text(encoding="utf-8")
+    assert (tmp_path / "summary.xlsx").is_file()
+    assert text.startswith("Answer: ")
+    assert "styrene_butadiene" in text
+    assert (tmp_path / "design.png").stat().st_size > 10_000
+    stored = netcdf.load(tmp_path / "design.nc")
+    point = int(np.abs(stored.rolling_ratio.values - 1.0).argmin())
+    name = designed_rubber(stored, point).name
+    curve = gs.read_master_curve(tmp_path / f"{name}.csv", modulus="E")
+    np.testing.assert_allclose(curve.storage, stored.storage.values[point], rtol=1e-12)
+    rubber = gs.Rubber.from_dict(json.loads((tmp_path / f"{name}.json").read_text()))
+    modulus = rubber.complex_modulus(2.0 * np.pi * stored.frequency.values)
+    np.testing.assert_allclose(modulus.imag, stored.loss.values[point], rtol=1e-9)
+    # the other compound's friction is that of its own direct contact
+    answer = DirectContact(tolerance=0.05).predict(
+        gs.rubber.styrene_butadiene(), case_surface(read_case(case)), Load(3e5, 0.1, 0.1)
+    )
+    ratio = float(answer.friction_from_dissipation[0]) / float(stored.today_friction[0])
+    assert float(stored.compound_gain[0]) == pytest.approx(ratio - 1.0, rel=1e-6)

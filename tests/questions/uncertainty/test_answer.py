@@ -1,0 +1,224 @@
+"""The answer with errors of the inputs: the number of `run`, its interval widened by samples."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy import stats
+
+from gripscale.case_file import prepare_case
+from gripscale.questions import Uncertainty, propagate
+from gripscale.questions.compare.comparison import reference
+from gripscale.questions.uncertainty.page import answer_parts, part_tables
+from gripscale.questions.uncertainty.sampled_answer import REST, RUN, sampled_error
+from gripscale.questions.uncertainty.sources import SOURCES
+from tests.samples import THREE_WAVES, case_text
+
+QUANTITIES = ("friction", "contact_fraction")
+
+
+def only(*sources: str, **ranges: object) -> Uncertainty:
+    """Return an uncertainty of these sources and no others."""
+    kept = {*sources, *ranges}
+    return Uncertainty([name for name in SOURCES if name not in kept], ranges)
+
+
+@pytest.fixture(scope="module")
+def of_run(folder: Path) -> xr.Dataset:
+    """Return the answer of `gripscale run`."""
+    data = reference(prepare_case(folder / "case.toml"))
+    assert data is not None
+    return data
+
+
+def sigma(data: xr.Dataset, name: str, label: str) -> float:
+    """Return the standard error of one part of the interval."""
+    return float(data[f"best_{name}_part_error"][data.part_label.values.tolist().index(label)])
+
+
+@pytest.fixture(scope="module")
+def certain(folder: Path) -> xr.Dataset:
+    """Return an uncertainty whose one source has one value, that of the case."""
+    return propagate(folder / "case.toml", only(bulk_modulus="2 GPa"), samples=10)
+
+
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
+    certain: xr.Dataset, of_run: xr.Dataset, name: str
+) -> None:
+    """The same contact is solved for both, so that only rounding is between them."""
+    for end in ("", "_half_width", "_uncertainty", "_sampling_error"):
+        mine, theirs = (float(data[f"best_{name}{end}"]) for data in (certain, of_run))
+        assert math.isfinite(mine)
+        assert mine == pytest.approx(theirs, rel=1e-9)
+    assert float(certain[f"best_{name}_{RUN}"]) == pytest.approx(
+        float(of_run[f"best_{name}_half_width"]), rel=1e-12
+    )
+
+
+def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> None:
+    """With what it rests on, which comes from the waves and not from the measurement."""
+    choice = only(bulk_modulus="2 GPa")
+    data = propagate(folder / "case.toml", choice, samples=10, client="processes", workers=2)
+    assert float(certain.best_steep_share) >= 0.0
+    for name in map(str, certain.data_vars):
+        if name.startswith("best_"):
+            np.testing.assert_array_equal(data[name].values, certain[name].values, name)
+
+
+@pytest.fixture(scope="module")
+def blocks(folder: Path) -> xr.Dataset:
+    """Return an uncertainty of the stretch of road alone."""
+    return propagate(folder / "case.toml", only("profile"), samples=40)
+
+
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_the_sampling_of_the_road_counts_once(
+    blocks: xr.Dataset, of_run: xr.Dataset, name: str
+) -> None:
+    """Drawn blocks take the place of the error from pieces.
+
+    Both estimate one standard error, from 8 blocks and 10 pieces of this road: to 27 and 24 %, so
+    that 2.5 is two and a half standard deviations of their ratio. All other parts are those of
+    `run` to rounding: the error from pieces is not among them.
+    """
+    parts = blocks[f"best_{name}_part_error"].values
+    assert float(blocks[f"best_{name}_uncertainty"]) == pytest.approx(math.hypot(*parts))
+    drawn = math.hypot(*(sigma(blocks, name, label) for label in drawn_labels(blocks)))
+    others = math.hypot(*parts[len(drawn_labels(blocks)) :])
+    from_pieces = float(of_run[f"best_{name}_sampling_error"])
+    of_others = math.sqrt(float(of_run[f"best_{name}_uncertainty"]) ** 2 - from_pieces**2)
+    assert others == pytest.approx(of_others, rel=1e-9)
+    assert from_pieces / 2.5 < drawn < 2.5 * from_pieces
+
+
+def drawn_labels(data: xr.Dataset) -> list[str]:
+    """Return the parts that come from samples: the first, up to the grid."""
+    labels = data.part_label.values.tolist()
+    return labels[: labels.index("grid of the answer")]
+
+
+def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: xr.Dataset) -> None:
+    """A cut-off known to an octave about the case: the mean square of ln y about the case."""
+    data = propagate(folder / "case.toml", only("cut_off"), samples=20)
+    friction = data.friction_from_dissipation.values[0]
+    case = float(data.friction_from_dissipation_case[0])
+    square = float(np.mean(np.log(friction / case) ** 2))
+    assert square > 1e-4
+    before, after = (float(d.best_friction_uncertainty) ** 2 for d in (certain, data))
+    assert after - before == pytest.approx(square, rel=1e-6)
+    assert sigma(data, "friction", "cut-off of the roughness") ** 2 == pytest.approx(
+        square, rel=0.1
+    ), "a smooth effect of one number: the fit explains nearly all of it"
+    sentences = " ".join(map(str, answer_parts(data)))
+    assert "Answer: μ = " in sentences
+    assert "`gripscale run`, without them: μ" in sentences
+    (table,) = part_tables(data)
+    assert "cut-off of the roughness" in table.columns[0].texts()
+
+
+def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
+    folder: Path, certain: xr.Dataset
+) -> None:
+    data = propagate(folder / "case.toml", only("grid"), samples=20)
+    error = data.friction_grid_error.values[0]
+    assert np.ptp(error) == pytest.approx(0.0, abs=1e-12), "one contact, solved once"
+    solved = float(data.friction_case[0])
+    np.testing.assert_allclose(
+        data.friction.values[0], solved * np.exp(error * data.grid_place.values)
+    )
+    low, high = np.log(data.friction_quantile.values[0, [0, -1]] / solved)
+    # 5 and 95 % of what is spread evenly from -1 to 1 are 0.9; twenty samples lie a twentieth apart
+    assert low == pytest.approx(-0.9 * error[0], abs=0.1 * error[0])
+    assert high == pytest.approx(0.9 * error[0], abs=0.1 * error[0])
+    for name in QUANTITIES:
+        width = float(data[f"best_{name}_half_width"])
+        assert width == pytest.approx(float(certain[f"best_{name}_half_width"]), rel=1e-9)
+        assert sigma(data, name, "grid of the answer") > 0.0
+
+
+def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
+    data = propagate(folder / "case.toml", only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]})
+    assert data.best_friction.dims == ("speed",)
+    single = propagate(folder / "case.toml", only("cut_off"), samples=10)
+    for name in ("best_friction", "best_contact_fraction_half_width"):
+        assert float(data[name].sel(speed=0.3)) == pytest.approx(float(single[name]))
+    first = next(iter(answer_parts(data)))
+    assert not isinstance(first, str)
+    assert first.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
+
+
+def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
+    folder: Path, of_run: xr.Dataset
+) -> None:
+    data = propagate(folder / "case.toml", only("cut_off"), samples=10, models=["chain"])
+    for name in QUANTITIES:
+        width = float(of_run[f"best_{name}_half_width"])
+        assert float(data[f"best_{name}_half_width"]) == pytest.approx(width, rel=1e-9)
+    assert "the direct contact was not sampled" in " ".join(map(str, answer_parts(data)))
+
+
+def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(
+        case_text("", solver='model = "half_plane"').replace("[surface]\n\n", THREE_WAVES)
+    )
+    data = propagate(case, samples=12)
+    assert data.model.values.tolist() == ["chain"]
+    assert float(data.best_friction) == float(data.friction_from_dissipation_case[0])
+    logs = np.log(data.friction_from_dissipation.values[0] / float(data.best_friction))
+    spread = math.sqrt(float(np.mean(logs**2)))
+    assert float(data.best_friction_half_width) == pytest.approx(
+        math.sinh(stats.t.ppf(0.95, 11) * spread)
+    )
+    text = " ".join(map(str, answer_parts(data)))
+    assert "from the chain of waves" in text
+    assert "no measured surface judges it" in text
+
+
+def test_parts_add_up_and_have_their_freedom() -> None:
+    """ln y = a + 2 b about a case that lies off the mean; `a` was drawn from few blocks."""
+    random = np.random.default_rng(3)
+    a, b = 0.1 * random.standard_normal((2, 400))
+    values = np.exp(a - a.mean() + 2.0 * (b - b.mean()) + 0.3)
+    drawn = {"profile": a[:, None], "other": b[:, None]}
+    error = sampled_error(values, 1.0, drawn, {"profile": 7.0})
+    total = float(np.mean(np.log(values) ** 2))
+    assert sum(error.variance.values()) == pytest.approx(total)
+    # standard errors of variances of 400 draws are 7 %
+    assert error.variance["profile"] == pytest.approx(0.01, rel=0.2)
+    assert error.variance["other"] == pytest.approx(0.04, rel=0.2)
+    # 0.3^2, and twice the covariance of the draws by chance: 0.002
+    assert error.variance[REST] == pytest.approx(0.3**2, abs=0.005)
+    squares = {float(e.freedom): float(e.sigma) ** 2 for e in error.errors}
+    assert squares[7.0] == pytest.approx(error.variance["profile"] + error.variance[REST])
+    assert squares[399.0] == pytest.approx(error.variance["other"])
+
+
+def test_derivatives_stand_beside_samples(folder: Path) -> None:
+    """A cut-off within a few per cent is a small change: both give the same error."""
+    ends = "0.98 mm:1.02 mm"
+    data = propagate(folder / "case.toml", only(cut_off=ends), samples=40)
+    label = SOURCES["cut_off"].label
+    carried = float(data.friction_first_order.sel(source="cut_off"))
+    assert carried > 0.0
+    (table,) = part_tables(data)
+    column = next(each for each in table.columns if each.name == "friction_first_order")
+    assert carried in column.values
+    # where they differ by more than a third, the table says so
+    assert not any("not linear" in note for note in with_errors(data, label, 1.2 * carried))
+    assert any("not linear" in note for note in with_errors(data, label, 1.5 * carried))
+
+
+def with_errors(data: xr.Dataset, label: str, sampled: float) -> list[str]:
+    """Return the notes of the parts where the samples gave a source this error."""
+    errors = data.best_friction_part_error.copy()
+    errors[data.part_label.values.tolist().index(label)] = sampled
+    changed = data.assign(best_friction_part_error=errors)
+    changed["best_friction_uncertainty"] = 1.1 * sampled
+    (table,) = part_tables(changed)
+    return list(table.notes)

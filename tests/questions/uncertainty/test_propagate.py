@@ -1,0 +1,261 @@
+"""Samples to quantiles: resumed, failures said, the same samples at each speed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from gripscale.cli import app
+from gripscale.core.errors import InputError
+from gripscale.core.units import display_unit_of
+from gripscale.io import netcdf
+from gripscale.questions import Uncertainty, propagate, summary
+from gripscale.questions.uncertainty.page import failures, page_notices, too_many_failed
+from gripscale.report import write_report
+
+QUICK = Uncertainty(without=["waves"])
+
+
+def counted(told):
+    """Return what counts the tasks solved and found."""
+
+    def count(progress):
+        told[progress.stored] = told.get(progress.stored, 0) + 1
+
+    return count
+
+
+@pytest.fixture(scope="module")
+def run(folder, tmp_path_factory):
+    """Twelve samples of the chain, and where they are."""
+    target = tmp_path_factory.mktemp("run")
+    told: dict[bool, int] = {}
+    data = propagate(
+        folder / "case.toml",
+        QUICK,
+        samples=12,
+        models=["chain"],
+        folder=target,
+        on_task=counted(told),
+        workers=2,
+    )
+    return data, target, told
+
+
+ANSWERED = 14
+"""Tasks of `run`: twelve samples, the case, and the direct contact of the one profile."""
+
+
+def test_quantiles_are_those_of_the_samples(run):
+    data, _, told = run
+    assert told == {False: ANSWERED}
+    assert int(data.failed.sum()) == 0
+    friction = data.friction.values[0]
+    assert np.unique(friction).size == 12
+    expected = np.quantile(friction, data["quantile"].values, method="median_unbiased")
+    np.testing.assert_allclose(data.friction_quantile.values[0], expected)
+    assert data.cut_off.dims == ("sample",)
+    assert data.cut_off.attrs["units"] == "m"
+    assert display_unit_of(data.attrs, "pressure").unit == "bar"
+    assert "display_units" in data.attrs
+
+
+def test_a_second_run_solves_nothing(folder, run):
+    data, target, _ = run
+    told: dict[bool, int] = {}
+    again = propagate(
+        folder / "case.toml",
+        QUICK,
+        samples=12,
+        models=["chain"],
+        folder=target,
+        on_task=counted(told),
+    )
+    assert told == {}
+    np.testing.assert_array_equal(again.friction, data.friction)
+
+
+def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
+    data, target, _ = run
+    for path in (target / "predictions").iterdir():
+        (tmp_path / "predictions").mkdir(exist_ok=True)
+        (tmp_path / "predictions" / path.name).write_bytes(path.read_bytes())
+    sorted((tmp_path / "predictions").iterdir())[3].unlink()
+    told: dict[bool, int] = {}
+    again = propagate(
+        folder / "case.toml",
+        QUICK,
+        samples=12,
+        models=["chain"],
+        folder=tmp_path,
+        on_task=counted(told),
+    )
+    assert told == {True: ANSWERED - 1, False: 1}
+    np.testing.assert_array_equal(again.friction, data.friction)
+
+
+def test_the_summary_quotes_the_interval(run):
+    data, *_ = run
+    low, middle, high = (f"{v:#.2g}" for v in data.friction_quantile.values[0][[0, 2, 4]])
+    assert f"mu = {middle} ({low} to {high})" in summary(data)
+    assert summary(data).endswith("in 90 % of 12 samples")
+
+
+@pytest.fixture(scope="module")
+def half_failing(folder, tmp_path_factory):
+    """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
+    target = tmp_path_factory.mktemp("half")
+    choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
+    data = propagate(folder / "case.toml", choice, samples=10, models=["chain"], folder=target)
+    return data, target
+
+
+def test_failures_are_counted_and_said(half_failing):
+    data, _ = half_failing
+    assert int(data.failed.sum()) == 5
+    assert np.isfinite(data.friction.values).sum() == 5
+    assert summary(data).endswith("in 90 % of 5 of 10 samples, 5 failed")
+    assert str(failures(data)).startswith(
+        "5 of 10 samples have no answer and count in no quantile; 5"
+    )
+    assert np.isfinite(data.friction_quantile).all()
+    assert too_many_failed(data)
+    (notice,) = page_notices(data)
+    assert notice.level == "error"
+
+
+def test_few_failures_are_a_warning(half_failing):
+    """Up to a quarter of the samples of a model: the others stand for all."""
+    data, _ = half_failing
+    few = data.assign(failed=0 * data.failed + 2)
+    assert not too_many_failed(few)
+    (notice,) = page_notices(few)
+    assert notice.level == "warning"
+    assert too_many_failed(data.assign(failed=0 * data.failed + 3))
+
+
+def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
+    """A rubber left with 1 Pa cannot carry 3 bar once loaded for long: the chain refuses it."""
+    case = tmp_path / "case.toml"
+    for name in ("road.txt", "dma.txt"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    text = (folder / "case.toml").read_text()
+    case.write_text(text.replace("static = false", 'static = false\nload_time = "infinite"'))
+    choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
+    data = propagate(case, choice, samples=10, models=["chain"])
+    assert int(data.failed.sum()) == 5
+    assert "equilibrium_modulus [Pa] must be" in str(failures(data))
+    assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
+
+
+@pytest.fixture(scope="module")
+def over_speed(folder, tmp_path_factory):
+    """The samples of `run` at two speeds, and where they are."""
+    target = tmp_path_factory.mktemp("over_speed")
+    speeds = {"speed": [0.1, 0.3]}
+    data = propagate(
+        folder / "case.toml", QUICK, samples=12, models=["chain"], vary=speeds, folder=target
+    )
+    return data, target
+
+
+def test_the_same_samples_at_each_speed(run, over_speed):
+    data, _ = over_speed
+    assert data.friction.dims == ("model", "speed", "sample")
+    np.testing.assert_allclose(data.friction.sel(speed=0.3).values, run[0].friction.values)
+    assert np.corrcoef(data.friction.values[0])[0, 1] > 0.8
+
+
+def test_both_models_have_the_same_draws(folder):
+    choice = Uncertainty(without=["waves", "load_time", "cleaning"])
+    data = propagate(folder / "case.toml", choice, samples=10, models=["chain", "direct"])
+    assert list(data.model.values) == ["chain", "direct"]
+    assert int(data.failed.sum()) == 0
+    assert data.sizes["sample"] == 10
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"samples": 5}, "samples"),
+        ({"models": ["persson"]}, "model"),
+        ({"models": []}, "models"),
+        ({"vary": {"waves": "5,6"}}, "varies one of speed, pressure"),
+        ({"tolerance": 0.0}, "tolerance"),
+    ],
+)
+def test_what_cannot_be_asked_for(folder, wrong, said):
+    with pytest.raises(InputError, match=said):
+        propagate(folder / "case.toml", QUICK, **wrong)
+
+
+def called(*arguments):
+    outcome = CliRunner().invoke(app, ["uncertainty", *map(str, arguments)], env={"COLUMNS": "100"})
+    return outcome.exit_code, outcome.output
+
+
+ENOUGH = 21
+"""Samples for the shares of the three sources that are two terms each."""
+
+
+def test_the_command_writes_result_table_and_figures(folder, tmp_path):
+    case = folder / "case.toml"
+    left_out = ("waves", "cleaning", "profile", "modulus")
+    without = [word for name in left_out for word in ("--without", name)]
+    options = [
+        "--samples",
+        ENOUGH,
+        "--model",
+        "chain",
+        *without,
+        "--output",
+        tmp_path,
+        "--workers",
+        2,
+    ]
+    code, output = called(case, *options)
+    assert code == 0, output
+    assert "What matters most (chain)" in output
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == {
+        f"{name}.png" for name in ("answer", "distributions", "tornado_chain")
+    }
+    assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
+    text = (tmp_path / "uncertainty.txt").read_text()
+    assert (tmp_path / "summary.xlsx").is_file()
+    assert "Quantiles of the samples, without the factors of the answer" in text
+    page = write_report(tmp_path).read_text()
+    assert "Quantiles of the samples, without the factors of the answer" in page
+    assert page.count("<img ") == 3
+
+
+def test_the_command_draws_a_band_over_speed(folder, over_speed):
+    _, target = over_speed
+    options = ["--samples", 12, "--model", "chain", "--without", "waves", "--vary", "speed=0.1,0.3"]
+    code, output = called(folder / "case.toml", *options, "--output", target)
+    assert code == 0, output
+    assert (target / "figures" / "over_speed.png").is_file()
+
+
+def test_the_command_ends_with_3_where_samples_failed(folder, half_failing):
+    _, target = half_failing
+    options = ["--samples", 10, "--model", "chain", "--without", "waves"]
+    options += ["--range", "cut_off=1 mm,1000 m"]
+    code, output = called(folder / "case.toml", *options, "--output", target)
+    assert code == 3
+    assert "5 of 10 samples have no answer" in output
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--range", "cut_off"], "range must be such as"),
+        (["--model", "all"], "model must be one of"),
+        (["--without", "weather"], "unknown source weather"),
+        (["--range", "bulk_modulus=1 mm:2 mm"], "bulk_modulus"),
+    ],
+)
+def test_the_command_refuses_in_a_sentence(folder, tmp_path, options, said):
+    code, output = called(folder / "case.toml", *options, "--output", tmp_path)
+    assert code == 2
+    assert said in " ".join(output.split())

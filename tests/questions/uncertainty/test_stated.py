@@ -1,0 +1,133 @@
+"""What a case states of its uncertainty: read, listed, and overridden by whoever asks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from gripscale.case_file import read_case
+from gripscale.case_file.tables import RangesTable, SourceName
+from gripscale.cli import app
+from gripscale.core.errors import InputError
+from gripscale.io import netcdf
+from gripscale.questions import Uncertainty, propagate
+from gripscale.questions.uncertainty.sources import SOURCES
+
+STATED = """
+[uncertainty]
+samples = 12
+seed = 3
+model = "chain"
+without = ["waves", "modulus"]
+block_length = "60 mm"
+[uncertainty.ranges]
+cut_off = ["0.9 mm", "1.2 mm"]
+load_time = [0.5, 1, 2]
+"""
+
+
+@pytest.fixture
+def case(folder: Path, tmp_path: Path):
+    """Write the small case with more tables."""
+
+    def write(also: str) -> Path:
+        for name in ("road.txt", "dma.txt"):
+            (tmp_path / name).write_bytes((folder / name).read_bytes())
+        path = tmp_path / "case.toml"
+        path.write_text((folder / "case.toml").read_text() + also)
+        return path
+
+    return write
+
+
+def test_the_case_knows_the_sources_there_are() -> None:
+    assert get_args(SourceName) == tuple(SOURCES)
+    assert set(RangesTable.model_fields) == set(SOURCES) - {"profile", "modulus", "grid"}
+
+
+def test_a_case_states_all_of_it(case) -> None:
+    table = read_case(case(STATED)).case.uncertainty
+    assert (table.samples, table.seed, table.block_length) == (12, 3, 0.06)
+    choice = Uncertainty.of_case(table)
+    assert (choice.without, choice.block_length) == (("waves", "modulus"), 0.06)
+    assert choice.ranges["cut_off"] == pytest.approx([9e-4, 1.2e-3])
+    assert choice.ranges["load_time"] == [0.5, 1.0, 2.0]
+
+
+def test_a_case_states_standard_errors(case) -> None:
+    stated = 'ranges = { temperature = "2 K", pressure = "0.1 bar", height_noise = "5 um" }'
+    choice = Uncertainty.of_case(read_case(case(f"[uncertainty]\n{stated}\n")).case.uncertainty)
+    assert choice.ranges.pop("height_noise") == pytest.approx(5e-6)
+    assert choice.ranges == {"temperature": 2.0, "pressure": "0.1 bar"}
+
+
+def test_a_standard_error_reaches_both_models(folder) -> None:
+    """Contact grows nearly in proportion to the load, of waves and of the whole profile."""
+    others = [name for name in SOURCES if name != "pressure"]
+    choice = Uncertainty(others, {"pressure": "10 %"})
+    data = propagate(folder / "case.toml", choice, samples=10, models=["chain", "direct"])
+    for model in data.model.values:
+        part = data.sel(model=model)
+        logs = np.log(part.contact_fraction / part.contact_fraction_case)
+        assert 0.7 < np.polyfit(data.log_pressure, logs, 1)[0] < 1.2, model
+
+
+def test_who_asks_goes_before_the_case(case) -> None:
+    table = read_case(case(STATED)).case.uncertainty
+    given = {"cut_off": "1 mm", "waves": "4,5"}
+    changed = Uncertainty.of_case(table, ranges=given, block_length=0.08)
+    assert changed.without == ("modulus",)
+    assert changed.ranges == {"load_time": [0.5, 1.0, 2.0], **given}
+    assert changed.block_length == 0.08
+    left = Uncertainty.of_case(table, without=["cut_off"])
+    assert left.without == ("cut_off",)
+    assert set(left.ranges) == {"load_time"}
+    with pytest.raises(InputError, match="cut_off must be left out or given; got both"):
+        Uncertainty.of_case(table, without=["cut_off"], ranges={"cut_off": "1 mm"})
+
+
+def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, folder) -> None:
+    choice = Uncertainty(
+        ["waves", "modulus"], {"cut_off": "0.9 mm:1.2 mm", "load_time": "0.5,1,2"}, 0.06
+    )
+    asked = propagate(folder / "case.toml", choice, samples=12, seed=3, models=["chain"])
+    stated = propagate(case(STATED))
+    assert stated.friction.values.tolist() == asked.friction.values.tolist()
+    assert (
+        propagate(case(STATED), seed=4).friction.values.tolist() != asked.friction.values.tolist()
+    )
+
+
+def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
+    options = ["--samples", "10", "--without", "waves", "--output", str(tmp_path / "out")]
+    outcome = CliRunner().invoke(app, ["uncertainty", str(case(STATED)), *options])
+    assert outcome.exit_code == 0, outcome.output
+    data = netcdf.load(tmp_path / "out" / "uncertainty.nc")
+    assert data.sizes["sample"] == 10
+    assert data.attrs["seed"] == 3
+    assert "modulus" in data.source.values
+    assert 9e-4 < float(data.cut_off.min()) < float(data.cut_off.max()) < 1.2e-3
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ("samples = 5", "samples"),
+        ('without = ["weather"]', "profile"),
+        ('ranges = { cut_off = ["2 mm", "1 mm"] }', "rising"),
+        ('ranges = { cut_off = "2 mm" }', "a list of two ends or of equally likely values"),
+        ("ranges = { load_time = [0, 1] }", "greater than zero"),
+        ("ranges = { profile = [1, 2] }", "profile"),
+        ('block_length = "0 mm"', "block_length"),
+        ('ranges = { temperature = "0 K" }', "greater than zero"),
+        ('ranges = { pressure = "much" }', 'a share such as "3 %", or a pressure'),
+        ('ranges = { height_noise = "3 %" }', "unknown unit"),
+    ],
+)
+def test_what_cannot_be_stated(case, wrong, said) -> None:
+    with pytest.raises(InputError, match=said):
+        read_case(case(f"[uncertainty]\n{wrong}\n"))
