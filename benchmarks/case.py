@@ -16,7 +16,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import name
 from benchmarks.table import show
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import ROOT
 
@@ -79,7 +79,7 @@ def _whole_command(console: Console) -> None:
 
 
 def _chains() -> list[Chain]:
-    case = prepare_case(CASE)
+    case = read_case(CASE)
     load = case.file.case.load
     chains = []
     for title, speed in case.planned():

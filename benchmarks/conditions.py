@@ -13,7 +13,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.rough_contact import road
 from benchmarks.table import show
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties, fixed_point
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
@@ -48,7 +48,7 @@ Solve = Callable[[Conditions | None], Any]
 
 def run(console: Console) -> None:
     """Print a table for the chain and one for the direct contact."""
-    case = prepare_case(CASE)
+    case = read_case(CASE)
     rubber = replace(case.rubber.rubber, shift=SHIFT)
     load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
     line = road(POINTS)

@@ -13,7 +13,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
@@ -33,7 +33,7 @@ def run(console: Console) -> None:
 
 @cache
 def _case() -> tuple[gs.Rubber, gs.SineStack, dict[str, object]]:
-    case = prepare_case(CASE)
+    case = read_case(CASE)
     load = case.file.case.load
     loads = {"pressure": load.pressure, "footprint": load.footprint}
     return case.rubber.rubber, case.surface.sines, loads

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.charts.write import draw
 from gripscale.conditions import GaussianStress
@@ -43,7 +43,7 @@ def measure(folder: str | Path) -> list[str]:
         for grid in np.meshgrid(np.geomspace(1e-4, 1.0, 8), [5.0, 20.0, 40.0], indexing="ij")
     )
     points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
-    case = prepare_case(CASE)
+    case = read_case(CASE)
     store = Store(Path(folder) / "predictions")
     found = predictions_at(points, case.chain, case.rubber.rubber, case.surface, case.load, store)
     exact = found.friction + found.area_term(TRUE, points.speed)

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import gripscale as gs
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.chain import Chain, Prediction, predict
 from gripscale.questions import Study
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine
@@ -43,7 +43,7 @@ class Warming:
 
 def main(folder: str = "results/examples") -> None:
     """Predict with and without it; then vary the speed in a study with it."""
-    case = prepare_case(CASE)
+    case = read_case(CASE)
     inputs = case.rubber.rubber, case.surface.sines
     load = {"pressure": 3e5, "speed": 3.0, "footprint": 0.1}  # [Pa], [m/s], [m]
     plain = predict(*inputs, **load, solver=COARSE)

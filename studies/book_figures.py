@@ -22,16 +22,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.charts import draw
 from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
 from gripscale.core.units import MEGA, MILLI
 from gripscale.questions import blocks_figure, case_sensitivity, effects, effects_figure
+from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.compare.comparison import reference
 from gripscale.questions.sensitivity.charts import sensitivity_figure
 from gripscale.theory import Persson
 from gripscale.theory.half_plane import HalfPlane
@@ -62,8 +62,8 @@ class Shipped:
     """The shipped case and its answers, each solved once."""
 
     def __init__(self) -> None:
-        self.case = prepare_case(CASE)
-        self.rubber, self.sines = self.case.rubber.rubber, self.case.surface.sines
+        self.case = read_case(CASE)
+        self.rubber, self.sines = self.case.rubber, self.case.surface.sines
         assert self.sines is not None
 
     @cached_property
@@ -74,15 +74,13 @@ class Shipped:
     @cached_property
     def direct(self) -> xr.Dataset:
         """The direct contact of the profiles, with the answer of `gripscale run`."""
-        data = reference(self.case)
-        assert data is not None
-        return data
+        return answer(self.case).data
 
     @cached_property
     def sensitivity(self) -> xr.Dataset:
         """The derivatives of the friction, and the errors that the inputs carry to it."""
         with tempfile.TemporaryDirectory() as folder:
-            return case_sensitivity(CASE, folder=folder).load()
+            return case_sensitivity(read_case(CASE), folder=folder).load()
 
     def wave(self, speed: float, pressure: float | None = None) -> gs.ScaleResult:
         """Solve the wave of the pictures under a pressure [Pa], that of the chain by default."""
@@ -244,13 +242,15 @@ def speeds(_: Shipped) -> Figure:
     """Draw the same at three speeds."""
     with tempfile.TemporaryDirectory() as folder:
         vary = {"speed": SENSITIVITY_SPEEDS}
-        return sensitivity_figure(case_sensitivity(CASE, folder=folder, vary=vary).load())
+        return sensitivity_figure(
+            case_sensitivity(read_case(CASE), folder=folder, vary=vary).load()
+        )
 
 
 def conditions(_: Shipped) -> Figure:
     """Draw what each effect of the conditions is worth in the chain."""
-    case = prepare_case(CONDITIONS)
-    return effects_figure(effects(case.chain, case.rubber.rubber, case.surface, case.load))
+    case = read_case(CONDITIONS)
+    return effects_figure(effects(case.chain, case.rubber, case.surface, case.load))
 
 
 def answers(shipped: Shipped) -> dict[str, xr.Dataset]:

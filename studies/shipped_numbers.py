@@ -14,10 +14,10 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.questions import compare_case
+from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.page import number_and_interval
-from gripscale.questions.compare.comparison import reference
 from gripscale.questions.compare.page import best_line
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -27,8 +27,7 @@ NUMBERS = ROOT / "docs" / "shipped_numbers.json"
 
 def of_run() -> dict[str, Any]:
     """Return what `gripscale run` answers."""
-    data = reference(prepare_case(CASE))
-    assert data is not None
+    data = answer(read_case(CASE)).data
     return {
         "run: friction": number_and_interval(data, "friction"),
         "run: contact area": number_and_interval(data, "contact_fraction"),
@@ -37,7 +36,7 @@ def of_run() -> dict[str, Any]:
 
 def of_comparison() -> dict[str, Any]:
     """Return what `gripscale compare` estimates, and what the chain has of it."""
-    data: xr.Dataset = compare_case(CASE).to_dataset()
+    data: xr.Dataset = compare_case(read_case(CASE)).to_dataset()
     return {"compare": best_line(data)}
 
 

@@ -6,6 +6,9 @@ from . import rubber as rubber
 from . import surface as surface
 from . import theory as theory
 from . import wave as wave
+from .case import BelowMeasurement as BelowMeasurement
+from .case import Case as Case
+from .case_file.prepare import read_case as read_case
 from .chain.chain import predict as predict
 from .chain.prediction import Prediction as Prediction
 from .chain.sensitivity import sensitivity as sensitivity
@@ -17,6 +20,10 @@ from .core.errors import InputError as InputError
 from .core.errors import RubberWarning as RubberWarning
 from .half_space.result import RoughContact as RoughContact
 from .half_space.solve import solve_rough_contact as solve_rough_contact
+from .questions.answer.answer import Answer as Answer
+from .questions.answer.answer import answer as answer
+from .questions.result import Result as Result
+from .questions.result import load as load
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber
 from .rubber import fit_prony as fit_prony

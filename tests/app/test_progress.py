@@ -12,8 +12,9 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.app.runs import Progress
-from gripscale.case_file.events import (
-    DirectContactSolved,
+from gripscale.cli import app
+from gripscale.questions.chain.events import (
+    AnswerSolved,
     EffectsSolved,
     Event,
     FileWritten,
@@ -25,7 +26,6 @@ from gripscale.case_file.events import (
     from_json,
     to_json,
 )
-from gripscale.cli import app
 
 
 def waves(last: int, name: str = "dynamic", *, of: int = 3, pass_number: int = 1) -> list[Event]:
@@ -58,7 +58,7 @@ def test_two_predictions_share_the_bar() -> None:
     assert steps[0].sentence == steps[1].sentence == "reading and fitting"
     assert steps[3].sentence == "prediction 1 of 2, wave 2 of 3"
     assert steps[-1].sentence == "all waves are solved; direct contact, effects and figures follow"
-    later = steps[-1].after(DirectContactSolved(True, 0.1, 0.2))
+    later = steps[-1].after(AnswerSolved(True, 0.1, 0.2))
     assert later.sentence == "the direct contact is solved; effects and figures follow"
     assert later.after(EffectsSolved(("heat",))).sentence.startswith("the effects are solved")
 
@@ -85,7 +85,7 @@ def test_passes_are_counted_and_nobody_knows_how_many_come() -> None:
 @pytest.mark.parametrize(
     "event",
     [RunStarted(BOTH, 3, True), *waves(1), end("static"), end("dynamic", 3), RunFinished(),
-     DirectContactSolved(True, 0.1, 0.2), EffectsSolved(("heat", "softening")),
+     AnswerSolved(True, 0.1, 0.2), EffectsSolved(("heat", "softening")),
      FileWritten("out/dynamic.nc"), RunFailed("wave 1 of 3 …", 3)],
     ids=lambda event: type(event).__name__,
 )  # fmt: skip
@@ -138,10 +138,10 @@ def test_a_run_reports_each_step_as_an_event(case: Path, tmp_path: Path) -> None
     ]
     assert all(event.status == "converged" and not event.stored for event in solved)
     files = {Path(event.path) for event in events if isinstance(event, FileWritten)}
-    names = ("dynamic.nc", "static.nc", "direct.nc", "report.txt", "summary.xlsx")
+    names = ("dynamic.nc", "static.nc", "answer.nc", "report.txt", "summary.xlsx")
     assert files == {tmp_path / "out" / name for name in names}
     assert all(path.is_file() for path in files)
-    assert any(isinstance(event, DirectContactSolved) for event in events)
+    assert any(isinstance(event, AnswerSolved) for event in events)
     assert "wave 3 of 3" in text
     again, _, _ = run_json(case, tmp_path / "out")
     assert all(event.stored for event in again if isinstance(event, WaveSolved))

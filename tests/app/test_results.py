@@ -11,7 +11,7 @@ import pytest
 
 from gripscale.app.elements import Cards, Folded, html, notice_elements
 from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
-from gripscale.case_file import read_case, run_case
+from gripscale.case_file import read_case_file, run_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.questions.compare.comparison import save_reference
@@ -39,7 +39,7 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     (place / "friction.csv").write_text(MEASURED)
     text = CASE.replace("../elsewhere/", "") + '[measured]\nfriction = "friction.csv"\n'
     (place / "case.toml").write_text(text)
-    results = run_case(read_case(place / "case.toml"), output=place / "out")
+    results = run_case(read_case_file(place / "case.toml"), output=place / "out")
     save_reference(results, place / "out")
     return place / "out"
 
@@ -129,6 +129,6 @@ def test_the_chain_is_judged_by_what_is_stored(ran: Path) -> None:
     assert len(judged) == 1
     assert "The chain has" in judged[0]
     assert not (ran / "report.txt").exists()
-    (ran / "direct.nc").rename(ran / "away")
+    (ran / "answer.nc").rename(ran / "away")
     assert not any("Direct contact of" in getattr(e, "text", "") for e in results_elements(ran))
-    (ran / "away").rename(ran / "direct.nc")
+    (ran / "away").rename(ran / "answer.nc")

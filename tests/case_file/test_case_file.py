@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.case_file import (
-    Case,
+    CaseTables,
     LoadTable,
     RubberSource,
     SolverTable,
@@ -22,7 +22,7 @@ from gripscale.case_file import (
     case_chain,
     prepare_rubber,
     prepare_surface,
-    read_case,
+    read_case_file,
     validate,
 )
 from gripscale.core.errors import FileError, InputError
@@ -46,7 +46,7 @@ footprint = 0.1
 
 
 def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None:
-    file = read_case(written(tmp_path, GOOD))
+    file = read_case_file(written(tmp_path, GOOD))
     load = file.case.load
     assert (load.pressure, load.speed, load.footprint) == (3e5, 0.3, 0.1)
     assert (load.static, load.load_time) == (False, "passage")
@@ -57,12 +57,12 @@ def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None
 def test_the_closer_chain_of_the_documentation_is_a_case(tmp_path: Path) -> None:
     page = DOCS / "chain-and-direct-contact.md"
     [stated] = re.findall(r"```toml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
-    file = read_case(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :]))
+    file = read_case_file(written(tmp_path, stated + GOOD[GOOD.index("[rubber]") :]))
     case = file.case
     assert (case.surface.top_height_fraction, case.surface.scales) == (0.5, 4)
     assert (case.surface.cut_off, case.surface.smallest_wavelength) == (pytest.approx(1e-4), None)
     assert case_chain(file).pressure_classes == 8
-    plain = read_case(written(tmp_path, GOOD))
+    plain = read_case_file(written(tmp_path, GOOD))
     assert (plain.case.surface.top_height_fraction, plain.case.surface.cut_off) == (1.0, None)
     assert case_chain(plain).pressure_classes == 1
 
@@ -73,7 +73,7 @@ def test_prepared_with_what_the_case_says(tmp_path: Path) -> None:
     stated = '["road.dat"]\nx_unit = "m"\nz_unit = "m"\ndetrend = "none"\nremove_spikes = false'
     keys = 'scales = 4\ntop_height_fraction = 0.3\ncut_off = "1 mm"\nmax_lag = "30 mm"'
     text = GOOD.replace('["road.dat"]', stated).replace("scales = 8", keys)
-    file = read_case(written(tmp_path, text))
+    file = read_case_file(written(tmp_path, text))
     found = prepare_surface(file.case.surface, file.resolve)
     curve = height_difference(found.measured.cleaned, top_height_fraction=0.3, max_lag=30e-3)
     alone = fit_sines(curve, scales=4, cut_off=1e-3)
@@ -83,13 +83,13 @@ def test_prepared_with_what_the_case_says(tmp_path: Path) -> None:
 
 
 def test_paths_start_at_the_case_file(tmp_path: Path) -> None:
-    file = read_case(written(tmp_path, GOOD))
+    file = read_case_file(written(tmp_path, GOOD))
     assert file.resolve("../road.dat") == tmp_path.parent / "road.dat"
     assert file.resolve("/elsewhere/road.dat") == Path("/elsewhere/road.dat")
 
 
 def test_only_stated_solver_options_are_passed_on(tmp_path: Path) -> None:
-    file = read_case(written(tmp_path, GOOD + "[solver]\ncolumns = 64\ndepth = 2\n"))
+    file = read_case_file(written(tmp_path, GOOD + "[solver]\ncolumns = 64\ndepth = 2\n"))
     assert file.case.solver.options() == {"columns": 64, "depth": 2.0}
 
 
@@ -97,7 +97,7 @@ def test_only_stated_solver_options_are_passed_on(tmp_path: Path) -> None:
     ("stated", "seconds"), [('"infinite"', math.inf), ('"5 ms"', 5e-3), ("2.5", 2.5)]
 )
 def test_load_time(tmp_path: Path, stated: str, seconds: float) -> None:
-    file = read_case(written(tmp_path, GOOD + f"load_time = {stated}\n"))
+    file = read_case_file(written(tmp_path, GOOD + f"load_time = {stated}\n"))
     assert file.case.load.load_time == seconds
 
 
@@ -268,7 +268,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("old", "new", "words"), WRONG)
 def test_wrong_case_is_one_sentence(tmp_path: Path, old: str, new: str, words: str) -> None:
-    message = refusal(read_case, tmp_path, GOOD, old, new)
+    message = refusal(read_case_file, tmp_path, GOOD, old, new)
     assert words in message
     assert message.startswith(f"{tmp_path / 'case.toml'}: ")
 
@@ -287,7 +287,7 @@ KEYS = [
 
 def complaint(tables: dict[str, Any]) -> str:
     try:
-        validate(Case, tables, "here")
+        validate(CaseTables, tables, "here")
     except InputError as error:
         return str(error)
     return ""
@@ -306,9 +306,9 @@ def test_no_value_gets_anything_but_a_sentence_of_ours(place: tuple[str, str], v
 @pytest.mark.parametrize("source", ['file = "dma.txt"', 'name = "styrene_butadiene"'])
 def test_a_case_names_a_strain_energy(tmp_path: Path, source: str) -> None:
     text = GOOD.replace('file = "dma.txt"', source)
-    assert read_case(written(tmp_path, text)).case.rubber.strain_energy == NeoHookean()
+    assert read_case_file(written(tmp_path, text)).case.rubber.strain_energy == NeoHookean()
     stated = source + '\nstrain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }'
-    case = read_case(written(tmp_path, text.replace(source, stated))).case
+    case = read_case_file(written(tmp_path, text.replace(source, stated))).case
     assert case.rubber.strain_energy == Yeoh(-0.1, 0.02)
 
 
@@ -334,29 +334,29 @@ def test_one_item_is_not_plural() -> None:
 def test_text_that_is_no_toml_is_named_with_its_line(tmp_path: Path) -> None:
     path = written(tmp_path, GOOD.replace("[load]", "[load"))
     with pytest.raises(FileError, match=r"case\.toml is not valid TOML: .*line 7"):
-        read_case(path)
+        read_case_file(path)
 
 
 def test_missing_case_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"case file .*nowhere\.toml does not exist"):
-        read_case(tmp_path / "nowhere.toml")
+        read_case_file(tmp_path / "nowhere.toml")
 
 
 def test_folder_in_place_of_a_case_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"case file .* cannot be read: Is a directory"):
-        read_case(tmp_path)
+        read_case_file(tmp_path)
 
 
 def test_case_in_another_encoding_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "case.toml"
     path.write_bytes("# Straße\n".encode("latin-1"))
     with pytest.raises(FileError, match="it is not UTF-8 text"):
-        read_case(path)
+        read_case_file(path)
 
 
 def test_shipped_case_is_valid_and_its_files_are_there() -> None:
     shipped = EXAMPLES / "road_and_tread" / "case.toml"
-    file = read_case(shipped)
+    file = read_case_file(shipped)
     surface, rubber = file.case.surface, file.case.rubber
     assert len(surface.files or []) == 2
     assert all(file.resolve(name).is_file() for name in [*(surface.files or []), str(rubber.file)])

@@ -9,10 +9,10 @@ import pytest
 
 from gripscale.case_file import (
     CaseFile,
-    prepare_case,
     prepare_conditions,
     prepare_rubber,
     read_case,
+    read_case_file,
 )
 from gripscale.case_file.run import run_case
 from gripscale.chain import predict
@@ -62,7 +62,7 @@ def stated(file: CaseFile) -> Conditions | None:
 
 
 def test_every_effect_with_its_units(tmp_path: Path) -> None:
-    file = read_case(written(tmp_path, ALL))
+    file = read_case_file(written(tmp_path, ALL))
     assert stated(file) == Conditions(
         temperature=313.15,
         softening=Kraus(0.3, 0.2, 0.02, 1e-3, "shear"),
@@ -74,11 +74,11 @@ def test_every_effect_with_its_units(tmp_path: Path) -> None:
 
 
 def test_a_case_without_effects_has_no_conditions(tmp_path: Path) -> None:
-    assert stated(read_case(written(tmp_path, BASE))) is None
+    assert stated(read_case_file(written(tmp_path, BASE))) is None
 
 
 def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
-    file = read_case(written(tmp_path, ALL))
+    file = read_case_file(written(tmp_path, ALL))
     results = run_case(file, output=tmp_path / "results")
     load = results.load
     own = predict(
@@ -116,7 +116,7 @@ def test_strain_sweeps_at_two_temperatures(tmp_path: Path) -> None:
         '[conditions.softening]\nkind = "table"\nfiles = ["warm.csv", "cold.csv"]\n'
         'measured_at = "0.2 %"\n'
     )
-    file = read_case(written(tmp_path, BASE + sweeps))
+    file = read_case_file(written(tmp_path, BASE + sweeps))
     assert file.case.named_files() == [("conditions", "warm.csv"), ("conditions", "cold.csv")]
     found = stated(file)
     assert found is not None
@@ -154,7 +154,7 @@ NAMED = 'name = "styrene_butadiene"\nshift = { kind = "wlf", c1 = 8.0, c2 = "120
 def test_sweeps_at_several_temperatures_make_the_rubber(tmp_path: Path) -> None:
     sweeps_file(tmp_path)
     text = BASE.replace(NAMED, 'file = "sweeps.csv"\nreference_temperature = "20 C"')
-    results = prepare_case(written(tmp_path, text + TEMPERATURE))
+    results = read_case(written(tmp_path, text + TEMPERATURE))
     rubber = results.rubber.rubber
     assert rubber.shift is not None
     assert float(rubber.shift.log_a(313.15, 293.15)) == pytest.approx(-8 * 20 / 140, abs=0.02)
@@ -265,7 +265,7 @@ WRONG = [
 def test_wrong_half_or_twice_is_one_sentence(
     tmp_path: Path, old: str, new: str, words: str
 ) -> None:
-    assert words in refusal(read_case, tmp_path, ALL, old, new)
+    assert words in refusal(read_case_file, tmp_path, ALL, old, new)
 
 
 UNUSABLE = [
@@ -287,7 +287,7 @@ UNUSABLE = [
 def test_conditions_the_rubber_cannot_follow_are_refused_before_solving(
     tmp_path: Path, old: str, new: str, words: str
 ) -> None:
-    assert words in refusal(prepare_case, tmp_path, ALL, old, new)
+    assert words in refusal(read_case, tmp_path, ALL, old, new)
 
 
 def test_a_key_of_sweeps_is_refused_with_a_master_curve(tmp_path: Path) -> None:
@@ -295,14 +295,14 @@ def test_a_key_of_sweeps_is_refused_with_a_master_curve(tmp_path: Path) -> None:
     (tmp_path / "dma.txt").write_text("\n".join(["f (Hz)  E' (MPa)  E'' (MPa)", *rows]))
     text = BASE.replace(NAMED, 'file = "dma.txt"\nvertical = true')
     with pytest.raises(InputError, match="vertical is for sweeps at several temperatures"):
-        prepare_case(written(tmp_path, text))
+        read_case(written(tmp_path, text))
     text = BASE.replace(NAMED, 'file = "dma.txt"\nshift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }')
     with pytest.raises(InputError, match="reference_temperature must be given with shift"):
-        prepare_case(written(tmp_path, text))
+        read_case(written(tmp_path, text))
 
 
 def test_sweeps_ask_for_the_temperature_they_are_shifted_to(tmp_path: Path) -> None:
     sweeps_file(tmp_path)
     text = BASE.replace(NAMED, 'file = "sweeps.csv"')
     with pytest.raises(InputError, match='reference_temperature must be given, such as "20 C"'):
-        prepare_case(written(tmp_path, text))
+        read_case(written(tmp_path, text))

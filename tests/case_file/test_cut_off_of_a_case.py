@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale import surface
-from gripscale.case_file import prepare_case, read_case, run_case
+from gripscale.case_file import read_case, read_case_file, run_case
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.questions import Study, compare_over
@@ -30,7 +30,7 @@ def case(tmp_path: Path) -> Path:
 
 def stated(case: Path, end: str) -> surface.Surface:
     case.write_text(CASE.format(end=end))
-    return prepare_case(case).surface
+    return read_case(case).surface
 
 
 def test_every_model_ends_where_the_rule_says(case: Path) -> None:
@@ -79,7 +79,7 @@ def test_what_was_not_measured_is_refused_or_marked(case: Path) -> None:
 def test_other_words_are_refused_by_name(case: Path, end: str, sentence: str) -> None:
     case.write_text(CASE.format(end=end))
     with pytest.raises(gs.InputError, match=sentence):
-        read_case(case)
+        read_case_file(case)
 
 
 def test_waves_by_hand_have_no_cut_off(case: Path) -> None:
@@ -87,7 +87,7 @@ def test_waves_by_hand_have_no_cut_off(case: Path) -> None:
     text = CASE.format(end="").split("[rubber]")[1]
     case.write_text(f'[surface]\ncut_off = "instrument"\n{waves}\n[rubber]{text}')
     with pytest.raises(gs.InputError, match="cut_off belongs to a measured surface"):
-        read_case(case)
+        read_case_file(case)
 
 
 def test_a_run_keeps_and_tells_it(case: Path, tmp_path: Path) -> None:

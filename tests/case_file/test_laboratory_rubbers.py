@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import PreparedRubber, RubberSource, prepare_rubber, validate
+from gripscale.case_file import MeasuredRubber, RubberSource, prepare_rubber, validate
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import WLF
 
@@ -25,7 +25,7 @@ def modulus(kelvin: float, hertz: float) -> complex:
     return complex(SOLID.at(kelvin).complex_modulus(2.0 * np.pi * hertz))
 
 
-def prepared(**keys: Any) -> PreparedRubber:
+def prepared(**keys: Any) -> MeasuredRubber:
     return prepare_rubber(validate(RubberSource, keys, "rubber"))
 
 

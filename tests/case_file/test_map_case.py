@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import prepare_surface, read_case
+from gripscale.case_file import prepare_surface, read_case_file
 from gripscale.chain import Chain
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.charts.write import surface_figures
@@ -54,7 +54,7 @@ def case(tmp_path: Path):
     def write(also: str = "", text: str = STATED):
         path = tmp_path / "case.toml"
         path.write_text(text.replace("scales = 3", f"scales = 3\n{also}"), encoding="utf-8")
-        return read_case(path)
+        return read_case_file(path)
 
     return write
 

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import prepare_rubber, read_case
+from gripscale.case_file import prepare_rubber, read_case_file
 from gripscale.case_file.new import NewCase, new_case
+from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import Weight
-from gripscale.case_file.run import prepare_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import WLF
 from tests.samples import Shell
@@ -111,7 +111,9 @@ def test_units_that_no_file_states_are_proposed_and_doubted(tmp_path: Path) -> N
     assert [rubber[unit] for unit in units] == ["Hz", "C", "Pa", "E"]
     for key in ("x_unit", "z_unit", *units):
         assert f"{key} = " in doubted(case, Weight.ANOTHER)
-    storage = prepare_rubber(read_case(case.path).case.rubber, read_case(case.path).resolve)
+    storage = prepare_rubber(
+        read_case_file(case.path).case.rubber, read_case_file(case.path).resolve
+    )
     assert storage.sweeps is not None
     assert storage.sweeps.storage[0] == pytest.approx(modulus(0, 0.1).real, rel=1e-5)
 
@@ -151,7 +153,7 @@ def test_a_temperature_that_cannot_be_reached_is_a_doubt(tmp_path: Path) -> None
     shift = {"kind": "wlf", "c1": 8.86, "c2": "101.6 K"}
     case = new_case(files, tmp_path / "shifted.toml", temperature="60 C", shift=shift)
     assert keys(case)["conditions"] == {"temperature": "60 C"}
-    assert prepare_case(case.path).rubber_before.reference_temperature == pytest.approx(333.15)
+    assert read_case(case.path).rubber_before.reference_temperature == pytest.approx(333.15)
 
 
 def test_ramps_at_several_frequencies_get_nominal_temperatures(tmp_path: Path) -> None:
@@ -317,7 +319,7 @@ def test_columns_and_units_of_the_rubber_can_be_stated(tmp_path: Path, shell: Sh
     files = (dma, road(tmp_path / "r.csv"))
     outcome = shell("new", *files, "-o", tmp_path / "case.toml", *options)
     assert outcome.exit_code == 0, outcome.output
-    case = read_case(tmp_path / "case.toml")
+    case = read_case_file(tmp_path / "case.toml")
     prepared = prepare_rubber(case.case.rubber, case.resolve)
     assert prepared.sweeps is not None
     assert prepared.sweeps.temperatures == pytest.approx(273.15 + np.arange(0, 50, 10))
@@ -350,13 +352,13 @@ def test_a_title_that_says_depth_is_a_doubt_of_weight(tmp_path: Path) -> None:
     case = new_case(files, tmp_path / "case.toml")
     assert case.doubts[0].weight == Weight.ANOTHER
     assert "titled 'Tiefe', is taken as height, up" in case.doubts[0].text
-    results = prepare_case(read_case(case.path))
+    results = read_case(read_case_file(case.path))
     assert any("titled 'Tiefe'" in doubt for doubt in results.doubts())
     stated = case.path.read_text(encoding="utf-8").replace(
         "[surface]", '[surface]\nz_axis = "down"'
     )
     case.path.write_text(stated, encoding="utf-8")
-    turned = prepare_case(read_case(case.path))
+    turned = read_case(read_case_file(case.path))
     assert not any("Tiefe" in doubt for doubt in turned.doubts())
     before, after = (each.surface.measured.profiles[0][0].z for each in (results, turned))
     assert np.array_equal(after, -before)

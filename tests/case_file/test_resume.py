@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 
 from gripscale.case_file import run_case
-from gripscale.case_file.events import Event, ResultsReplaced, WaveSolved
 from gripscale.io import netcdf
+from gripscale.questions.chain.events import Event, ResultsReplaced, WaveSolved
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, WaveProblem, WaveResult
 from tests.samples import HALF_PLANE, THREE_WAVES, case_text

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import case_chain, prepare_case, read_case, run_case
-from gripscale.case_file.events import Event, WaveSolved
+from gripscale.case_file import case_chain, read_case, read_case_file, run_case
 from gripscale.core.errors import ExtrapolationError
 from gripscale.io import netcdf
+from gripscale.questions.chain.events import Event, WaveSolved
 from gripscale.wave import Status
 from tests.samples import fail_waves
 
@@ -39,7 +39,7 @@ def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFix
 def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None:
     case.write_text(case.read_text() + "[chain]\npressure_classes = 2\n")
     results = run_case(case)
-    alone = case_chain(read_case(case)).predict(
+    alone = case_chain(read_case_file(case)).predict(
         results.rubber.rubber, results.surface, results.load
     )
     assert results.dynamic is not None
@@ -60,7 +60,7 @@ def test_files_are_written_where_they_are_wanted(
         on_disk = netcdf.load(target / f"{event.prediction}.nc").sizes["scale"]
         seen.append((event.prediction, event.number, on_disk))
 
-    results = run_case(prepare_case(case), output=target, on_event=look)
+    results = run_case(read_case(case), output=target, on_event=look)
     assert seen == [("dynamic", 1, 1), ("dynamic", 2, 2), ("static", 1, 1), ("static", 2, 2)]
     tree = netcdf.load_tree(target / "dynamic.nc")
     assert set(tree.children) == {"inputs"}
@@ -98,7 +98,7 @@ def test_time_limit_of_the_case_reaches_the_solver(case: Path) -> None:
     solver = case.read_text().replace("[solver]", '[solver]\ntime_limit = "0.001 us"')
     case.write_text(solver)
     results = run_case(case)
-    assert case_chain(read_case(case)).solver.time_limit == pytest.approx(1e-9)
+    assert case_chain(read_case_file(case)).solver.time_limit == pytest.approx(1e-9)
     assert results.dynamic is not None
     assert results.dynamic.status == Status.TIME_LIMIT
     case.write_text(solver.replace('"0.001 us"', "60"))

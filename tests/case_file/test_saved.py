@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.case_file import folder, prepare_case, read_case, run_case
+from gripscale.case_file import folder, read_case, read_case_file, run_case
 from gripscale.case_file import folder as results_folder
 from gripscale.case_file.folder import renamed, saved_case
 
@@ -36,7 +36,7 @@ def test_a_saved_case_run_into_its_own_folder_keeps_its_files(inputs: Path, tmp_
     text = case.read_text()
     again = run_case(case, output=tmp_path / "results", fresh=True)
     assert case.read_text() == text
-    assert prepare_case(case).surface.sines.wavelength.tolist() == (
+    assert read_case(case).surface.sines.wavelength.tolist() == (
         again.surface.sines.wavelength.tolist()
     )
     assert again.dynamic is not None
@@ -88,7 +88,7 @@ def named(tmp_path: Path, *names: str) -> Path:
 
 
 def test_files_of_one_name_and_files_of_others_keep_their_places(tmp_path: Path) -> None:
-    case = read_case(named(tmp_path, "a/road.txt", "b/road.txt"))
+    case = read_case_file(named(tmp_path, "a/road.txt", "b/road.txt"))
     target = tmp_path / "out"
     (target / "inputs").mkdir(parents=True)
     (target / "inputs" / "road.txt").write_text("somebody else's")
@@ -99,7 +99,7 @@ def test_files_of_one_name_and_files_of_others_keep_their_places(tmp_path: Path)
         "road_2.txt": "a/road.txt",
         "road_3.txt": "b/road.txt",
     }
-    results_folder.prepare(target, read_case(named(tmp_path, "c.txt")))
+    results_folder.prepare(target, read_case_file(named(tmp_path, "c.txt")))
     assert sorted(p.name for p in (target / "inputs").iterdir()) == ["c.txt", "road.txt"]
 
 
@@ -107,7 +107,7 @@ def test_large_files_are_named_where_they_are(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(folder, "COPIED_AT_MOST", 8)
-    kept = saved_case(read_case(named(tmp_path, "long name.txt")), tmp_path / "out")
+    kept = saved_case(read_case_file(named(tmp_path, "long name.txt")), tmp_path / "out")
     assert not kept.copies
     files = tomllib.loads(kept.text)["surface"]["files"]
     assert files == [str(tmp_path / "long name.txt")]

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.case_file import CaseFile, read_case
-from gripscale.case_file.run import prepare_case
+from gripscale.case_file import CaseFile, read_case_file
+from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
 from gripscale.questions import (
@@ -25,13 +25,14 @@ from gripscale.questions import (
     compare_over,
     compare_surfaces,
 )
-from gripscale.questions.answer.page import answer_lines, no_answer
+from gripscale.questions.answer.findings import case_notices
+from gripscale.questions.answer.page import answer_lines
+from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.compare.comparison import reference
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.vary.inputs import rubber_notes, surface_note, surface_of
 from gripscale.report import write_report
-from gripscale.report.notices import case_notices
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import Shell
@@ -75,7 +76,7 @@ def write(folder: Path, *, case: str = CASE, road: str | bytes = "", dma: str = 
     (folder / "road.txt").write_bytes(raw)
     (folder / "dma.txt").write_text(dma, encoding="utf-8")
     (folder / "case.toml").write_text(case, encoding="utf-8")
-    return read_case(folder / "case.toml")
+    return read_case_file(folder / "case.toml")
 
 
 def with_plate(height: float, *, where: slice = slice(0, 300)) -> str:
@@ -220,7 +221,7 @@ TRAPS: dict[str, tuple[dict[str, Any], str]] = {
 def said(folder: Path, changes: dict[str, Any]) -> str:
     """Return what stands first in the answer of a case, or why it is refused."""
     try:
-        results = prepare_case(write(folder, **changes))
+        results = read_case(write(folder, **changes))
     except (FileError, InputError) as error:
         return str(error)
     attrs = {name: "\n".join(getattr(results, name)()) for name in ("doubts", "load_notes")}
@@ -250,7 +251,7 @@ def test_an_answer_on_plates_is_none_to_rely_on() -> None:
 
 
 def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path: Path) -> None:
-    direct = reference(prepare_case(write(tmp_path, dma=dma_text(60.0, "0.2"))))
+    direct = reference(read_case(write(tmp_path, dma=dma_text(60.0, "0.2"))))
     assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
 
 
@@ -292,12 +293,12 @@ def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
 def test_an_answer_under_an_impossible_load_is_none_to_rely_on(
     tmp_path: Path, stated: str, wrong: str, words: str
 ) -> None:
-    direct = reference(prepare_case(write(tmp_path, case=CASE.replace(stated, wrong))))
+    direct = reference(read_case(write(tmp_path, case=CASE.replace(stated, wrong))))
     assert no_answer(direct).startswith(f"none to rely on. {words}: is its unit right?")
 
 
 def test_the_answer_of_the_case_without_a_trap_stands(tmp_path: Path) -> None:
-    direct = reference(prepare_case(write(tmp_path)))
+    direct = reference(read_case(write(tmp_path)))
     assert direct is not None
     assert INPUT_DOUBTS not in direct.attrs
 
@@ -333,7 +334,7 @@ def test_commands_and_their_pages_say_the_doubts_of_a_run(
 ) -> None:
     file = write(tmp_path, case=TRAPPED, road=with_plate(20e-3))
     (tmp_path / "friction.csv").write_text("speed [m/s],friction\n0.1,2\n1,2\n200,2\n")
-    said = [n.text for n in case_notices(None, InputRecord(record.inputs(prepare_case(file))))]
+    said = [n.text for n in case_notices(None, InputRecord(record.inputs(read_case(file))))]
     first = [*said[:3], *filter(None, [of_its_load])]
     for words in ("plates", "states the temperature of its moduli", "The footprint, 1 mm"):
         assert any(words in text for text in first)
@@ -377,7 +378,7 @@ def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:
 
 def test_an_answer_ends_where_the_heights_do_whatever_the_cut_off(tmp_path: Path) -> None:
     file = write(tmp_path, case=CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "0.02 mm"'))
-    results = prepare_case(file)
+    results = read_case(file)
     direct = reference(results, tmp_path)
     assert "roughness down to 0.2 mm" in " ".join(answer_lines(direct))  # two steps
     warnings = case_notices(direct, InputRecord(record.inputs(results)))

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.case_file import prepare_conditions, read_case
+from gripscale.case_file import prepare_conditions, read_case_file
 from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
@@ -97,7 +97,7 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     written = case.with_name("with_area_term.toml")
     table = (target / "shear_stress.toml").read_text()
     written.write_text(f"{case.read_text()}\n{table}")
-    file = read_case(written)
+    file = read_case_file(written)
     conditions = prepare_conditions(file.case.conditions, file.resolve)
     fitted = shear_stress_from_dict(json.loads(netcdf.load(target / "calibration.nc").law))
     assert conditions is not None
@@ -109,13 +109,13 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
 
 
 def test_the_surface_decides_what_predicts(case: Path, inputs: Path) -> None:
-    assert default_model(read_case(case)) == "chain"
+    assert default_model(read_case_file(case)) == "chain"
     measured = inputs / "of_a_profile.toml"
     measured.write_text('[surface]\nfiles = ["road.txt"]\nscales = 3\n', encoding="utf-8")
     text = case.read_text(encoding="utf-8")
     rest = text[text.index("[rubber]") :]
     measured.write_text(measured.read_text(encoding="utf-8") + rest, encoding="utf-8")
-    file = read_case(measured)
+    file = read_case_file(measured)
     assert default_model(file) == "direct"
     assert default_model(file, {"speed": (0.1, 1.0), "surface": ("case",)}) == "direct"
     assert default_model(file, {"surface": ("case", str(case))}) == "chain"
@@ -141,7 +141,7 @@ def test_the_page_names_the_command_that_makes_it_again(
 def test_speeds_without_a_unit_are_the_first_doubt_and_far_ones_leave_no_answer(
     shell: Shell, case: Path, tmp_path: Path
 ) -> None:
-    speed = read_case(case).case.load.speed
+    speed = read_case_file(case).case.load.speed
     options = ["calibrate", case, "--model", "chain", "--law", "constant"]
     for factor, relied_on in ((1.0, True), (100.0, False)):
         measured, target = tmp_path / f"mu{factor:g}.csv", tmp_path / f"{factor:g}"

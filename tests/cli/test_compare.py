@@ -15,7 +15,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale.case_file import prepare_case, read_case
+from gripscale.case_file import read_case, read_case_file
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.charts.write import draw_comparison
 from gripscale.cli import app
@@ -132,7 +132,7 @@ def test_factors_lead_from_the_chain_to_the_profile_as_measured(
 
 
 def test_rungs_are_the_models_themselves(inputs: Path) -> None:
-    results = prepare_case(inputs / "case.toml")
+    results = read_case(inputs / "case.toml")
     asked = ["chain_half_plane", "direct"]
     made = compare_case(results, seeds=1, tolerance=0.02, rungs=asked)
     means = made.data.total_friction
@@ -177,7 +177,7 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
     case = changed(
         "scales = 3\ns_wavelength = 3", 'scales = 4\ntop_height_fraction = 0.5\ncut_off = "4 mm"'
     )
-    results = prepare_case(case)
+    results = read_case(case)
     direct = compare_case(results, rungs=["direct"], tolerance=0.02).data.isel(rung=0)
     measured = results.surface.measured
     assert measured is not None
@@ -266,7 +266,7 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     assert made.measured is not None
     assert [rung.name for rung in made.rungs] == ["persson", "klueppel_heinrich"]
     theory = made.data.sel(rung="klueppel_heinrich")
-    results = prepare_case(case)
+    results = read_case(case)
     assert results.surface.measured is not None
     alone = gs.theory.klueppel_heinrich(
         results.rubber.rubber,
@@ -284,7 +284,7 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
 def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND)
-    results = prepare_case(case)
+    results = read_case(case)
     assert solve_reference(results) is None
     rungs = compare_case(results, seeds=1).rungs
     assert [rung.name for rung in rungs] == ["chain_half_plane", "sines"]
@@ -294,7 +294,7 @@ def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND.replace("speed = 0.3", "speed = 0.0"))
     data = compare_case(case, seeds=2).to_dataset()
-    assert data.attrs["display_units"] == json.dumps(read_case(case).units)
+    assert data.attrs["display_units"] == json.dumps(read_case_file(case).units)
     assert (data.total_friction == 0.0).all()
     assert np.isnan(data.friction_uncertainty).all()
     assert (data.total_contact_fraction > 0.0).all()
@@ -348,7 +348,7 @@ def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
 def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path: Path) -> None:
     result = shell("run", inputs / "case.toml", "--output", tmp_path)
     assert result.exit_code == 0, result.output
-    results = prepare_case(inputs / "case.toml")
+    results = read_case(inputs / "case.toml")
     direct = solve_reference(results)
     assert direct is not None
     chain = gs.predict(

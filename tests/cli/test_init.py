@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import gripscale
-from gripscale.case_file import EXAMPLES, prepare_case, read_case, write_example
+from gripscale.case_file import EXAMPLES, read_case, read_case_file, write_example
 from gripscale.cli.inputs import Choice
 from gripscale.core.errors import FileError, InputError
 from tests.samples import ROOT, Shell
@@ -33,8 +33,8 @@ def test_the_road_is_the_shipped_case_with_its_data(tmp_path: Path) -> None:
     assert {path.relative_to(tmp_path / "new" / "road").as_posix() for path in written} == set(
         tree(tmp_path / "new" / "road")
     )
-    shipped = read_case(ROOT / "examples" / "road_and_tread" / "case.toml")
-    own = read_case(written[0])
+    shipped = read_case_file(ROOT / "examples" / "road_and_tread" / "case.toml")
+    own = read_case_file(written[0])
     assert own.text == shipped.text.replace("../data", "data")
     for (_, name), (_, other) in zip(
         own.case.named_files(), shipped.case.named_files(), strict=True
@@ -54,7 +54,7 @@ def test_every_example_is_commented_has_its_sources_and_can_be_prepared(
         assert "SOURCE" in there, folder
     text = written[0].read_text()
     assert text.startswith("# ")
-    results = prepare_case(written[0])
+    results = read_case(written[0])
     assert results.doubts() == []  # else its answer is none to rely on
     assert len(results.surface.sines) == results.file.case.surface.scales
     assert {"static", "keys`"} <= set(text.split())

@@ -18,7 +18,7 @@ from gripscale.cli import app
 from gripscale.cli.terminal import time_left
 from gripscale.io import netcdf
 from gripscale.io.text_table import read_sheets
-from gripscale.questions.answer.page import no_answer
+from gripscale.questions.answer.reliance import no_answer
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
 from tests.samples import Shell
@@ -272,14 +272,14 @@ def test_ctrl_c_says_that_results_are_kept_only_where_there_are_some(
         raise KeyboardInterrupt
 
     monkeypatch.setattr("gripscale.case_file.prepare_surface", stop)
-    monkeypatch.setattr("gripscale.case_file.prepare_case", stop)
+    monkeypatch.setattr("gripscale.case_file.read_case", stop)
     for command in (["fit-surface", case.with_name("road.txt")], ["run", case]):
         stopped = shell(*command)
         assert stopped.exit_code == 130
         assert stopped.stderr.split() == ["error:", "stopped;", "nothing", "was", "finished"]
     monkeypatch.undo()
     assert shell("run", case).exit_code == 0
-    monkeypatch.setattr("gripscale.case_file.prepare_case", stop)
+    monkeypatch.setattr("gripscale.case_file.read_case", stop)
     kept = shell("run", case, "--fresh")
     assert f"finished results are kept in {case.parent / 'results'}" in kept.stderr
 

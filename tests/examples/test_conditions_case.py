@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.cli import app
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
@@ -60,7 +60,7 @@ def test_study_over_speed_and_temperature(case: Path) -> None:
 
 
 def test_effects_in_chain_and_direct_contact(case: Path) -> None:
-    results = prepare_case(case)
+    results = read_case(case)
     models = results.chain, DirectContact(tolerance=None, conditions=results.conditions)
     for model in models:
         found = effects(model, results.rubber.rubber, results.surface, results.load)

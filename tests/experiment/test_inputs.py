@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.case_file.prepare import case_surface
 from gripscale.core.errors import FileError, InputError
 from gripscale.questions.vary.inputs import rubber_of, surface_of
@@ -36,7 +36,7 @@ def measured(tmp_path: Path) -> Path:
 
 
 def test_measured_surface_is_fitted_anew(measured: Path) -> None:
-    road = case_surface(read_case(measured))
+    road = case_surface(read_case_file(measured))
     base = road.varied().sines
     assert (len(base), base.wavelength[-1]) == (5, pytest.approx(0.25e-3))
     four = road.varied(waves=4).sines
@@ -56,7 +56,7 @@ def test_measured_surface_is_fitted_anew(measured: Path) -> None:
 def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
     text = measured.read_text().replace('smallest_wavelength = "0.25 mm"', "s_wavelength = 3")
     measured.write_text(text)
-    road = case_surface(read_case(measured))
+    road = case_surface(read_case_file(measured))
     assert len(road.varied(waves=3).sines) == 3
     finer = road.varied(smallest_wavelength=1e-4).sines
     assert finer.s_wavelength == pytest.approx(3.0)
@@ -64,7 +64,7 @@ def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
 
 
 def test_cut_off_and_top_height_fraction_are_fitted_anew(measured: Path) -> None:
-    road = case_surface(read_case(measured))
+    road = case_surface(read_case_file(measured))
     assert road.measured is not None
     assert road.correlation is not None
     cut = road.varied(cut_off=0.2e-3, waves=4).sines
@@ -89,7 +89,7 @@ def test_cut_off_and_top_height_fraction_are_fitted_anew(measured: Path) -> None
 
 
 def test_what_needs_a_measured_surface_says_so() -> None:
-    by_hand = surface_of(STACK, read_case(EXAMPLE))
+    by_hand = surface_of(STACK, read_case_file(EXAMPLE))
     with pytest.raises(InputError, match="cut_off varies waves that were fitted"):
         by_hand.varied(cut_off=1e-3)
     with pytest.raises(InputError, match=r"top_height_fraction varies a measured .*; got sine"):
@@ -99,7 +99,7 @@ def test_what_needs_a_measured_surface_says_so() -> None:
 
 
 def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
-    file = read_case(measured)
+    file = read_case_file(measured)
     own = surface_of("case", file)
     beside = surface_of("other.txt", file)
     other_case = surface_of(str(measured), file)
@@ -115,7 +115,7 @@ def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
 
 
 def test_rubber_by_name_file_or_case(measured: Path) -> None:
-    file = read_case(measured)
+    file = read_case_file(measured)
     assert rubber_of("case", file).bulk_modulus == 1.5e9
     assert rubber_of("styrene_butadiene", file) == rubber_of("case", file)
     tread = rubber_of(str(EXAMPLE), file)
@@ -127,7 +127,7 @@ def test_rubber_by_name_file_or_case(measured: Path) -> None:
 
 
 def test_waves_by_hand_are_cut_off() -> None:
-    road = surface_of(STACK, read_case(EXAMPLE))
+    road = surface_of(STACK, read_case_file(EXAMPLE))
     assert len(road.varied(waves=2).sines) == 2
     assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
     assert road.varied(factors=(3.0, 2.0)).sines.residual is None
@@ -136,7 +136,7 @@ def test_waves_by_hand_are_cut_off() -> None:
 def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path) -> None:
     energy = 'strain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }\n[load]'
     measured.write_text(measured.read_text().replace("[load]", energy))
-    file = read_case(measured)
+    file = read_case_file(measured)
     dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
     for value in ("case", "styrene_butadiene", str(dma)):
         rubber = rubber_of(value, file)
@@ -166,7 +166,7 @@ def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measure
         'columns = [1, 3, 2]\nreference_temperature = "20 C"\n'
     )
     measured.write_text(measured.read_text().replace('name = "styrene_butadiene"\n', stated))
-    file = read_case(measured)
+    file = read_case_file(measured)
     own, *others = (rubber_of(name, file) for name in ("case", "bare.txt", "told.txt", "tan.txt"))
     for other in others:
         at = [other.complex_modulus(w) / own.complex_modulus(w) for w in (1.0, 1e4)]

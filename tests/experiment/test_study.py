@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import FACES, fingerprint
@@ -79,7 +79,7 @@ def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path:
     assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
     assert kept.speed.attrs["units"] == "m/s"
     assert kept.attrs["case"] == case.read_text()
-    assert kept.attrs["display_units"] == json.dumps(read_case(case).units)
+    assert kept.attrs["display_units"] == json.dumps(read_case_file(case).units)
     assert display_unit_of(kept.attrs, "pressure").unit == "bar"
     assert kept.attrs["software"].startswith("gripscale ")
     assert "static_contact_fraction" not in kept

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.case_file import prepare_case, run_case
+from gripscale.case_file import read_case, run_case
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
@@ -143,7 +143,7 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def compared(run_folder: Path) -> list[xr.Dataset]:
     """A comparison of the run's case, alone and over two speeds; a sample of it failed."""
-    results = prepare_case(run_folder.parent / "case.toml")
+    results = read_case(run_folder.parent / "case.toml")
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
     options: dict[str, Any] = {"rungs": ["chain_half_plane", "direct", "persson"]}
     made = compare_case(results, measured=measured, tolerance=0.2, **options)

@@ -10,17 +10,12 @@ import pytest
 import xarray as xr
 
 from gripscale.questions.answer.best_estimate import IsotropicSurface
-from gripscale.questions.answer.page import (
-    answer_cards,
-    answer_lines,
-    answer_notices,
-    basis_lines,
-    no_answer,
-    no_answer_notices,
-)
+from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
+from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
+from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.result import warning_lines
 from gripscale.report.elements import Doubt, Notice, Page, ranked
-from gripscale.report.notices import case_notices, warning_lines
 
 
 def answered(**changed: float) -> xr.Dataset:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.questions.inputs.record import sine_curves
 from gripscale.rubber.material import fast_end
 
@@ -33,7 +33,7 @@ def test_run_records_its_inputs_beside_the_prediction(run_folder: Path) -> None:
 
 def test_recorded_curves_are_those_of_the_fits(run_folder: Path) -> None:
     """What the page plots is what the prepared inputs evaluate to."""
-    made = prepare_case(run_folder.parent / "case.toml")
+    made = read_case(run_folder.parent / "case.toml")
     inputs = read(run_folder / "dynamic.nc")[1]["inputs"]
     correlation, measured, rubber = made.surface.correlation, made.surface.measured, made.rubber
     assert correlation is not None

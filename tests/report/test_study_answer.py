@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.io.table import significant
 from gripscale.questions import Study, with_best_estimate
 from gripscale.questions.compare.comparison import reference
@@ -45,7 +45,7 @@ def solved(folder: Path) -> xr.Dataset:
 
 def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
     """Number, factors and interval: the same model on the same surface."""
-    run = reference(prepare_case(folder / "case.toml"))
+    run = reference(read_case(folder / "case.toml"))
     assert run is not None
     point = solved.isel(speed=0)
     for name in ("friction", "contact_fraction"):

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io import netcdf
 from gripscale.rubber import read_uniaxial_test
@@ -250,8 +250,8 @@ def readers(folder: Path) -> list[Reader]:
         Reader("table", ".txt", table, partial(gs.read_map, **step), surface, 15),
         Reader("curve", ".csv", curve(), gs.read_master_curve, check_curve, 60),
         Reader("friction", ".csv", friction(), read_measured_friction, check_friction, 60),
-        Reader("case", ".toml", case.read_bytes(), read_case, check_case, 60),
-        Reader("waves", ".toml", waves.read_bytes(), read_case, check_case, 60),
+        Reader("case", ".toml", case.read_bytes(), read_case_file, check_case, 60),
+        Reader("waves", ".toml", waves.read_bytes(), read_case_file, check_case, 60),
         Reader("result", ".nc", result(folder), netcdf.load, same_as(good), 40),
         Reader("tree", ".nc", result(folder), netcdf.load_tree, same_as(tree), 20),
         Reader("x3p", ".x3p", x3p(folder), gs.read_map, surface, 2),

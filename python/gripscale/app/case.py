@@ -21,7 +21,7 @@ import param
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from gripscale.case_file import CaseFile, folder, read_case
+from gripscale.case_file import CaseFile, folder, read_case_file
 from gripscale.case_file.examples import write_example
 from gripscale.case_file.folder import CASE, INPUTS, renamed
 from gripscale.case_file.new import case_text, propose
@@ -258,7 +258,7 @@ class CaseState(param.Parameterized):
 
     def file(self) -> CaseFile:
         """Return the case as it can be run; raise what is wrong with it."""
-        file = read_case(self.visit.case)
+        file = read_case_file(self.visit.case)
         self.visit.require_inside(file)
         return file
 
@@ -268,7 +268,7 @@ class CaseState(param.Parameterized):
 
     def text_of(self, path: Path) -> str:
         """Return the text of a case of this machine, with its files copied into the visit."""
-        folder.save_case(read_case(path), self.visit.path)
+        folder.save_case(read_case_file(path), self.visit.path)
         return self.visit.case.read_text(encoding="utf-8")
 
     def load_example(self, name: str) -> None:
@@ -304,7 +304,7 @@ class CaseState(param.Parameterized):
         stored = {n: self.visit.store(n, c) for n, c in uploads.items() if n not in cases}
         folder.write_text(self.visit.case, text)
         try:
-            names = [name for _, name in read_case(self.visit.case).case.named_files()]
+            names = [name for _, name in read_case_file(self.visit.case).case.named_files()]
         except GripscaleError:
             return text  # the problem of the case says what is wrong with it
         last = {name: name.replace("\\", "/").rpartition("/")[2] for name in names}

@@ -21,14 +21,14 @@ from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.app.superposition import Redraw, superposition_elements
 from gripscale.app.uploads import NewText, file_upload, with_upload
+from gripscale.case import Case
 from gripscale.case_file import (
     CaseFile,
-    CaseResults,
     ConditionsTable,
     MeasuredTable,
     RubberSource,
     SurfaceTable,
-    prepare_case,
+    read_case,
     validate,
 )
 from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
@@ -67,28 +67,28 @@ LOAD_TABLES = {
 """Tables of the case by name: their title and the fields at the top."""
 
 
-def _prepared_with(file: CaseFile, **tables: Any) -> CaseResults:
-    """Prepare the case with `tables` in place of its own, and without conditions.
+def _case_with(file: CaseFile, **tables: Any) -> Case:
+    """Read the case with `tables` in place of its own, and without conditions.
 
     So the surface can be seen before the rubber is stated, and the rubber before the surface.
     """
     plain = {"conditions": ConditionsTable(), "measured": MeasuredTable()}
-    return prepare_case(replace(file, case=file.case.model_copy(update=plain | tables)))
+    return read_case(replace(file, case=file.case.model_copy(update=plain | tables)))
 
 
 def surface_elements(file: CaseFile) -> list[AppElement]:
     """Return warnings, correlation with its waves, cleaning and profiles of the surface."""
     any_rubber = validate(RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
-    results = _prepared_with(file, rubber=any_rubber)
-    inputs = record.inputs(results)
-    notes = [*notice_elements([Notice("warning", note) for note in results.surface.notes])]
-    if results.surface.measured is None:
+    case = _case_with(file, rubber=any_rubber)
+    inputs = record.inputs(case)
+    notes = [*notice_elements([Notice("warning", note) for note in case.surface.notes])]
+    if case.surface.measured is None:
         return [*notes, Text("The case states the sine waves; no surface is measured.")]
     return [
         *notes,
-        Text(f"{sines_line(results.surface.sines)}."),
+        Text(f"{sines_line(case.surface.sines)}."),
         *correlation_charts(inputs),
-        *surface_facts(InputRecord(inputs), len(results.surface.sines)),
+        *surface_facts(InputRecord(inputs), len(case.surface.sines)),
         *cleaning_tables(InputRecord(inputs)),
         *profile_charts(inputs),
     ]
@@ -97,14 +97,14 @@ def surface_elements(file: CaseFile) -> list[AppElement]:
 def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[AppElement]:
     """Return findings, superposition, moduli with the fit and the ends of the data."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
-    results = _prepared_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
-    inputs = record.inputs(results)
+    case = _case_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
+    inputs = record.inputs(case)
     findings = InputRecord(inputs).findings
-    texts = [*doubt_sentences(results.rubber), *(f"{text}." for text in findings)]
+    texts = [*doubt_sentences(case.measured_rubber), *(f"{text}." for text in findings)]
     elements = [*notice_elements([Notice("warning", text) for text in texts])]
-    for part in shift_parts(results.rubber):
+    for part in shift_parts(case.measured_rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
-    elements += superposition_elements(state, results.rubber, redraw)
+    elements += superposition_elements(state, case.measured_rubber, redraw)
     return [*elements, *rubber_charts(inputs, None), rubber_facts(InputRecord(inputs))]
 
 

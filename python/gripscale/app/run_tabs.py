@@ -40,7 +40,7 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.questions.answer.intervals import interval_ends
-from gripscale.questions.answer.page import has_answer, no_answer
+from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.view import SYMBOLS, PredictionView
 from gripscale.report import source

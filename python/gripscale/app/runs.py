@@ -1,6 +1,6 @@
 """Runs of one visit: each is a `gripscale` command in its own process, which writes into a folder.
 
-The process of `gripscale run` writes its events (`gripscale.case_file.events`) to one file beside
+The process of `gripscale run` writes its events (`gripscale.questions.chain.events`) to one file beside
 the
 results, each process its text to another. Stopping a run ends the process and all it started; what
 it finished stays, and a run of the same case continues from there.
@@ -25,8 +25,9 @@ import param
 from gripscale.app.case import CaseState
 from gripscale.app.commands import COMMANDS, RUN, Command
 from gripscale.case_file import CaseFile, folder
-from gripscale.case_file.events import (
-    DirectContactSolved,
+from gripscale.core.errors import FileError, InputError
+from gripscale.questions.chain.events import (
+    AnswerSolved,
     EffectsSolved,
     Event,
     PredictionFinished,
@@ -35,7 +36,6 @@ from gripscale.case_file.events import (
     WaveSolved,
     from_json,
 )
-from gripscale.core.errors import FileError, InputError
 
 REPORT = "report.html"
 """The page of a result in its folder, as `gripscale report` names it."""
@@ -68,7 +68,7 @@ class Progress:
                 return replace(self, wave=event)
             case PredictionFinished():
                 return replace(self, finished=(*self.finished, event.prediction))
-            case DirectContactSolved():
+            case AnswerSolved():
                 return replace(self, last_stage="direct contact")
             case EffectsSolved():
                 return replace(self, last_stage="effects")

@@ -20,7 +20,7 @@ from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
 from gripscale.app.uploads import prepare_areas
-from gripscale.case_file import folder, read_case
+from gripscale.case_file import folder, read_case_file
 from gripscale.case_file.examples import EXAMPLES
 from gripscale.core.errors import InputError
 
@@ -85,7 +85,7 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
 def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     """Serve the page until it is interrupted."""
     if case is not None:
-        read_case(case)
+        read_case_file(case)
     folder.require_writable(root)
     folder.make(root)
     port = _free_port(port)

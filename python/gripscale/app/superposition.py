@@ -15,13 +15,13 @@ import panel as pn
 
 from gripscale.app.case import CaseState
 from gripscale.app.elements import AppElement, column, html, work_button
-from gripscale.case_file.prepare import PreparedRubber
 from gripscale.charts.draw import image
 from gripscale.charts.page_elements import Picture
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.questions.inputs.charts_of_rubber import superposition_figure
 from gripscale.report.elements import Text
 from gripscale.rubber import ShiftTable, write_shift_table
+from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.superposition import temperatures_in
 
 FILE = "shift_by_hand.csv"
@@ -31,7 +31,7 @@ Redraw = Callable[[], Awaitable[None]]
 
 
 def superposition_elements(
-    state: CaseState, rubber: PreparedRubber, redraw: Redraw
+    state: CaseState, rubber: MeasuredRubber, redraw: Redraw
 ) -> Iterator[AppElement]:
     """Yield sweeps as measured and shifted, and the fields of their shift; nothing without sweeps.
 

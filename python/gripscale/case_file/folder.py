@@ -19,8 +19,8 @@ from itertools import count
 from pathlib import Path
 from typing import get_args
 
-from gripscale.case_file.read import CaseFile, read_case
-from gripscale.case_file.tables import Case, FigureKind
+from gripscale.case_file.read import CaseFile, read_case_file
+from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import FileError, GripscaleError
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import read_bytes
@@ -69,7 +69,7 @@ def saved_case(file: CaseFile, folder: Path) -> SavedCase:
 def saved_inputs(folder: Path) -> set[str]:
     """Return the copies, by path in `folder`, that the case saved there names."""
     try:
-        names = read_case(folder / CASE).case.named_files()
+        names = read_case_file(folder / CASE).case.named_files()
     except GripscaleError:
         return set()
     return {name for _, name in names if Path(name).parent == Path(INPUTS)}
@@ -93,7 +93,7 @@ def renamed(text: str, targets: Mapping[str, str]) -> str:
 def _names_a_file(text: str) -> bool:
     """Return whether the case looks for a file by the mark put into its text."""
     try:
-        case = Case.model_validate(tomllib.loads(text))
+        case = CaseTables.model_validate(tomllib.loads(text))
     except ValueError:
         return False
     return any(name == _MARK for _, name in case.named_files())
@@ -131,7 +131,7 @@ RESULTS = (
     NOTE,
     "dynamic.nc",
     "static.nc",
-    "direct.nc",
+    "answer.nc",
     "cut_off.nc",
     "effects_chain.nc",
     "report.txt",

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from gripscale.case import Case
 from gripscale.case_file import folder
 from gripscale.case_file.keys import sections
+from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
     UNITS_OF_SURFACE,
     Doubt,
@@ -27,9 +29,7 @@ from gripscale.case_file.proposals import (
     rubber_proposal,
     surface_proposal,
 )
-from gripscale.case_file.read import CaseFile, read_case
-from gripscale.case_file.results import CaseResults
-from gripscale.case_file.run import prepare_case
+from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.units import temperature_in_kelvin
 from gripscale.rubber import read_shift_table
@@ -114,7 +114,7 @@ def new_case(
     results = "results" if target.stem == "case" else f"results-{target.stem}"
     folder.write_text(target, case_text(tables, results=results))
     try:
-        of_inputs = doubts_of_inputs(read_case(target))
+        of_inputs = doubts_of_inputs(read_case_file(target))
     except GripscaleError:
         target.unlink()
         raise
@@ -292,13 +292,13 @@ def _toml(value: Any) -> str:
 
 def doubts_of_inputs(file: CaseFile) -> list[Doubt]:
     """Return what reading and fitting the files of a case puts in doubt."""
-    results = prepare_case(file)
-    rubber, surface = results.rubber, results.surface
+    case = read_case(file)
+    rubber, surface = case.measured_rubber, case.surface
     findings = [*(rubber.fit.findings if rubber.fit else ())]
     findings += [*(rubber.superposition.findings if rubber.superposition else ())]
     by_weight = {
-        Weight.ANOTHER: [*results.doubts(), *results.load_notes()],
-        Weight.FACTOR: [*_beyond_the_band(results)],
+        Weight.ANOTHER: [*case.doubts(), *case.load_notes()],
+        Weight.FACTOR: [*_beyond_the_band(case)],
         Weight.SCATTER: [
             *(note for note in surface.notes if note not in surface.doubts),
             *(f"rubber: {finding}" for finding in findings),
@@ -309,10 +309,10 @@ def doubts_of_inputs(file: CaseFile) -> list[Doubt]:
     ]
 
 
-def _beyond_the_band(results: CaseResults) -> Iterator[str]:
+def _beyond_the_band(case: Case) -> Iterator[str]:
     """Yield which wave excites the rubber farthest beyond its measured frequencies."""
     try:
-        wavelengths = results.surface.sines.wavelength
-        require_measured(results.rubber_before, wavelengths, results.load.speed)
+        wavelengths = case.surface.sines.wavelength
+        require_measured(case.rubber_before, wavelengths, case.load.speed)
     except ExtrapolationError as error:
         yield str(error)

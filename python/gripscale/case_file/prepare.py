@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from contextlib import nullcontext
+from dataclasses import replace
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -11,14 +13,16 @@ from typing import Any
 import numpy as np
 
 from gripscale import surface as surfaces
-from gripscale.case_file.read import CaseFile
+from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
+from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import Table
 from gripscale.case_file.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.errors import FileError, GripscaleError, InputError, about_file, about_keys
+from gripscale.core.errors import FileError, InputError, about_file, about_keys
 from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.half_space.below_measurement import (
     FinerMeasurement,
     HurstExponent,
@@ -27,18 +31,14 @@ from gripscale.half_space.below_measurement import (
     contact_by_cut_off,
     cut_off_at,
 )
-from gripscale.half_space.continued import ContinuedContact
+from gripscale.io.text_table import read_bytes
 from gripscale.rubber import (
     MasterCurve,
-    PronyFit,
     Rubber,
     Shift,
-    ShiftFit,
-    ShiftTable,
     Superposition,
     Sweeps,
     fit_prony_report,
-    fit_wlf,
     read_master_curve,
     read_shift_table,
     read_strain_sweep,
@@ -47,8 +47,10 @@ from gripscale.rubber import (
     superpose_report,
 )
 from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
+from gripscale.theory.models import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
 RawHeights = surfaces.HeightMap | list[surfaces.Profile]
@@ -86,29 +88,16 @@ def _described(
 ) -> surfaces.Surface:
     """Return a cleaned surface with its correlation and sine waves; errors of `prepare_surface`."""
     paths = [resolve(name) for name in surface.measured_files]
-    counted = _options(surface, surfaces.height_difference)
-    try:
-        correlation = surfaces.height_difference(measured.cleaned, **counted)
-    except InputError as error:  # a wrong unit may leave no heights
-        raise InputError("; ".join([*measured.doubts, str(error)])) from error
-    try:
-        measured = replace(measured, self_affine=surfaces.fit_self_affine(correlation))
-    except GripscaleError as error:  # the sine waves do not need a self-affine surface
-        measured = replace(measured, no_self_affine=str(error))
-    fit = _options(surface, surfaces.fit_sines)
-    if not (surface.cut_off is None or isinstance(surface.cut_off, float)):
-        where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-        with about_file(where, InputError):
-            fit["cut_off"] = surfaces.find_cut_off(measured.slopes, surface.cut_off).wavelength
-    return surfaces.Surface(
-        surfaces.fit_sines(correlation, **fit),
-        ", ".join(str(path) for path in paths),
-        correlation,
-        fit,
-        measured,
-        counted,
-        surface.cut_off,
-    )
+    where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
+    by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
+    with about_file(where, InputError) if by_rule else nullcontext():
+        return described_surface(
+            measured,
+            counted=_options(surface, surfaces.height_difference),
+            fit=_options(surface, surfaces.fit_sines),
+            cut_off=surface.cut_off,
+            source=", ".join(str(path) for path in paths),
+        )
 
 
 def case_surface(file: CaseFile) -> surfaces.Surface:
@@ -201,41 +190,10 @@ OF_SWEEPS = ("temperature_step", "vertical")
 """Keys of the case's [rubber] that only sweeps at several temperatures have."""
 
 
-@dataclass(frozen=True)
-class PreparedRubber:
-    """A rubber and what it comes from.
-
-    Of a master curve the curve and the report on its fit; of sweeps at several temperatures those,
-    too, and how they meet.
-    """
-
-    rubber: Rubber
-    source: str
-    master: MasterCurve | None = None
-    fit: PronyFit | None = None
-    sweeps: Sweeps | None = None
-    superposition: Superposition | None = None
-
-    @property
-    def doubts(self) -> tuple[str, ...]:
-        """Why its moduli may be those of no rubber, a sentence each."""
-        return () if self.fit is None else self.fit.doubts
-
-    def shift_fits(self) -> list[ShiftFit]:
-        """Return the WLF law of the shift that was found, where it follows one."""
-        if self.master is None or not isinstance(self.master.shift, ShiftTable):
-            return []
-        try:
-            reference = self.master.reference_temperature
-            return [fit_wlf(self.master.shift, reference_temperature=reference)]
-        except InputError:
-            return []
-
-
 @about_keys("rubber")
 def prepare_rubber(
     source: RubberSource, resolve: Resolve = Path, *, titles_first: bool = False
-) -> PreparedRubber:
+) -> MeasuredRubber:
     """Read and fit the file of `source`, or take the rubber it names.
 
     `resolve` turns the name of a file into its path. What the source states of the file goes before
@@ -247,7 +205,7 @@ def prepare_rubber(
     options = {name: value for name, value in options.items() if value is not None}
     if source.file is None:
         rubber = replace(styrene_butadiene(**options), strain_energy=source.strain_energy)
-        return PreparedRubber(_shifted(rubber, source, resolve), rubber.source)
+        return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
     paths, layout = [resolve(name) for name in source.measured_files], source.layout()
     path = paths[0]
     if path.is_dir():
@@ -278,7 +236,7 @@ def prepare_rubber(
         sweeps, report = None, None
     elif sweeps is None:
         rubber = _shifted(rubber, source, resolve)
-    return PreparedRubber(rubber, master.source, master, fit, sweeps, report)
+    return MeasuredRubber(rubber, master.source, master, fit, sweeps, report)
 
 
 OF_A_RAMP = (
@@ -375,25 +333,14 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
 
 
 @about_keys("below_measurement")
-def prepare_continuation(
-    file: CaseFile, *, down_to: float, hurst: float | None = None
-) -> ContinuedContact:
-    """Return the model of the roughness below the measurement, down to a wavelength [m].
-
-    `hurst` goes before what the case states. Raises `FileError` and `InputError` for what cannot be
-    used.
-    """
+def _below_measurement(file: CaseFile) -> BelowMeasurement:
     table = file.case.below_measurement
     roughness: Roughness = OwnFaces()
-    exponent = table.hurst if hurst is None else hurst
-    if exponent is not None:
-        roughness = HurstExponent(exponent)
+    if table.hurst is not None:
+        roughness = HurstExponent(table.hurst)
     elif table.finer is not None:
         roughness = FinerMeasurement(_face(table.finer, file.resolve))
-    conditions = prepare_conditions(file.case.conditions, file.resolve)
-    return ContinuedContact(
-        conditions=conditions, down_to=down_to, roughness=roughness, seed=table.seed
-    )
+    return BelowMeasurement(table.down_to, roughness, table.seed)
 
 
 def _face(table: FinerTable, resolve: Resolve) -> surfaces.Profile | surfaces.HeightMap:
@@ -417,3 +364,75 @@ def case_chain(file: CaseFile) -> Chain:
         extrapolate=case.rubber.extrapolate,
         conditions=prepare_conditions(case.conditions, file.resolve),
     )
+
+
+@about_keys("measured")
+def stated_friction(file: CaseFile) -> MeasuredFriction | None:
+    """Return the measured friction that a case names, None if it names none.
+
+    Raises `FileError` if it cannot be read.
+    """
+    name = file.case.measured.friction
+    return None if name is None else read_measured_friction(file.resolve(name))
+
+
+def named_files(file: CaseFile) -> list[NamedFile]:
+    """Return the files that a case names, with their checksums.
+
+    Raises `FileError` if one cannot be read.
+    """
+    files = []
+    for role, name in file.case.named_files():
+        content = read_bytes(file.resolve(name))
+        files.append(NamedFile(role, name, len(content), hashlib.sha256(content).hexdigest()))
+    return files
+
+
+def read_case(path: CaseFile | str | Path) -> Case:
+    """Read the case file at a path with everything it names, and fit what it asks for.
+
+    Parameters
+    ----------
+    path : path or CaseFile
+        A case file (TOML), see `gripscale keys`.
+
+    Returns
+    -------
+    Case
+        It keeps its text, the units it states and the checksums of its files.
+
+    Raises
+    ------
+    FileError, InputError
+        For what cannot be read or used.
+    """
+    file = path if isinstance(path, CaseFile) else read_case_file(path)
+    # measured friction is refused before anything is fitted
+    friction, chain = stated_friction(file), case_chain(file)
+    surface = case_surface(file)
+    rubber = prepare_rubber(file.case.rubber, file.resolve)
+    load, theory = file.case.load, file.case.compare
+    klueppel_heinrich = None
+    if theory.layer_ratio is not None and theory.penetration_depth is not None:
+        klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
+    with about_keys("rubber.shift"):
+        try:
+            return Case(
+                surface,
+                rubber,
+                pressure=load.pressure,
+                speed=load.speed,
+                footprint=load.footprint,
+                load_time=load.nominal.load_time,
+                static=load.static,
+                chain=chain,
+                conditions=chain.conditions,
+                below_measurement=_below_measurement(file),
+                klueppel_heinrich=klueppel_heinrich,
+                friction=friction,
+                cleaning=cleaning_options(file.case.surface) if surface.measured else {},
+                options={"uncertainty": file.case.uncertainty.options()},
+                origin=Origin(str(file.path), file.text, file.units, named_files(file)),
+            )
+        except InputError as error:
+            raise InputError(f"{file.path}: [conditions] {error}") from error

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from gripscale.case_file.schema import first_complaint, sentence
-from gripscale.case_file.tables import Case
+from gripscale.case_file.tables import CaseTables
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.core.provenance import COMMAND, software, versions
 from gripscale.core.units import DISPLAY_UNITS, stated_units
@@ -27,7 +27,7 @@ M = TypeVar("M", bound=BaseModel)
 class CaseFile:
     """A case with the file it came from: `text` is kept word for word for the results folder."""
 
-    case: Case
+    case: CaseTables
     path: Path
     text: str
     units: Mapping[str, str] = field(default_factory=dict, compare=False)
@@ -44,7 +44,7 @@ class CaseFile:
         return (self.path.parent / Path(name).expanduser()).resolve()
 
 
-def read_case(path: str | Path) -> CaseFile:
+def read_case_file(path: str | Path) -> CaseFile:
     """Read and validate the case file at `path`.
 
     Raises `FileError` if it cannot be read or is not TOML, `InputError` if it says something
@@ -77,7 +77,7 @@ def read_case(path: str | Path) -> CaseFile:
             f"{path}: an empty case; expected at least [surface], [rubber] and [load], as "
             "`gripscale init FOLDER` writes them"
         )
-    return CaseFile(validate(Case, tables, str(path)), path, text, stated_units(tables))
+    return CaseFile(validate(CaseTables, tables, str(path)), path, text, stated_units(tables))
 
 
 def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
@@ -85,7 +85,7 @@ def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
     try:
         return model.model_validate(dict(values))
     except ValidationError as error:
-        whole = model is Case
+        whole = model is CaseTables
         refused = InputError(f"{where}: {sentence(error, model, in_table=whole)}")
         if whole:
             with about_keys(_table_of(error)):

@@ -21,8 +21,16 @@ from gripscale.case_file.schema import (
     TemperatureDifference,
     unit_of_file,
 )
-from gripscale.core.units import in_mm, parse_quantity, such_as, unit_of
+from gripscale.core.units import in_mm, parse_quantity, such_as
 from gripscale.model import MOST_CLASSES, Load
+from gripscale.questions.uncertainty.options import (
+    FEWEST_SAMPLES,
+    MOST_SAMPLES,
+    MOST_SEED,
+    PRESSURE_ERROR,
+    UncertaintyOptions,
+    pressure_error,
+)
 from gripscale.rubber.strain_energy import NeoHookean
 
 CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
@@ -257,8 +265,6 @@ class ChainOptions(Table):
     """Classes of equal load in which the pressure is handed down; 1: its mean."""
 
 
-FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED = 10, 100_000, 2**32 - 1
-
 SourceName = Literal[
     "height_noise",
     "cleaning",
@@ -305,23 +311,6 @@ def _values(kind: str) -> Reading:
 Moduli = Annotated[list[float], _values("pressure")]
 Lengths = Annotated[list[float], _values("length")]
 Factors = Annotated[list[float], _values(FACTOR)]
-
-PRESSURE_ERROR = 'a share such as "3 %", or a pressure such as "0.1 bar"'
-
-
-def pressure_error(value: Any, pressure: float) -> float:
-    """Return the relative error [-] that a share or a pressure [Pa] is of a nominal pressure.
-
-    Raises `ValueError` for what is neither, or not above zero.
-    """
-    relative = unit_of(value, "strain") == "%"
-    try:
-        error = parse_quantity(value, "strain" if relative else "pressure")
-    except ValueError as wrong:
-        raise ValueError(f"expected {PRESSURE_ERROR}") from wrong
-    if error <= 0.0:
-        raise ValueError("expected a value greater than zero")
-    return error if relative else error / pressure
 
 
 def _pressure_error(value: Any) -> Any:
@@ -370,6 +359,14 @@ class UncertaintyTable(Table):
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Estimated relative error of each direct contact; that of its first full grid by default."""
+
+    def options(self) -> UncertaintyOptions:
+        """Return what is stated as options of the question."""
+        ranges = {} if self.ranges is None else self.ranges.model_dump(exclude_none=True)
+        stated = {name: getattr(self, name) for name in ("samples", "seed", "model", "tolerance")}
+        return UncertaintyOptions(
+            without=tuple(self.without), ranges=ranges, block_length=self.block_length, **stated
+        )
 
 
 FigureKind = Literal["png", "pdf", "svg"]
@@ -451,7 +448,7 @@ class CompareTable(Table):
         return self
 
 
-class Case(Table):
+class CaseTables(Table):
     """A whole case file."""
 
     surface: SurfaceTable
@@ -478,7 +475,7 @@ class Case(Table):
     """What is not known of all that."""
 
     @model_validator(mode="after")
-    def _energy_of_the_model(self) -> Case:
+    def _energy_of_the_model(self) -> CaseTables:
         if self.solver.model == "half_plane" and self.rubber.strain_energy != NeoHookean():
             raise ValueError(
                 "strain_energy of [rubber] has no effect at small strain; expected "

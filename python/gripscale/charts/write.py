@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from gripscale.charts.figure_folder import FigureFolder, Figures
 from gripscale.charts.page_elements import Picture
-from gripscale.questions.answer.charts import named_traces, trace_sheet
+from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
 from gripscale.questions.chain import charts as wave_and_chain
 from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.view import JUDGE, PredictionView
@@ -27,8 +27,10 @@ from gripscale.questions.vary.speed_and_temperature import REDUCED_SPEED
 from gripscale.rubber import ShiftTable
 
 if TYPE_CHECKING:
-    from gripscale.case_file.prepare import PreparedRubber
-    from gripscale.case_file.results import CaseResults
+    from gripscale.case import Case
+    from gripscale.questions.answer.answer import Answer
+    from gripscale.questions.chain.run import ChainRun
+    from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import Surface
 
 
@@ -38,11 +40,11 @@ def draw(pictures: Iterable[Picture], figures: FigureFolder) -> None:
         figures.save(picture.figure, picture.name)
 
 
-def draw_inputs(results: CaseResults, figures: Figures) -> None:
+def draw_inputs(case: Case, figures: Figures) -> None:
     """Draw profiles, correlation and master curve."""
-    surface_figures(results.surface, figures)
-    omega = excited(results.file.case.load.speed, results.surface.sines)
-    rubber_figures(results.rubber, omega, figures)
+    surface_figures(case.surface, figures)
+    omega = excited(case.load.speed, case.surface.sines)
+    rubber_figures(case.measured_rubber, omega, figures)
 
 
 def surface_figures(prepared: Surface, figures: Figures) -> None:
@@ -56,7 +58,7 @@ def surface_figures(prepared: Surface, figures: Figures) -> None:
     figures.save(figure, "correlation")
 
 
-def rubber_figures(prepared: PreparedRubber, omega: ArrayLike, figures: Figures) -> None:
+def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: Figures) -> None:
     """Draw the master curve with the angular frequencies `omega` [rad/s] marked.
 
     Of sweeps at several temperatures also how they meet, and the shift factors.
@@ -72,31 +74,28 @@ def rubber_figures(prepared: PreparedRubber, omega: ArrayLike, figures: Figures)
         figures.save(rubber.shift_sheet(master.shift, prepared.shift_fits()), "shift")
 
 
-def draw_blocks(results: CaseResults, name: str, figures: Figures) -> None:
+def draw_blocks(run: ChainRun, name: str, figures: Figures) -> None:
     """Draw the blocks of a prediction, "dynamic" or "static"."""
-    figures.save(all_blocks(results.dataset(name)), f"blocks_{name}")
+    figures.save(all_blocks(run.dataset(name)), f"blocks_{name}")
 
 
-def draw_contact(results: CaseResults, figures: Figures) -> None:
+def draw_contact(run: ChainRun, figures: Figures) -> None:
     """Draw area and friction of all predictions, what judges them, and against the cut-off."""
-    predictions = map(results.dataset, results.predictions)
+    predictions = map(run.dataset, run.predictions)
     titles = {PredictionView(data).title.lower(): data for data in predictions}
-    if results.direct is not None:
-        titles[JUDGE] = results.direct
+    if run.answer is not None and run.answer.is_solved:
+        titles[JUDGE] = run.answer.data
     figures.save(wave_and_chain.contact_sheet(titles), "contact_and_friction")
-    for curve in results.continued.values():
-        figures.save(cut_off_sheet(curve), "cut_off")
+    if run.answer is not None and run.answer.curve is not None:
+        figures.save(cut_off_sheet(run.answer.curve), "cut_off")
 
 
-def draw_direct(results: CaseResults, figures: Figures) -> None:
+def draw_direct(answer: Answer, figures: Figures) -> None:
     """Draw rubber on surface, pressure and friction of the first direct contact, if it is solved.
 
     The page shows the others.
     """
-    measured = results.surface.measured
-    profiles = [] if measured is None else [raw.name for raw, _ in measured.profiles]
-    traces = [] if results.direct is None else named_traces(results.direct, profiles)
-    for name, trace in traces[:1]:
+    for name, trace in named_traces(answer.data, profile_names(answer.inputs))[:1]:
         figures.save(trace_sheet(trace, name), "direct_contact")
 
 

@@ -65,7 +65,7 @@ def compare(
     cluster: Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.case_file import prepare_case, read_case
+    from gripscale.case_file import read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw_comparison, draw_effects
     from gripscale.experiment.measured_friction import (
@@ -76,8 +76,9 @@ def compare(
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
-    from gripscale.questions.answer.page import answer_lines, answer_notices, has_answer
-    from gripscale.questions.calibration.measured_comparison import friction_of_case
+    from gripscale.questions.answer.findings import answer_notices
+    from gripscale.questions.answer.page import answer_lines
+    from gripscale.questions.answer.reliance import has_answer
     from gripscale.questions.calibration.page_of_measured import residual_table
     from gripscale.questions.compare.charts import at_measured_figure
     from gripscale.questions.compare.charts_of_ladder import varied
@@ -89,18 +90,20 @@ def compare(
     )
     from gripscale.questions.compare.ladder import WINDOWS, chosen
     from gripscale.questions.compare.page import best_line, comparison_parts, failures
+    from gripscale.questions.result import warning_lines
     from gripscale.questions.uncertainty.page import uncertainty_lines
-    from gripscale.questions.uncertainty.propagation import input_digests, stored_uncertainty
+    from gripscale.questions.uncertainty.propagation import stored_uncertainty
     from gripscale.questions.vary.axis import parse_vary
     from gripscale.questions.vary.effects import case_effects
     from gripscale.questions.vary.page_side_by_side import effects_table
     from gripscale.report.elements import ranked
-    from gripscale.report.notices import friction_notices, warning_lines
+    from gripscale.report.notices import friction_notices
 
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
-    file = read_case(case)
-    friction = friction_of_case(file) if measured is None else read_measured_friction(measured)
-    of_friction = friction_doubts(friction, file.case.load.speed)
+    file = read_case_file(case)
+    read = read_case(file)
+    friction = read.friction if measured is None else read_measured_friction(measured)
+    of_friction = friction_doubts(friction, read.load.speed)
     opening = f"Comparison of models for {file.path}"
     console, target = terminal.open_folder(file, output, "comparison", opening)
     on_task = terminal.progress_printer(console)
@@ -128,18 +131,17 @@ def compare(
     worth: list[xr.Dataset] = []
     residuals: xr.Dataset | None = None
     if axes is None:
-        results = prepare_case(file)
-        ladder = compare_case(results, **options)
+        ladder = compare_case(read, **options)
         data, name = ladder.to_dataset(), "comparison"
-        models: list[Model] = [results.chain] if results.conditions is not None else []
-        if models and results.surface.measured is not None:
-            models.append(DirectContact(tolerance=tolerance, conditions=results.conditions))
+        models: list[Model] = [read.chain] if read.conditions is not None else []
+        if models and read.surface.measured is not None:
+            models.append(DirectContact(tolerance=tolerance, conditions=read.conditions))
         store = target / PREDICTIONS
-        effects = (case_effects(results, model, target, store, **solving) for model in models)
+        effects = (case_effects(read, model, target, store, **solving) for model in models)
         worth = [result for result in effects if result is not None]
         residuals = at_measured(ladder, store, **solving)
     else:
-        data = compare_over(file, axes, **options).to_dataset()
+        data = compare_over(read, axes, **options).to_dataset()
         name = f"over_{varied(data)}"
     if of_friction:
         data.attrs[FRICTION_DOUBTS] = "\n".join(of_friction)
@@ -159,7 +161,7 @@ def compare(
         netcdf.save(residuals, target / "at_measured.nc")
         parts.append(residual_table(residuals))
     sampled = stored_uncertainty(file.resolve(file.case.output.folder))
-    parts += uncertainty_lines(sampled, file.text, input_digests(file))
+    parts += uncertainty_lines(sampled, file.text, read.origin.digests)
     if axes is None and has_answer(data):
         parts += ["", best_line(data)]
 
@@ -240,7 +242,8 @@ def compare_surfaces(
     workers: Workers = None,
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
-    from gripscale.case_file import read_case
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.case_file.named_inputs import read_surface
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.questions.vary.charts_side_by_side import road_pictures
@@ -252,11 +255,14 @@ def compare_surfaces(
     )
     from gripscale.questions.vary.surface_comparison import compare_surfaces as compare
 
-    file = read_case(case_of(surfaces, case, "the rubber and the load"))
+    file = read_case_file(case_of(surfaces, case, "the rubber and the load"))
     console, target = terminal.open_folder(file, output, "surfaces")
     roads = compare(
-        file,
-        dict(zip(names_of(surfaces), surfaces, strict=True)),
+        read_case(file),
+        {
+            name: read_surface(value, file)
+            for name, value in zip(names_of(surfaces), surfaces, strict=True)
+        },
         target,
         samples=samples or None,
         workers=workers,
@@ -304,7 +310,8 @@ def compare_rubbers(
     workers: Workers = None,
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
-    from gripscale.case_file import read_case
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.case_file.named_inputs import read_rubber
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.core.units import temperature_in_kelvin
@@ -320,15 +327,18 @@ def compare_rubbers(
 
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
-    file = read_case(chosen)
+    file = read_case_file(chosen)
     opening = (
         "Each compound is predicted first; then the range that the error of its measured moduli "
         "leaves, on half-planes."
     )
     console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
     compounds = compare_compounds(
-        file,
-        dict(zip(names_of(rubbers), rubbers, strict=True)),
+        read_case(file),
+        {
+            name: read_rubber(value, file)
+            for name, value in zip(names_of(rubbers), rubbers, strict=True)
+        },
         target,
         temperature=kelvin,
         uncertainty=uncertainty,

@@ -31,16 +31,16 @@ def cut_off(
     workers: Workers = None,
 ) -> None:
     """Contact and friction against the cut-off, down below what the profiles resolve."""
-    from gripscale.case_file import folder, read_case
+    from gripscale.case_file import folder, read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.core.units import parse_quantity
+    from gripscale.questions.answer.findings import case_notices
     from gripscale.questions.cut_off.charts import cut_off_sheet
     from gripscale.questions.cut_off.cut_off_curve import FILE, case_cut_off
     from gripscale.questions.cut_off.page import answer_lines, cut_off_parts, failures
     from gripscale.questions.inputs.page_record import InputRecord
-    from gripscale.report.notices import case_notices
 
-    file = read_case(case)
+    file = read_case_file(case)
     try:
         end = None if down_to is None else parse_quantity(down_to, "length")
     except ValueError as error:
@@ -48,7 +48,7 @@ def cut_off(
     opening = f"Contact and friction of {file.path} against the cut-off"
     console, target = terminal.open_folder(file, output, "cut_off", opening)
     data = case_cut_off(
-        file,
+        read_case(file),
         folder=target,
         down_to=end,
         hurst=hurst,

@@ -64,9 +64,11 @@ def design(
 
     Resumes where it was stopped.
     """
-    from gripscale.case_file import folder, read_case
+    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file.named_inputs import read_rubber, read_surface
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
+    from gripscale.questions.answer.findings import case_notices
     from gripscale.questions.design.charts import design_pictures
     from gripscale.questions.design.compound_design import RESULT, design_compound
     from gripscale.questions.design.compound_limits import CompoundLimits
@@ -79,12 +81,12 @@ def design(
     )
     from gripscale.questions.design.page import compounds_table, design_lines, design_table
     from gripscale.questions.inputs.page_record import InputRecord
-    from gripscale.report.notices import case_notices
 
-    file = read_case(case)
+    file = read_case_file(case)
+    read = read_case(file)
     points = None if not limit else tuple(parse_limit(text) for text in limit)
     limits = CompoundLimits(largest_factor, factor_per_decade, points)
-    goals = [parse_goal(text, default_goal(file)) for text in goal or ()]
+    goals = [parse_goal(text, default_goal(read)) for text in goal or ()]
     wanted = [] if levels is None else parse_levels(levels)
     others = list(rubber or ())
     console, target = terminal.open_folder(
@@ -97,12 +99,16 @@ def design(
         print_wrapped(console, f"tan δ when rolling {rolling:+.1%}: friction {gain:+.1%}")
 
     data = design_compound(
-        file,
+        read,
         target,
         goals=goals,
         limits=limits,
         levels=wanted,
-        rubbers=dict(zip(names_of(others), others, strict=True)),
+        rubbers={
+            name: read_rubber(value, file)
+            for name, value in zip(names_of(others), others, strict=True)
+        },
+        roads={road: read_surface(road, file) for road in sorted({goal.road for goal in goals})},
         workers=workers,
         on_point=print_point,
     )

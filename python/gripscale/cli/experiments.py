@@ -45,7 +45,8 @@ def study(
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
-    from gripscale.case_file import folder
+    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io import netcdf
     from gripscale.questions.answer.best_estimate import with_best_estimate
@@ -58,17 +59,19 @@ def study(
     axes = dict(pairs)
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
-    planned = Study(case, axes, static=static, model=model, tolerance=tolerance)
-    console, target = terminal.open_folder(planned.file, output, "study")
+    file = read_case_file(case)
+    axes = read_named_inputs(axes, file)
+    planned = Study(read_case(file), axes, static=static, model=model, tolerance=tolerance)
+    console, target = terminal.open_folder(file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
         terminal.print_wrapped(console, line)
-    figures = FigureFolder(target / "figures", planned.file.case.output.figures)
+    figures = FigureFolder(target / "figures", file.case.output.figures)
     folder.make(figures.path)
-    folder.save_case(planned.file, target)
+    folder.save_case(file, target)
     result = planned.run(
         target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
     )
@@ -160,7 +163,7 @@ def uncertainty(
 
     Options go before what the case states in its table [uncertainty].
     """
-    from gripscale.case_file import folder, read_case
+    from gripscale.case_file import folder, read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.core import checks
@@ -177,7 +180,7 @@ def uncertainty(
         stated_models,
     )
     from gripscale.questions.uncertainty.sampled_inputs import length
-    from gripscale.questions.uncertainty.sampling import Uncertainty
+    from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
     from gripscale.questions.vary.axis import parse_vary
 
     models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
@@ -191,11 +194,12 @@ def uncertainty(
         if name in values:
             raise InputError(f"range must name different sources; got {name} twice")
         values[name] = value
-    file = read_case(case)
+    file = read_case_file(case)
+    read = read_case(file)
     choice = Uncertainty.of_case(
-        file.case.uncertainty, without=without or None, ranges=values, block_length=blocks
+        stated_options(read), without=without or None, ranges=values, block_length=blocks
     )
-    models = models or stated_models(file, choice)
+    models = models or stated_models(read, choice)
     if cluster is None and DirectContact.name in models and worker_count(workers) > 1:
         cluster = PROCESSES
     console, target = terminal.open_folder(
@@ -204,7 +208,7 @@ def uncertainty(
     figures = FigureFolder(target / "figures", file.case.output.figures)
     folder.make(figures.path)
     data = propagate(
-        file,
+        read,
         choice,
         samples=samples,
         seed=seed,
@@ -264,7 +268,7 @@ def calibrate(
     cluster: Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.case_file import prepare_case, read_case
+    from gripscale.case_file import read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.experiment.measured_friction import (
@@ -274,6 +278,7 @@ def calibrate(
     )
     from gripscale.io import netcdf
     from gripscale.model import INPUT_DOUBTS
+    from gripscale.questions.answer.findings import case_notices
     from gripscale.questions.calibration.calibration import calibrate_case, measured_of
     from gripscale.questions.calibration.calibration_text import (
         notes,
@@ -285,17 +290,16 @@ def calibrate(
     from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.questions.uncertainty.charts import calibration_pictures
     from gripscale.questions.vary.inputs import default_model
-    from gripscale.report.notices import case_notices
 
     values = parse_fixed(fixed or [])
-    file = read_case(case)
-    model = model or default_model(file)
-    friction = measured_of(file) if measured is None else read_measured_friction(measured)
+    file = read_case_file(case)
+    read = read_case(file)
+    model = model or default_model(read)
+    friction = measured_of(read) if measured is None else read_measured_friction(measured)
     opening = f"Area term of {file.path} from {friction.source}"
     console, target = terminal.open_folder(file, output, "calibration", opening)
-    results = prepare_case(file)
     fitted = calibrate_case(
-        results,
+        read,
         model=model,
         law=law,
         fixed=values,
@@ -307,15 +311,15 @@ def calibrate(
         on_task=terminal.progress_printer(console),
     )
     data = fitted.to_dataset().assign_attrs(
-        file.attributes, case_file=str(file.path), model=model, notes="\n".join(notes(fitted))
+        read.attributes, case_file=read.origin.name, model=model, notes="\n".join(notes(fitted))
     )
-    speed = results.load.speed
+    speed = read.load.speed
     # its speeds have a doubt of their own
-    loads = [replace(results.load, pressure=float(p)) for p in fitted.predicted.pressure]
+    loads = [replace(read.load, pressure=float(p)) for p in fitted.predicted.pressure]
     if far := speed_doubts(friction, speed):
         data.attrs[INPUT_DOUBTS] = " ".join(far)
     of_friction = friction_doubts(friction, speed)
-    inputs = record.inputs(results, loads=loads, friction_notes=of_friction)
+    inputs = record.inputs(read, loads=loads, friction_notes=of_friction)
     netcdf.save(data, target / "calibration.nc", {"inputs": inputs})
     figures = FigureFolder(target, file.case.output.figures)
     terminal.conclude(

@@ -127,12 +127,12 @@ def mesh(
 
 def _rubber_of(source: Path) -> Rubber:
     """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
-    from gripscale.case_file import RubberSource, prepare_rubber, read_case, validate
+    from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
     from gripscale.io.text_table import read_bytes
     from gripscale.rubber import Rubber
 
     if source.suffix == ".toml":
-        file = read_case(source)
+        file = read_case_file(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
     if source.suffix == ".json":
         content = read_bytes(source)

@@ -31,8 +31,8 @@ from gripscale.core.errors import about_keys
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from gripscale.case_file.prepare import PreparedRubber
     from gripscale.io.table import Table
+    from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import Surface
 
 
@@ -278,7 +278,7 @@ def fit_rubber(
         _write(console, prepared, output)
 
 
-def _write(console: Console, prepared: PreparedRubber, output: Path) -> None:
+def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.case_file import folder
     from gripscale.charts.figure_folder import FigureFolder

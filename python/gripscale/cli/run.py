@@ -22,13 +22,14 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
-    from gripscale.case_file import CaseResults
-    from gripscale.case_file.events import Event, OnEvent
+    from gripscale.case import Case
     from gripscale.case_file.read import CaseFile
     from gripscale.charts.figure_folder import Figures
     from gripscale.core.units import DisplayUnit
-    from gripscale.experiment.measured_friction import MeasuredFriction
     from gripscale.io.table import Table
+    from gripscale.questions.answer.answer import Answer
+    from gripscale.questions.chain.events import Event, OnEvent
+    from gripscale.questions.chain.run import ChainRun
 
 
 REPORT, REPORT_WIDTH = "report.txt", 110
@@ -66,13 +67,13 @@ def run(
     """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case_file import folder
     from gripscale.case_file.finished import is_finished
-    from gripscale.case_file.read import read_case
+    from gripscale.case_file.read import read_case_file
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
 
     as_json = progress == ProgressFormat.JSON
     console = terminal.screen(stderr=as_json)
     with _json_events(progress) as emit:
-        file = read_case(case)
+        file = read_case_file(case)
         target = output if output is not None else file.resolve(file.case.output.folder)
         if not (fresh or as_json) and is_finished(file, target, _shown_too(target)):
             _print_finished(console, target)
@@ -87,7 +88,7 @@ def run(
 @contextmanager
 def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     """Give what writes an event to standard output, if asked for; the last tells the exit code."""
-    from gripscale.case_file.events import RunFailed, RunFinished, to_json
+    from gripscale.questions.chain.events import RunFailed, RunFinished, to_json
 
     def emit(event: Event) -> None:
         if progress == ProgressFormat.JSON:
@@ -119,29 +120,26 @@ def _run(
     console: Console, emit: OnEvent, file: CaseFile, target: Path, figures: Figures, fresh: bool
 ) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
-    from gripscale.case_file import prepare_case
-    from gripscale.case_file.events import FileWritten
+    from gripscale.case_file import read_case
     from gripscale.case_file.finished import case_replaced, note_finished
-    from gripscale.case_file.run import require_feasible
     from gripscale.charts.background import background_figures
     from gripscale.charts.write import draw_effects, draw_heat
-    from gripscale.questions.calibration.measured_comparison import friction_of_case
+    from gripscale.questions.chain.events import FileWritten
+    from gripscale.questions.chain.run import ChainRun
     from gripscale.report.notices import explained
     from gripscale.report.summary import FILE as SUMMARY
 
-    friction = friction_of_case(file)
-    results = prepare_case(file)
-    require_feasible(results)
+    chain = ChainRun.of(read_case(file), target, fresh=fresh)
     other = case_replaced(file, target)
     if other:
         words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
         terminal.print_wrapped(console, words)
-    with background_figures(results, figures) as draw:
-        opening = _print_answer(console, results, friction, target)
-        effects = _solve(console, emit, results, target, draw, fresh)
-        parts, heat = _parts(results, friction, effects, target)
-        solved = [] if results.direct is None else [results.direct]
-        solved += [results.dataset(name) for name in results.predictions]
+    with background_figures(chain, figures) as draw:
+        answer, opening = _print_answer(console, chain, target)
+        effects = _solve(console, emit, file, chain, answer, draw)
+        parts, heat = _parts(chain, answer, effects, target)
+        solved = [answer.data] if answer.is_solved else []
+        solved += [chain.dataset(name) for name in chain.predictions]
 
         def draw_conditions() -> None:
             if heat is not None:
@@ -163,8 +161,8 @@ def _run(
         emit(FileWritten(str(target / REPORT)))
         if solved:
             emit(FileWritten(str(target / SUMMARY)))
-    _print_older_page(console, results, target)
-    failures = list(results.failures.values())
+    _print_older_page(console, chain, target)
+    failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
     if failures:
@@ -172,50 +170,43 @@ def _run(
     note_finished(file, target, _shown_too(target))
 
 
-def _print_answer(
-    console: Console, results: CaseResults, friction: MeasuredFriction | None, target: Path
-) -> list[str]:
-    """Solve what the answer is of, print it above the inputs; return the lines of the report."""
+def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answer, list[str]]:
+    """Solve the answer of a case, print it above the inputs; return it and the lines printed."""
     from gripscale.core.provenance import version_of
-    from gripscale.experiment.measured_friction import friction_doubts
-    from gripscale.questions.answer.page import answer_lines
-    from gripscale.questions.compare.comparison import reference
-    from gripscale.questions.inputs import record
-    from gripscale.questions.inputs.page_record import InputRecord
-    from gripscale.report.notices import case_notices, warning_lines
+    from gripscale.questions.answer.answer import answer
+    from gripscale.questions.result import warning_lines
 
-    file = results.file
-    header = f"gripscale {version_of('gripscale')}, case {file.path}"
+    case = chain.case
+    header = f"gripscale {version_of('gripscale')}, case {case.name}"
     terminal.print_wrapped(console, header)
-    if file.case.below_measurement.down_to is not None:
+    if case.below_measurement.down_to is not None:
         terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
-    direct = reference(results, target)
-    notes = friction_doubts(friction, results.load.speed)
-    inputs_record = InputRecord(record.inputs(results, friction_notes=notes))
-    warnings = case_notices(direct, inputs_record)
-    answer, inputs = ["", *answer_lines(direct)], ["", *_inputs(results)]
-    for line in (*answer, *warning_lines(warnings, REPORT), *inputs):
+    result = chain.answer = answer(case, folder=target)
+    lead, inputs = ["", *result.lines], ["", *_inputs(case)]
+    for line in (*lead, *warning_lines(result.findings, REPORT), *inputs):
         terminal.print_wrapped(console, line)
-    return [header, *answer, *warning_lines(warnings), *inputs]
+    return result, [header, *lead, *warning_lines(result.findings), *inputs]
 
 
 def _solve(
     console: Console,
     emit: OnEvent,
-    results: CaseResults,
-    target: Path,
+    file: CaseFile,
+    chain: ChainRun,
+    answer: Answer,
     draw: OnEvent,
-    fresh: bool,
 ) -> xr.Dataset | None:
     """Solve and write the chain and, where the case asks for them, the effects of conditions."""
     from gripscale.case_file import run_case
-    from gripscale.case_file.events import DirectContactSolved, EffectsSolved, FileWritten
-    from gripscale.questions.compare.comparison import FILE as DIRECT
-    from gripscale.questions.compare.comparison import save_reference
+    from gripscale.questions.answer.answer import FILE as ANSWER
+    from gripscale.questions.chain.events import AnswerSolved, EffectsSolved, FileWritten
+    from gripscale.questions.cut_off.cut_off_curve import save_curve
     from gripscale.questions.vary.effects import FILE as EFFECTS
     from gripscale.questions.vary.effects import case_effects
 
-    print_event = _event_printer(console, results.display_unit("speed"))
+    case, target = chain.case, chain.folder
+    assert target is not None
+    print_event = _event_printer(console, case.display_unit("speed"))
 
     def on_event(event: Event) -> None:
         emit(event)
@@ -223,51 +214,53 @@ def _solve(
         draw(event)
 
     with console.status("solving") if console.is_terminal else nullcontext():
-        run_case(results, output=target, on_event=on_event, fresh=fresh)
-        if results.direct is not None:
-            save_reference(results, target)
-            emit(DirectContactSolved.of(results.direct))
-            emit(FileWritten(str(target / DIRECT)))
-        effects = case_effects(results, results.chain, target, target / "effects")
+        run_case(file, output=target, on_event=on_event, run=chain)
+        if answer.is_solved:
+            answer.save(target / ANSWER)
+            emit(AnswerSolved.of(answer))
+            emit(FileWritten(str(target / ANSWER)))
+        if answer.curve is not None:
+            save_curve(answer.curve, case, target)
+        effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
         if effects is not None:
             emit(EffectsSolved.of(effects))
-            emit(FileWritten(str(target / EFFECTS.format(model=results.chain.name))))
+            emit(FileWritten(str(target / EFFECTS.format(model=case.chain.name))))
     return effects
 
 
-def _print_older_page(console: Console, results: CaseResults, target: Path) -> None:
+def _print_older_page(console: Console, chain: ChainRun, target: Path) -> None:
     """Say if a page of an earlier result stays beside this one."""
-    page, first = target / "report.html", next(iter(results.predictions), None)
+    page, first = target / "report.html", next(iter(chain.predictions), None)
     written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None
-    if first is not None and written is not None and results.key(first) not in written:
+    if first is not None and written is not None and chain.key(first) not in written:
         words = shlex.join(["gripscale", "report", str(target)])
         text = f"{page.name} in it is older and shows another result; `{words}` renews it"
         terminal.print_wrapped(console, text)
 
 
-def _inputs(results: CaseResults) -> list[str]:
+def _inputs(case: Case) -> list[str]:
     """Return what the run starts from, line by line."""
     from gripscale.io.table import as_text
     from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 
-    rubber = as_text(*rubber_parts(results.rubber), width=10**6).splitlines()
+    rubber = as_text(*rubber_parts(case.measured_rubber), width=10**6).splitlines()
     lines = [
         "Surface",
-        *(f"  {line}" for line in surface_lines(results.surface)),
+        *(f"  {line}" for line in surface_lines(case.surface)),
         "",
         "Rubber",
         *(f"  {line}".rstrip() for line in rubber),
     ]
-    if results.conditions is not None:
-        conditions = conditions_lines(results.conditions, results.rubber.rubber)
+    if case.conditions is not None:
+        conditions = conditions_lines(case.conditions, case.rubber)
         lines += ["", "Conditions", *(f"  {line}" for line in conditions)]
     return lines
 
 
 def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
     """Return what prints a sentence for each event that a person waits for."""
-    from gripscale.case_file.events import PredictionFinished, ResultsReplaced, WaveSolved
-    from gripscale.case_file.results import title
+    from gripscale.questions.chain.events import PredictionFinished, ResultsReplaced, WaveSolved
+    from gripscale.questions.chain.run import title
 
     def print_event(event: Event) -> None:
         match event:
@@ -299,40 +292,38 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
 
 
 def _parts(
-    results: CaseResults,
-    friction: MeasuredFriction | None,
-    effects: xr.Dataset | None,
-    target: Path,
+    chain: ChainRun, answer: Answer, effects: xr.Dataset | None, target: Path
 ) -> tuple[list[str | Table], xr.Dataset | None]:
     """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
-    from gripscale.case_file.results import DYNAMIC
     from gripscale.questions.calibration.page_of_measured import measured_lines
     from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
+    from gripscale.questions.chain.run import DYNAMIC
     from gripscale.questions.chain.view import PredictionView
     from gripscale.questions.compare.page import judgement, slopes_table
     from gripscale.questions.cut_off.page import basis_lines, rules_table
     from gripscale.questions.uncertainty.page import uncertainty_lines
-    from gripscale.questions.uncertainty.propagation import input_digests, stored_uncertainty
+    from gripscale.questions.uncertainty.propagation import stored_uncertainty
     from gripscale.questions.vary.page_side_by_side import effects_table
 
-    views = [PredictionView(results.dataset(name), name) for name in results.predictions]
+    case = chain.case
+    views = [PredictionView(chain.dataset(name), name) for name in chain.predictions]
     parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
     parts += [LEGEND] if views else []
-    moving, heat = results.dynamic, None
+    moving, heat = chain.dynamic, None
     if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
-        heat = results.dataset(DYNAMIC)
+        heat = chain.dataset(DYNAMIC)
         parts.append(heat_table(heat))
     if effects is not None:
         parts.append(effects_table(effects))
-    if results.direct is not None:
-        parts += slopes_table(results.direct)
-        parts += ["", *judgement(views[0], results.direct)] if views else []
-    if friction is not None and results.load.speed > 0.0:
-        parts += measured_lines(friction, results.load.speed, results.display_unit("speed"))
+    if answer.is_solved:
+        parts += slopes_table(answer.data)
+        parts += ["", *judgement(views[0], answer.data)] if views else []
+    if case.friction is not None and case.load.speed > 0.0:
+        parts += measured_lines(case.friction, case.load.speed, case.display_unit("speed"))
     sampled = stored_uncertainty(target)
-    parts += uncertainty_lines(sampled, results.file.text, input_digests(results.file))
-    for curve in results.continued.values():
-        parts += ["", *basis_lines(curve), rules_table(curve)]
+    parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
+    if answer.curve is not None:
+        parts += ["", *basis_lines(answer.curve), rules_table(answer.curve)]
     return parts, heat
 
 

@@ -52,9 +52,11 @@ def sensitivity(
     workers: Workers = None,
 ) -> None:
     """Tell which part of the master curve, and which input, decides the friction of a case."""
-    from gripscale.case_file import folder, read_case
+    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw as write_pictures
+    from gripscale.questions.answer.findings import case_notices
     from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.questions.sensitivity.charts import height_pictures, sensitivity_figure
     from gripscale.questions.sensitivity.friction_sensitivity import (
@@ -65,19 +67,18 @@ def sensitivity(
     )
     from gripscale.questions.sensitivity.page import answer_lines, failures, sensitivity_parts
     from gripscale.questions.vary.axis import parse_vary
-    from gripscale.report.notices import case_notices
 
     pairs = [parse_vary(text, VARIED) for text in vary or ()]
     axes = dict(pairs) or None
     if axes is not None and len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
-    file = read_case(case)
+    file = read_case_file(case)
     opening = f"What decides the friction of {file.path}"
     console, target = terminal.open_folder(file, output, "sensitivity", opening)
     data = case_sensitivity(
-        file,
+        read_case(file),
         folder=target,
-        vary=axes,
+        vary=None if axes is None else read_named_inputs(axes, file),
         model=model,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,

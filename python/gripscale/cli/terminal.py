@@ -132,7 +132,7 @@ def conclude(
     """
     from gripscale.case_file import folder
     from gripscale.io.table import as_text
-    from gripscale.report.notices import warning_lines
+    from gripscale.questions.result import warning_lines
     from gripscale.report.summary import write_summary
 
     console.print()

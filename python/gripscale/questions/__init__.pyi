@@ -1,3 +1,5 @@
+from .answer.answer import Answer as Answer
+from .answer.answer import answer as answer
 from .answer.best_estimate import Factor as Factor
 from .answer.best_estimate import LogNormalValue as LogNormalValue
 from .answer.best_estimate import with_best_estimate as with_best_estimate
@@ -20,7 +22,6 @@ from .chain.charts_of_blocks import blocks_figure as blocks_figure
 from .compare.comparison import at_measured as at_measured
 from .compare.comparison import compare_case as compare_case
 from .compare.comparison import compare_over as compare_over
-from .compare.comparison import solve_reference as solve_reference
 from .compare.comparison_dataset import Comparison as Comparison
 from .compare.ladder import LADDER as LADDER
 from .compare.ladder import ComparisonSetup as ComparisonSetup

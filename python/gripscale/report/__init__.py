@@ -7,13 +7,17 @@ images, so it opens without a network, and its content security policy forbids i
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gripscale.core.errors import InputError
 
-__all__ = ["write_report"]
+if TYPE_CHECKING:
+    from gripscale.report.elements import Page
+
+__all__ = ["write_page", "write_report"]
 
 EXTRA = ("bokeh", "jinja2", "markupsafe")
 
@@ -36,26 +40,42 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     InputError
         If the libraries of `gripscale[report]` are not installed.
     """
-    with _uncollected():
-        try:
-            from gripscale.report.build import build
-        except ModuleNotFoundError as error:
-            if (error.name or "").partition(".")[0] not in EXTRA:
-                raise
-            raise InputError(
-                f"a report needs {error.name}, which is not installed; "
-                "install it with: pip install 'gripscale[report]'"
-            ) from error
+    with _page_libraries():
+        from gripscale.report.build import build
+
         return build(Path(result), None if output is None else Path(output))
 
 
+def write_page(page: Callable[[], Page], output: str | Path) -> Path:
+    """Write the HTML page that a function composes and return its path.
+
+    Raises `FileError` if the page cannot be written, `InputError` if the libraries of
+    `gripscale[report]` are not installed.
+    """
+    with _page_libraries():
+        from gripscale.report.build import write
+
+        return write(page(), Path(output))
+
+
 @contextmanager
-def _uncollected() -> Iterator[None]:
-    """Look for no garbage meanwhile: imports and a page leave little, and to look takes a tenth."""
+def _page_libraries() -> Iterator[None]:
+    """Refuse in one sentence where a library is missing.
+
+    Garbage is not collected meanwhile: imports and a page leave little, and a collection takes a
+    tenth of the time.
+    """
     collecting = gc.isenabled()
     gc.disable()
     try:
         yield
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in EXTRA:
+            raise
+        raise InputError(
+            f"a report needs {error.name}, which is not installed; "
+            "install it with: pip install 'gripscale[report]'"
+        ) from error
     finally:
         if collecting:
             gc.enable()

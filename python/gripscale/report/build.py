@@ -28,14 +28,19 @@ def build(result: Path, output: Path | None) -> Path:
     source = read_result(result)
     if output is None:
         output = (result if result.is_dir() else result.parent) / REPORT
+    return write(with_answer(page_of(source), source), output)
+
+
+def write(page: Page, output: Path) -> Path:
+    """Write a page; raise `FileError` if that fails."""
     if not output.parent.is_dir():
         raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
-    text = render(with_answer(page_of(source), source))
+    text = render(page)
 
-    def write(path: Path) -> None:
+    def write_text(path: Path) -> None:
         path.write_text(text, encoding="utf-8")
 
-    return write_whole(output, write)
+    return write_whole(output, write_text)
 
 
 def render(page: Page) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -13,23 +13,13 @@ import xarray as xr
 from gripscale import model
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.provenance import versions
-from gripscale.core.units import MILLI, in_mm
 from gripscale.experiment.measured_friction import friction_doubts
-from gripscale.io.table import NONE, significant
-from gripscale.questions.answer.page import (
-    answer_cards,
-    answer_notices,
-    changes,
-    friction_sentence,
-    has_answer,
-    in_words,
-    no_answer,
-    no_answer_notices,
-)
+from gripscale.io.table import NONE
+from gripscale.questions.answer.findings import LARGE_MISFIT, case_notices, no_answer_notices
+from gripscale.questions.answer.page import answer_cards
+from gripscale.questions.answer.reliance import friction_sentence, has_answer, no_answer
 from gripscale.questions.chain.view import CONVERGED, PredictionView
-from gripscale.questions.cut_off.cut_off_curve import CONTINUED_TO
-from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import MOST_OPEN, Card, Doubt, Notice, number, percent, ranked
+from gripscale.report.elements import Card, Doubt, Notice, number, percent, ranked
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
 from gripscale.wave.problem import Status
@@ -37,11 +27,6 @@ from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
     from gripscale.report.source import Run
-
-LARGE_MISFIT = 0.05
-"""Of a series from the moduli it stands for: friction errs by about as much."""
-LARGE_RESIDUAL = 0.1
-"""Of the heights of the sine waves."""
 
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",
@@ -198,28 +183,6 @@ def failures(run: Run) -> Iterator[Notice]:
     yield from (Notice("error", text) for view in run.predictions for text in _failures(view))
 
 
-def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Notice]:
-    """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
-    parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
-    said = "" if direct is None else str(direct.attrs.get(model.INPUT_DOUBTS, ""))
-    inputs = [notice for notice in record.warnings() if notice.text not in said]
-    return ranked([*(notice for part in parts for notice in part), *inputs])
-
-
-def warning_lines(warnings: Sequence[Notice], rest: str = "") -> Iterator[str]:
-    """Yield ranked warnings as lines; with `rest`, a file that has them all, the first only.
-
-    These are `MOST_OPEN`, and all that leave open whether the answer is that of another case.
-    """
-    if warnings:
-        yield "Warnings, by what they change:"
-    doubts = sum(math.isinf(notice.effect) for notice in warnings)
-    count = max(MOST_OPEN, doubts) if rest else len(warnings)
-    yield from (f"  {notice.text}" for notice in warnings[:count])
-    if len(warnings) > count:
-        yield f"  ... and {len(warnings) - count} more in {rest}"
-
-
 def _failures(view: PredictionView) -> Iterator[str]:
     for i in np.flatnonzero(~view.converged):
         why, word = view.why(int(i)), str(view.data["status"].values[i])
@@ -290,62 +253,6 @@ def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[No
         ratios["contact_fraction"] - 1.0,
         Doubt.SOLUTION,
     )
-
-
-def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> Iterator[Notice]:
-    """Yield what the roughness adds that is shorter than the measurement resolves."""
-    if not record.number("cut_off_beyond_measurement") > 0.0:
-        return
-    limit, end = record.number("cut_off_carried_m"), record.number("cut_off_m")
-    changed = {}
-    if direct is not None and has_answer(direct):
-        held = float(direct.cutoff_wavelength)
-        if held > 1.01 * end and CONTINUED_TO not in direct:
-            yield Notice(
-                "warning",
-                f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
-                f"shorter than {in_mm(held, 3)}, two of their steps: `gripscale cut-off`, or "
-                "down_to in [below_measurement], continues the roughness.",
-                math.inf,
-                math.inf,
-            )
-        end = held
-        if not limit > 1.01 * end:
-            return
-        changed = changes(direct, limit / end)
-    lengths = (f"{number(length, MILLI)} mm" for length in (limit, end))
-    text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
-    yield Notice(
-        "warning",
-        f"{text}: without it {in_words(changed)}." if changed else f"{text}.",
-        changed.get("friction", math.nan),
-        changed.get("contact_fraction", math.nan),
-        Doubt.SURFACE,
-    )
-
-
-def _misfits(record: InputRecord) -> Iterator[Notice]:
-    """Yield by how much the rubber misses its loss factor, and the sine waves their heights."""
-    loss = record.loss_factor_error
-    if abs(loss) > LARGE_MISFIT:
-        yield Notice(
-            "warning",
-            f"At the frequencies of the waves the loss factor of the Prony series is "
-            f"{percent(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
-            "error of the friction is about as large.",
-            loss,
-            doubt=Doubt.RUBBER,
-        )
-    residual = record.number("sines_residual_decades")
-    height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
-    if height > LARGE_RESIDUAL:
-        yield Notice(
-            "warning",
-            f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "
-            f"{percent(height)} of their height. The friction of the chain has a similar error.",
-            height,
-            doubt=Doubt.SURFACE,
-        )
 
 
 def _compressible(view: PredictionView, bulk: float) -> Iterator[Notice]:

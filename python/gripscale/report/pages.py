@@ -9,20 +9,22 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.run import KEY
 from gripscale.charts.draw import image
 from gripscale.charts.page_elements import words_of
 from gripscale.core.provenance import versions
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Table
 from gripscale.model import FRICTION_OUTSIDE_BAND
+from gripscale.questions.answer import findings
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.charts import contact_pictures
+from gripscale.questions.answer.reliance import has_answer
 from gripscale.questions.calibration import page as calibration
 from gripscale.questions.calibration.page_of_measured import measured_lines
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
 from gripscale.questions.chain.page import wave_tables
+from gripscale.questions.chain.run import KEY
 from gripscale.questions.chain.view import SYMBOLS, PredictionView
 from gripscale.questions.compare import page as comparison
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
@@ -34,6 +36,7 @@ from gripscale.questions.design.charts import design_pictures
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
+from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.sensitivity import page as sensitivity
 from gripscale.questions.sensitivity.charts import height_charts, sensitivity_charts
 from gripscale.questions.uncertainty import page as uncertainty
@@ -57,6 +60,7 @@ from gripscale.report.elements import (
 )
 from gripscale.report.equations import equations
 from gripscale.report.source import Compared, Run, Source, Study, case_name
+from gripscale.surface import SineStack
 
 METHOD = (
     "The measured surface is approximated by superposed sine waves. On each wave, largest first, "
@@ -150,6 +154,8 @@ def run_page(run: Run) -> Page:
     stale = run.uncertainty is not None and run.own_uncertainty is None
     blocks = ("surface_x", "surface_pressure", "mesh_x")
     meshed = [view for view in run.predictions if all(view.has(name) for name in blocks)]
+    waves = _waves(run)
+    moving = next((view for view in run.by_wave if view.moving), None)
     origin: list[Element] = [inputs.load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
@@ -159,10 +165,16 @@ def run_page(run: Run) -> Page:
         [*notices.notices(run), *([OF_ANOTHER] if stale else [])],
         [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
-            Section("contact", "Rubber on the surface", _direct_contact(run)),
+            Section(
+                "contact",
+                "Rubber on the surface",
+                [] if run.direct is None else contact_elements(run.direct, run.record),
+            ),
             Section("inputs", "Inputs and their origin", origin),
-            Section("surface", "Surface", _surface(run)),
-            Section("rubber", "Rubber", _rubber(run)),
+            Section(
+                "surface", "Surface", [] if waves is None else surface_elements(run.record, waves)
+            ),
+            Section("rubber", "Rubber", rubber_elements(run.record, moving)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
             Section("cut-off", "Against the cut-off", cut_off_elements(run.cut_off)),
@@ -181,38 +193,48 @@ def run_page(run: Run) -> Page:
     )
 
 
-def _direct_contact(run: Run) -> list[Element]:
+def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
     """Return the direct contact of the measured surface as pictures and by slope."""
-    if run.direct is None or not (pictures := contact_pictures(run.direct, run.record.data)):
+    if not (pictures := contact_pictures(direct, record.data)):
         return []
     first, *others = pictures
-    return [Text(PICTURE), first, *comparison.slopes_table(run.direct), *others]
+    return [Text(PICTURE), first, *comparison.slopes_table(direct), *others]
 
 
-def _surface(run: Run) -> list[Element]:
-    record = run.record
-    if "sines_wavelength" not in run.data or record.is_empty:
+def surface_elements(record: InputRecord, waves: SineStack | None = None) -> list[Element]:
+    """Return cleaning, profiles, texture and correlation of a surface, and its sine waves."""
+    if record.is_empty:
         return []
     elements: list[Element] = []
     if record.has("profile_name"):
-        elements += [*inputs.cleaning_tables(record), *profile_charts(record.data)]
+        cleaning = inputs.cleaning_tables(record) if record.has("cleaning_points") else []
+        elements += [*cleaning, *profile_charts(record.data)]
     if record.has("texture_of"):
         elements.append(inputs.texture_table(record.data))
     if record.has("lag"):
-        facts = inputs.surface_facts(record, run.data.sizes["wave"])
+        facts = inputs.surface_facts(record, 0 if waves is None else len(waves))
         elements += [*facts, *correlation_charts(record.data)]
     else:
         elements.append(Text("The sine waves are stated in the case; no surface was measured."))
-    waves = (run.data[f"sines_{name}"].values for name in ("wavelength", "amplitude"))
-    return [*elements, inputs.waves_table(*waves)]
+    if waves is None:
+        return elements
+    return [*elements, inputs.waves_table(waves.wavelength, waves.amplitude)]
 
 
-def _rubber(run: Run) -> list[Element]:
-    record = run.record
+def _waves(run: Run) -> SineStack | None:
+    if "sines_wavelength" not in run.data:
+        return None
+    return SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
+
+
+def rubber_elements(record: InputRecord, moving: PredictionView | None = None) -> list[Element]:
+    """Return facts, moduli with their fit and Prony series of a rubber.
+
+    `moving` is a prediction of the chain in motion, whose waves are marked.
+    """
     if not record.has("equilibrium_modulus_Pa"):
         return []
-    moving = [view for view in run.by_wave if view.moving]
-    charts = rubber_charts(record.data, moving[0] if moving else None)
+    charts = rubber_charts(record.data, moving)
     elements: list[Element] = [inputs.rubber_facts(record), *charts]
     times, moduli = record.relaxation_times
     return [*elements, inputs.prony_table(times, moduli)] if np.size(times) else elements
@@ -259,7 +281,7 @@ def _comparison(run: Run) -> list[Element]:
     """Return the comparison of just this case; another's is named and left out."""
     same = run.compared.of(run.attrs.get("case"))
     stale = len(same.parts) < len(run.compared.parts)
-    answered = same.ladder is not None and answer.has_answer(same.ladder)
+    answered = same.ladder is not None and has_answer(same.ladder)
     lines = answer.answer_lines(same.ladder) if answered else ()
     heads: list[Element] = [Notice("warning", STALE)] if stale else []
     return [*heads, *(Text(line.strip()) for line in lines), *comparison_elements(same)]
@@ -391,8 +413,8 @@ def comparison_page(compared: Compared) -> Page:
 def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Notice]:
     """Yield what is to be known of the answer of a comparison of one load."""
     if ladder is not None:
-        yield from answer.no_answer_notices(ladder)
-        yield from answer.answer_notices(ladder)
+        yield from findings.no_answer_notices(ladder)
+        yield from findings.answer_notices(ladder)
 
 
 def comparison_elements(compared: Compared) -> list[Element]:
@@ -500,7 +522,7 @@ def calibration_page(source: Study) -> Page:
         str(data.attrs.get("model", "")).replace("_", " "),
         [
             *([Notice("error", f"{notices.explained(failed)}.")] if failed else []),
-            *notices.case_notices(data, source.record),
+            *findings.case_notices(data, source.record),
         ],
         calibration.calibration_cards(data),
         [
@@ -520,7 +542,7 @@ def sensitivity_page(source: Study) -> Page:
     return _page(
         f"What decides the friction of {case_name(data.attrs) or 'a case'}",
         str(lead),
-        [*_errors(sensitivity.failures(data)), *notices.case_notices(None, source.record)],
+        [*_errors(sensitivity.failures(data)), *findings.case_notices(None, source.record)],
         sensitivity.cards(data),
         [
             Section("effects", "What the friction depends on", uncertainty.as_elements(parts)),
@@ -551,7 +573,7 @@ def cut_off_page(source: Study) -> Page:
     return _page(
         f"Contact and friction of {case} against the cut-off",
         next(cut_off.answer_lines(data)),
-        [*_errors(cut_off.failures(data)), *notices.case_notices(None, source.record)],
+        [*_errors(cut_off.failures(data)), *findings.case_notices(None, source.record)],
         cut_off.cards(data),
         [
             Section("cut-off", "Against the cut-off", cut_off_elements(data)),
@@ -568,7 +590,7 @@ def design_page(source: Study) -> Page:
     page = _page(
         f"Compound for {case or 'a case'}",
         answer_line,
-        notices.case_notices(None, source.record),
+        findings.case_notices(None, source.record),
         design.design_cards(data),
         [
             Section(

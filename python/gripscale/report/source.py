@@ -13,10 +13,10 @@ from gripscale.case_file.folder import CASE
 from gripscale.core.errors import FileError
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.io import netcdf
+from gripscale.questions.answer.answer import FILE as DIRECT
 from gripscale.questions.answer.best_estimate import with_best_estimate
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import varied
-from gripscale.questions.compare.comparison import FILE as DIRECT
 from gripscale.questions.cut_off.cut_off_curve import FILE as CUT_OFF
 from gripscale.questions.cut_off.cut_off_curve import FRICTION as CURVE
 from gripscale.questions.inputs.page_record import InputRecord
@@ -228,10 +228,10 @@ def _measured(case: Path) -> MeasuredFriction | None:
     if "measured" not in tables:
         return None
     # to import what reads a case takes longer than to read all results
-    from gripscale.case_file.read import read_case
-    from gripscale.questions.calibration.measured_comparison import friction_of_case
+    from gripscale.case_file.prepare import stated_friction
+    from gripscale.case_file.read import read_case_file
 
-    return friction_of_case(read_case(case))
+    return stated_friction(read_case_file(case))
 
 
 def _comparisons(folder: Path) -> Compared:

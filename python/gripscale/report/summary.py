@@ -17,9 +17,9 @@ import xarray as xr
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import INPUT_DOUBTS, STATUS
+from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import interval_ends
-from gripscale.questions.answer.page import has_answer, no_answer
-from gripscale.questions.compare.ladder import DIRECT
+from gripscale.questions.answer.reliance import has_answer, no_answer
 
 FILE = "summary.xlsx"
 ROWS = (STATUS, "status", "gain")

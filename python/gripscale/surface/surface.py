@@ -147,6 +147,8 @@ class Surface:
     """By which the waves end where they do, or None for the last wave."""
     end: float | None = None
     """Shortest wavelength of the roughness [m]; None: where the waves end."""
+    note: str = ""
+    """What was assumed when its file was read, as a sentence; empty if nothing was."""
 
     @property
     def sines(self) -> SineStack:

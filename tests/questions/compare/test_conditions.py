@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.io.table import as_text, significant
 from gripscale.questions import Comparison, compare_case, compare_over
 from gripscale.questions.answer.page import basis_lines
@@ -47,9 +47,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
     np.savetxt(folder / "road.dat", np.column_stack([line.x, line.z]))
     case = folder / "case.toml"
     case.write_text(CASE, encoding="utf-8")
-    return compare_case(
-        prepare_case(case), seeds=1, rungs=["chain_half_plane", "direct", "persson"]
-    )
+    return compare_case(read_case(case), seeds=1, rungs=["chain_half_plane", "direct", "persson"])
 
 
 def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:

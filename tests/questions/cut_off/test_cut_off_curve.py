@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gripscale import surface as surfaces
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.case_file.prepare import case_surface, prepare_rubber
 from gripscale.core.errors import InputError
 from gripscale.half_space import HurstExponent, contact_by_cut_off
@@ -42,7 +42,7 @@ def data(folder):
 
 
 def test_the_curves_are_those_of_the_lines(folder, data):
-    file = read_case(folder / "below.toml")
+    file = read_case_file(folder / "below.toml")
     surface = case_surface(file)
     direct = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
@@ -128,7 +128,7 @@ def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, mon
     wanted = float(np.sqrt(data.curve_slope_in_contact[3] * data.curve_slope_in_contact[4]))
     path = folder / "slope.toml"
     path.write_text(text.replace('"0.5 mm"', f"{{ contact_slope = {wanted:.4f} }}"))
-    surface = case_surface(read_case(path))
+    surface = case_surface(read_case_file(path))
     assert cleaned == ["road"]
     assert str(surface.rule) == f"rms slope {wanted:.4g} in the contact"
     assert data.cut_off[4] < surface.cutoff_wavelength < data.cut_off[3]
@@ -137,7 +137,7 @@ def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, mon
     with pytest.raises(
         InputError, match=r"a slope in contact that the measurement reaches, .*got 9"
     ):
-        case_surface(read_case(path))
+        case_surface(read_case_file(path))
 
 
 @pytest.mark.parametrize(
@@ -153,14 +153,14 @@ def test_tables_that_cannot_be_used_are_refused(folder, table, message):
     path = folder / "bad.toml"
     path.write_text((folder / "case.toml").read_text() + f"\n[below_measurement]\n{table}\n")
     with pytest.raises(InputError, match=message):
-        read_case(path)
+        read_case_file(path)
 
 
 def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
     path = folder / "finer.toml"
     finer = '\n[below_measurement]\ndown_to = "0.4 mm"\nfiner = { file = "road.txt" }\n'
     path.write_text((folder / "case.toml").read_text() + finer)
-    assert ("below_measurement", "road.txt") in read_case(path).case.named_files()
+    assert ("below_measurement", "road.txt") in read_case_file(path).case.named_files()
     result = case_cut_off(path, folder=folder / "finer", down_to=0.4e-3)
     assert bool(result.curve_measured[-1])
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.case_file.prepare import case_surface
 from gripscale.charts.paper import png
 from gripscale.core.errors import InputError
@@ -78,7 +78,7 @@ def test_the_page_begins_with_the_gain(case, data):
 
 def test_the_promised_friction_is_that_of_a_new_contact(case, data):
     """Solved by the model of every comparison, from nothing, for the rubber of the files."""
-    surface = compound_design.design_problem(read_case(case)).friction.parts[0].surface
+    surface = compound_design.design_problem(read_case_file(case)).friction.parts[0].surface
     for at in range(data.sizes["point"]):
         rubber = designed_rubber(data, at)
         contact = gs.solve_rough_contact(
@@ -112,7 +112,7 @@ def test_the_curve_rises_and_keeps_to_its_levels(data):
 
 
 def test_a_compound_has_no_gain_over_itself(case):
-    friction = design_problem(read_case(case)).friction
+    friction = design_problem(read_case_file(case)).friction
     same = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
     result = gain(friction, same, same)
     assert (result.log_ratio, result.sampling, result.grid) == (0.0, 0.0, 0.0)
@@ -121,7 +121,7 @@ def test_a_compound_has_no_gain_over_itself(case):
 
 def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
     """Less than those of both frictions, of which most cancels, and that of one against none."""
-    friction = design_problem(read_case(case)).friction
+    friction = design_problem(read_case_file(case)).friction
     ratio = np.linspace(1.3, 0.8, 1 + friction.rubber.moduli.size)
     before = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
     after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05, warm=False)
@@ -334,7 +334,7 @@ def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Pat
     np.testing.assert_allclose(modulus.imag, stored.loss.values[point], rtol=1e-9)
     # the other compound's friction is that of its own direct contact
     answer = DirectContact(tolerance=0.05).predict(
-        gs.rubber.styrene_butadiene(), case_surface(read_case(case)), Load(3e5, 0.1, 0.1)
+        gs.rubber.styrene_butadiene(), case_surface(read_case_file(case)), Load(3e5, 0.1, 0.1)
     )
     ratio = float(answer.friction_from_dissipation[0]) / float(stored.today_friction[0])
     assert float(stored.compound_gain[0]) == pytest.approx(ratio - 1.0, rel=1e-6)

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case_file.run import prepare_case
+from gripscale.case_file.prepare import read_case
 from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
@@ -189,7 +189,7 @@ def test_the_chain_answers_the_same_command(folder, shell: Shell):
         line for line in result.stdout.splitlines() if line.startswith("Answer")
     )
     data = netcdf.load(out / FILE)
-    case = prepare_case(folder / "case.toml")
+    case = read_case(folder / "case.toml")
     solved = case.chain.solve(case.rubber.rubber, case.surface.sines, case.load)
     expected = gs.sensitivity(solved, bands_per_decade=4, reference_temperature=293.15)
     for name in (LOSS, STORAGE, "d_ln_contact_fraction_d_ln_pressure"):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gripscale import Rubber
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_master_curve, write_road
@@ -44,7 +44,7 @@ def known(folder: Path) -> Measurement:
     """What the case is known from, with a choice of waves."""
     path = folder / "any_waves.toml"
     path.write_text(CASE.replace("s_amplitude = 2.1", ""))
-    return Measurement.of(prepare_case(path))
+    return Measurement.of(read_case(path))
 
 
 @pytest.fixture

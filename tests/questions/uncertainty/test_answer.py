@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from gripscale.case_file import prepare_case
+from gripscale.case_file import read_case
 from gripscale.questions import Uncertainty, propagate
 from gripscale.questions.compare.comparison import reference
 from gripscale.questions.uncertainty.page import answer_parts, part_tables
@@ -30,7 +30,7 @@ def only(*sources: str, **ranges: object) -> Uncertainty:
 @pytest.fixture(scope="module")
 def of_run(folder: Path) -> xr.Dataset:
     """Return the answer of `gripscale run`."""
-    data = reference(prepare_case(folder / "case.toml"))
+    data = reference(read_case(folder / "case.toml"))
     assert data is not None
     return data
 

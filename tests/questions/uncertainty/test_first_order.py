@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from gripscale.case_file import prepare_case
 from gripscale.case_file.results import CaseResults
+
+from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
 from gripscale.questions import Uncertainty, first_order
 from gripscale.questions.uncertainty.first_order import SOLVED, Tangent
@@ -36,7 +36,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def results(folder: Path) -> CaseResults:
     """The case, prepared."""
-    return prepare_case(folder / "case.toml")
+    return read_case(folder / "case.toml")
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +84,7 @@ def test_another_cut_off(results, tangent):
 def test_another_temperature_and_pressure(folder):
     shift = 'reference_temperature = "20 C"\nshift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }'
     (folder / "shifted.toml").write_text(CASE.replace("terms = 4", f"terms = 4\n{shift}"))
-    shifted = Tangent.of(prepare_case(folder / "shifted.toml"))
+    shifted = Tangent.of(read_case(folder / "shifted.toml"))
     for change in ({"warming": 0.5}, {"log_pressure": 0.1}):
         inputs = replace(shifted.case, **change)
         expected = shifted.solved_change(inputs)
@@ -126,4 +126,4 @@ def test_refuses_rest(folder):
     text = CASE.replace('speed = "0.3 m/s"', "speed = 0.0")
     (folder / "rest.toml").write_text(text)
     with pytest.raises(InputError, match="friction for its derivatives"):
-        Tangent.of(prepare_case(folder / "rest.toml"))
+        Tangent.of(read_case(folder / "rest.toml"))

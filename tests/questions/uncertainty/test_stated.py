@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.case_file.tables import RangesTable, SourceName
 from gripscale.cli import app
 from gripscale.core.errors import InputError
@@ -50,7 +50,7 @@ def test_the_case_knows_the_sources_there_are() -> None:
 
 
 def test_a_case_states_all_of_it(case) -> None:
-    table = read_case(case(STATED)).case.uncertainty
+    table = read_case_file(case(STATED)).case.uncertainty
     assert (table.samples, table.seed, table.block_length) == (12, 3, 0.06)
     choice = Uncertainty.of_case(table)
     assert (choice.without, choice.block_length) == (("waves", "modulus"), 0.06)
@@ -60,7 +60,9 @@ def test_a_case_states_all_of_it(case) -> None:
 
 def test_a_case_states_standard_errors(case) -> None:
     stated = 'ranges = { temperature = "2 K", pressure = "0.1 bar", height_noise = "5 um" }'
-    choice = Uncertainty.of_case(read_case(case(f"[uncertainty]\n{stated}\n")).case.uncertainty)
+    choice = Uncertainty.of_case(
+        read_case_file(case(f"[uncertainty]\n{stated}\n")).case.uncertainty
+    )
     assert choice.ranges.pop("height_noise") == pytest.approx(5e-6)
     assert choice.ranges == {"temperature": 2.0, "pressure": "0.1 bar"}
 
@@ -77,7 +79,7 @@ def test_a_standard_error_reaches_both_models(folder) -> None:
 
 
 def test_who_asks_goes_before_the_case(case) -> None:
-    table = read_case(case(STATED)).case.uncertainty
+    table = read_case_file(case(STATED)).case.uncertainty
     given = {"cut_off": "1 mm", "waves": "4,5"}
     changed = Uncertainty.of_case(table, ranges=given, block_length=0.08)
     assert changed.without == ("modulus",)
@@ -130,4 +132,4 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
 )
 def test_what_cannot_be_stated(case, wrong, said) -> None:
     with pytest.raises(InputError, match=said):
-        read_case(case(f"[uncertainty]\n{wrong}\n"))
+        read_case_file(case(f"[uncertainty]\n{wrong}\n"))

@@ -10,7 +10,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale.case_file import read_case
+from gripscale.case_file import read_case_file
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import JUDGED_TO, DirectContact
@@ -120,7 +120,7 @@ def test_samples_have_the_friction_of_a_road_solved_as_finely(tmp_path: Path) ->
     write_road(tmp_path / "road.txt", road)
     text = CASE.replace("1 mm", "0.1 mm")
     (tmp_path / "case.toml").write_text(text)
-    surface = surface_of("case", read_case(tmp_path / "case.toml"))
+    surface = surface_of("case", read_case_file(tmp_path / "case.toml"))
     moduli = 2e5 * (POWER_LAW_TIMES / 1e-2) ** -0.7
     lossy = gs.Rubber(4e6, moduli, POWER_LAW_TIMES, bulk_modulus=1e13)
     model, load = DirectContact(tolerance=JUDGED_TO), Load(3e5, 0.3, 0.1)

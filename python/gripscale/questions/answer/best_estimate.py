@@ -21,6 +21,7 @@ import xarray as xr
 
 from gripscale.experiment.design import Index, attributes, stack
 from gripscale.half_space import line_to_map, location
+from gripscale.half_space.model import DirectContact
 from gripscale.model import BASIS, STATUS
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
 from gripscale.questions.answer.samples import (
@@ -31,8 +32,10 @@ from gripscale.questions.answer.samples import (
     sampling_error,
     usable,
 )
-from gripscale.questions.compare.ladder import DIRECT
 from gripscale.questions.vary.study import UPPER_HEIGHT
+
+DIRECT = DirectContact.name
+"""Name of the model that every answer starts from."""
 
 
 class LogNormalValue(NamedTuple):

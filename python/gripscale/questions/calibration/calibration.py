@@ -17,9 +17,7 @@ import numpy as np
 import scipy
 import xarray as xr
 
-from gripscale.case_file.read import CaseFile
-from gripscale.case_file.results import CaseResults
-from gripscale.case_file.run import prepare_case
+from gripscale.case import Case
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
@@ -33,7 +31,6 @@ from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration import profile_likelihood as likelihood
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
-    friction_of_case,
     in_spread,
     points_of,
     predicted_of,
@@ -279,7 +276,7 @@ MODELS = ("direct", "chain")
 
 
 def calibrate_case(
-    case: CaseResults | CaseFile | str | Path,
+    case: Case,
     *,
     model: str | None = None,
     law: str = "gaussian",
@@ -295,8 +292,8 @@ def calibrate_case(
 
     Parameters
     ----------
-    case : path, CaseFile or CaseResults
-        The case; `prepare_case` gives one with its inputs prepared. An area term of its own has no
+    case : Case
+        The case. An area term of its own has no
         part in it.
     model : str, optional
         "direct" or "chain": what predicts the hysteresis and the real contact area; by default
@@ -319,32 +316,30 @@ def calibrate_case(
     if model is not None:
         checks.one_of("model", model, MODELS)
     fit.check_names(law, fixed or ())
-    results = case if isinstance(case, CaseResults) else prepare_case(case)
-    model = model or default_model(results.file)
-    friction = measured or measured_of(results.file)
+    model = model or default_model(case)
+    friction = measured or measured_of(case)
     fit.refuse_unfit(friction, law, fixed or {})
     if hold_out is not None:
         likelihood.groups_of(hold_out, friction.speed, friction.temperature)
-    rubber, surface = results.rubber.rubber, results.surface
-    if results.file.case.rubber.extrapolate == "refuse":
+    rubber, surface = case.rubber, case.surface
+    if case.chain.extrapolate == "refuse":
         for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
-            warm = results.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
+            warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
             require_measured(warm, surface.sines.wavelength, float(speed))
-    predicting = results.chain if model == "chain" else DirectContact(conditions=results.conditions)
+    predicting = case.chain if model == "chain" else DirectContact(conditions=case.conditions)
     with bench_in(folder, workers, client, on_task) as bench:
-        design = points_of(friction, predicting, rubber, surface, results.load)
+        design = points_of(friction, predicting, rubber, surface, case.load)
         predicted = predicted_of(solve_design(design, bench))
     return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
 
 
-def measured_of(file: CaseFile) -> MeasuredFriction:
+def measured_of(case: Case) -> MeasuredFriction:
     """Return the friction a case names; raise `InputError` if it names none."""
-    measured = friction_of_case(file)
-    if measured is None:
+    if case.friction is None:
         raise InputError(
-            f"{file.path}: [measured] friction must name a table of measured friction; got none"
+            f"{case.name}: [measured] friction must name a table of measured friction; got none"
         )
-    return measured
+    return case.friction
 
 
 SOURCE = "gripscale calibrate"

@@ -9,20 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gripscale.case_file.read import CaseFile
 from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError, about_keys
+from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, plain
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.measured_friction import (
     MeasuredFriction,
     TemperatureProbe,
     measured_variables,
-    read_measured_friction,
 )
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
@@ -351,13 +349,3 @@ def rms(values: Array) -> Array:
     count = finite.sum(axis=-1)
     squares = np.where(finite, values, 0.0) ** 2
     return np.asarray(np.sqrt(squares.sum(axis=-1) / np.where(count > 0, count, np.nan)))
-
-
-@about_keys("measured")
-def friction_of_case(file: CaseFile) -> MeasuredFriction | None:
-    """Return what `[measured] friction` of a case names, None if it names nothing.
-
-    Raises `FileError` if it cannot be read.
-    """
-    name = file.case.measured.friction
-    return None if name is None else read_measured_friction(file.resolve(name))

@@ -67,7 +67,7 @@ class PredictionView:
     @property
     def title(self) -> str:
         """What tables and figures call it."""
-        from gripscale.case_file.results import title
+        from gripscale.questions.chain.run import title
 
         return title(self.speed, self.display_unit("speed"))
 

@@ -11,60 +11,34 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.prepare import PreparedRubber, prepare_continuation
-from gripscale.case_file.read import CaseFile
-from gripscale.case_file.results import CaseResults
-from gripscale.case_file.run import prepare_case
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.experiment.design import CONVERGED, Design, Point, solve_design, surface_numbers
+from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Store, Task
-from gripscale.half_space.continued import DOWN_TO
-from gripscale.half_space.line_to_map import upper_height_of
-from gripscale.half_space.location import PREFIX
-from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
-from gripscale.io import netcdf
-from gripscale.model import (
-    STATUS,
-    Load,
-    answer,
-    cut_off_exponents_of,
-    extrapolation_of,
-    input_doubts,
-    with_area_term,
-)
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import (
     ESTIMATED,
     FINITE_STRAIN,
     Factor,
-    SampledErrors,
-    best_estimate,
 )
+from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.calibration import measured_comparison
 from gripscale.questions.compare.comparison_dataset import Comparison
 from gripscale.questions.compare.ladder import (
-    DIRECT,
     WINDOWS,
     ComparisonSetup,
     Rung,
     chosen,
-    each_measured,
-)
-from gripscale.questions.cut_off.cut_off_curve import (
-    CONTINUED_TO,
-    continuation_factor,
-    cut_off_curve,
-    save_curve,
 )
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import Study
 from gripscale.rubber.extrapolation import require_measured
-from gripscale.theory.models import KlueppelHeinrich
+from gripscale.rubber.measured_rubber import MeasuredRubber
 
 VARIED = (
     "speed",
@@ -99,7 +73,7 @@ class Choice(NamedTuple):
 
 
 def compare_case(
-    case: CaseResults | CaseFile | str | Path,
+    case: Case,
     *,
     seeds: int = 3,
     tolerance: float = 0.05,
@@ -117,8 +91,8 @@ def compare_case(
 
     Parameters
     ----------
-    case : path, CaseFile or CaseResults
-        The case; `prepare_case` gives one with its inputs prepared.
+    case : Case
+        The case.
     seeds : int
         Random phases drawn of each surface.
     tolerance : float
@@ -151,16 +125,15 @@ def compare_case(
         If an input cannot be used by a model, a result cannot be written, or the case refuses
         extrapolation and a wave excites the rubber beyond the measured band.
     """
-    results = case if isinstance(case, CaseResults) else prepare_case(case)
-    factors = [*continued_factors(results, results.load, folder), *factors]
+    factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
     choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
-    task = Task(results.rubber.rubber, results.surface, results.load, results.chain)
+    task = Task(case.rubber, case.surface, case.load, case.chain)
     with bench_in(folder, workers, client, on_task) as bench:
-        return _compared(results.file, {"": task}, [results.rubber], choice, None, bench)
+        return _compared(case, {"": task}, [case.measured_rubber], choice, None, bench)
 
 
 def compare_over(
-    case: CaseFile | str | Path,
+    case: Case,
     vary: Mapping[str, Any],
     *,
     seeds: int = 3,
@@ -203,26 +176,19 @@ def compare_over(
     choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     tasks = {point.label: point.task for point in study.points}
     with bench_in(folder, workers, client, on_task) as bench:
-        return _compared(study.file, tasks, study.prepared_rubbers, choice, axis, bench)
+        return _compared(case, tasks, study.measured_rubbers, choice, axis, bench)
 
 
 def _compared(
-    file: CaseFile,
+    case: Case,
     tasks: Mapping[str, Task],
-    rubbers: Sequence[PreparedRubber],
+    rubbers: Sequence[MeasuredRubber],
     choice: Choice,
     axis: Axis | None,
     bench: Bench,
 ) -> Comparison:
     """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
-    # what was measured is refused before anything is solved
-    measured = choice.measured or measured_comparison.friction_of_case(file)
-    theory = file.case.compare
-    klueppel_heinrich = None
-    if theory.layer_ratio is not None and theory.penetration_depth is not None:
-        klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
-    down_to = file.case.below_measurement.down_to or DOWN_TO
-    continuation = prepare_continuation(file, down_to=down_to)
+    measured = choice.measured or case.friction
     setups = []
     for task in tasks.values():
         chain = checks.instance("model", task.model, Chain)
@@ -233,20 +199,20 @@ def _compared(
             chain.solver,
             checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
             checks.positive("tolerance", choice.tolerance),
-            klueppel_heinrich,
+            case.klueppel_heinrich,
             chain.pressure_classes,
-            continuation=continuation,
+            continuation=case.continuation(),
             conditions=chain.conditions,
         )
         setups.append(setup)
-    if file.case.rubber.extrapolate == "refuse":
+    if case.chain.extrapolate == "refuse":
         for setup in setups:
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
     wanted = chosen(choice.rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
     make = partial(
-        Comparison, file, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
+        Comparison, case, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
     )
     rungs: Sequence[Rung] = quick or wanted
     while True:
@@ -385,145 +351,4 @@ def at_measured(
         predicted[name] = measured_comparison.averaged(samples)
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = measured_comparison.residuals(measured, predicted, law)
-    return data.assign_attrs(comparison.file.attributes, measured_source=measured.source)
-
-
-FILE = "direct.nc"
-"""What it is kept in, beside the result."""
-
-
-def solve_reference(results: CaseResults) -> xr.Dataset | None:
-    """Return the direct contact of the measured profiles, at the speed of the case.
-
-    Parameters
-    ----------
-    results : CaseResults
-        The prepared case; its conditions change the rubber of the direct contact, too.
-
-    Returns
-    -------
-    xarray.Dataset or None
-        Over `sample`, one for each profile, solved to an estimated relative error of `JUDGED_TO`,
-        5 %, see `gripscale.questions.answer.samples`, with its trace for charts
-        (`gripscale.half_space.location.traces_of`); None if no profile was measured.
-
-    Raises
-    ------
-    InputError
-        If the direct contact cannot use the rubber or a profile.
-    """
-    design = reference_design(results, results.load, traces=True)
-    if design is None:
-        return None
-
-    def numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
-        traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
-        return reduce.sample_numbers(answer, task).assign(answer[traces].isel(profile=0))
-
-    return solve_design(design, Bench(None), numbers)
-
-
-def reference_design(
-    results: CaseResults, load: Load, label: str = "", *, traces: bool = False
-) -> Design | None:
-    """Return the tasks of the direct contact of each profile of a case under a load.
-
-    Their names begin with the `label`, their answers may hold `traces` for charts; None if no
-    profile was measured.
-    """
-    profiles = each_measured(results.surface)
-    if not profiles:
-        return None
-    model = DirectContact(tolerance=JUDGED_TO, conditions=results.conditions, traces=traces)
-    points = [
-        Point((at,), f"{label}{name}", Task(results.rubber.rubber, surface, load, model))
-        for at, (name, surface) in enumerate(profiles)
-    ]
-    subjects = {"subject": ("sample", [name for name, _ in profiles])}
-    return Design({"sample": len(points)}, points, subjects)
-
-
-def reference(results: CaseResults, folder: str | Path | None = None) -> xr.Dataset | None:
-    """Return the reference contact of a case with the best estimate, and keep it in `results`.
-
-    A `folder` keeps what the case continues below the measurement. None if no profile was measured.
-    Raises as `solve_reference`.
-    """
-    if results.direct is None:
-        samples = solve_reference(results)
-        if samples is not None:
-            _ = continued_factors(results, results.load, folder)
-            results.direct = reference_totals(samples, results, results.load)
-    return results.direct
-
-
-def continued_factors(
-    results: CaseResults, load: Load, folder: str | Path | None = None
-) -> list[Factor]:
-    """Return the factor of the roughness below the measurement, if the case asks for it.
-
-    Its contacts are solved once for each load. Raises `InputError` if they have no result.
-    """
-    if results.file.case.below_measurement.down_to is None:
-        return []
-    if load not in results.continued:
-        with bench_in(folder) as bench:
-            results.continued[load] = cut_off_curve(results, load, bench)
-    curve = results.continued[load]
-    if curve[STATUS].item() != CONVERGED:
-        raise InputError(f"roughness below the measurement has no result: {curve[STATUS].item()}")
-    return [continuation_factor(curve, resolved_wavelength(results.surface))]
-
-
-def save_reference(results: CaseResults, folder: str | Path) -> xr.Dataset | None:
-    """Return the `reference` of a case, kept in a folder, too.
-
-    Raises `FileError` if it cannot be written.
-    """
-    data = reference(results, folder)
-    if data is not None:
-        netcdf.save(data, Path(folder) / FILE)
-    for curve in results.continued.values():
-        save_curve(curve, results, folder)
-    return data
-
-
-def reference_totals(
-    samples: xr.Dataset, results: CaseResults, load: Load, sampled: SampledErrors | None = None
-) -> xr.Dataset:
-    """Return the means of `samples` over the profiles as a model answers, and the best estimate.
-
-    `samples` are the answers of `reference_design` under the load; `sampled` adds what is not known
-    of the inputs to the interval of the best estimate.
-    """
-    means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
-    beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
-    rung = samples.expand_dims(rung=[DIRECT])
-    best = best_estimate(
-        rung,
-        continued_factors(results, load),
-        upper_height=upper_height_of(results.surface),
-        sampled=sampled,
-    )
-    if results.continued:
-        best[CONTINUED_TO] = results.file.case.below_measurement.down_to
-    end = resolved_wavelength(results.surface)
-    best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
-    totals = answer(
-        best,
-        {f"total_{name}": value for name, value in means.items()},
-        str(reduce.status(samples).item()),
-        DIRECT,
-        load,
-        extrapolation_of(beyond),
-        cut_off_exponents_of(exponents),
-        status_word=str(reduce.status_word(samples).item()),
-    ).assign_attrs(
-        results.file.attributes
-        | input_doubts([results.surface, results.rubber], [load], results.file.units),
-        tolerance=JUDGED_TO,
-    )
-    traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
-    if traces:
-        totals = totals.assign(samples[traces].variables)
-    return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))
+    return data.assign_attrs(comparison.case.attributes, measured_source=measured.source)

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.prepare import PreparedRubber
-from gripscale.case_file.read import CaseFile
+from gripscale.case import Case
 from gripscale.core import provenance
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.line_to_map import upper_height_of
@@ -31,6 +30,7 @@ from gripscale.questions.answer.best_estimate import SHARES, Factor, best_estima
 from gripscale.questions.compare.ladder import ComparisonSetup, Rung
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import coordinates
+from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.wave.result import labelled
 
 SOURCE = "gripscale compare"
@@ -42,7 +42,7 @@ WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), st
 class Comparison:
     """The rungs of one case, under one load or over a varied input."""
 
-    file: CaseFile
+    case: Case
     setups: Sequence[ComparisonSetup]
     """What was compared: one, or one a value of `axis`."""
     rungs: Sequence[Rung]
@@ -55,7 +55,7 @@ class Comparison:
     """Friction measured elsewhere, to be put beside the models."""
     factors: Sequence[Factor] = ()
     """Factors of the best estimate known from elsewhere."""
-    rubbers: Sequence[PreparedRubber] = ()
+    rubbers: Sequence[MeasuredRubber] = ()
     """What the rubbers of the setups come from, and what is doubtful of them."""
 
     @property
@@ -174,7 +174,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         data |= measured_variables(measured)
     coords: dict[str, Any] = {}
     if axis is not None:
-        coords |= coordinates([axis], comparison.file.units)
+        coords |= coordinates([axis], comparison.case.units)
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, SOURCE)
     conditions = setups[0].conditions
@@ -186,13 +186,13 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         },
         {
             "title": "Contact and friction by model",
-            **comparison.file.attributes,
+            **comparison.case.attributes,
             **input_doubts(
                 [setups[0].surface, *comparison.rubbers],
                 [setup.load for setup in setups],
-                comparison.file.units,
+                comparison.case.units,
             ),
-            "case_file": str(comparison.file.path),
+            "case_file": comparison.case.origin.name,
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,

@@ -23,10 +23,11 @@ from gripscale.half_space.finite_strain import spread_windows
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, surface_of_sines
 from gripscale.model import Load, Model
+from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.direct_contact import each_measured, with_single_measurement
 from gripscale.rubber import Rubber
 from gripscale.surface import (
     HeightMap,
-    Measured,
     Profile,
     SineStack,
     Surface,
@@ -122,12 +123,6 @@ class Rung:
     """From a setup to its samples; none where the model has nothing to say of it."""
 
 
-def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
-    """Return the waves of `surface` with nothing else measured."""
-    whole = measured if isinstance(measured, HeightMap) else [measured]
-    return Surface(surface.sines, measured.name, measured=Measured.of(whole))
-
-
 WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
 """Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
 (those of the roughness that the measurement has), and how many windows at most."""
@@ -208,9 +203,6 @@ Measurement = TypeVar("Measurement", Profile, HeightMap)
 WINDOWS = "windows"
 """The group of rungs that take a minute and more."""
 
-DIRECT = DirectContact.name
-"""The rung the chain is judged by, and the best estimate starts from."""
-
 LENGTH_OF_SINES = 10
 """Period of a surface of sines over its largest wave."""
 
@@ -238,15 +230,6 @@ def chosen(names: Iterable[str]) -> list[Rung]:
     if not wanted:
         return [rung for rung in LADDER if rung.group not in ON_REQUEST]
     return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
-
-
-def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
-    """Return `surface` with one profile after the other, or its map, and what it is called."""
-    measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else []
-    return [
-        (part.name or f"profile {i}", with_single_measurement(surface, part))
-        for i, part in enumerate(measured, 1)
-    ]
 
 
 def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:

@@ -17,11 +17,12 @@ from gripscale.model import (
     status_words,
     with_adhesive,
 )
+from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.page import answer_cards, has_answer, no_answer
+from gripscale.questions.answer.page import answer_cards
+from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.view import CONVERGED, HEADINGS, SYMBOLS, PredictionView
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
-from gripscale.questions.compare.ladder import DIRECT
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
 from gripscale.report.elements import Card

@@ -14,10 +14,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.prepare import prepare_continuation
-from gripscale.case_file.read import CaseFile
-from gripscale.case_file.results import CaseResults
-from gripscale.case_file.run import prepare_case
+from gripscale.case import Case
 from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
@@ -25,10 +22,8 @@ from gripscale.experiment.design import attributes, surface_numbers
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.below_measurement import FACTS, cut_off_at
-from gripscale.half_space.continued import DOWN_TO, QUANTILE_90
 from gripscale.io import netcdf
 from gripscale.model import STATUS, Load
-from gripscale.questions.answer.best_estimate import Factor, LogNormalValue
 from gripscale.questions.inputs import record
 from gripscale.surface import RmsSlope, Surface, find_cut_off
 
@@ -47,7 +42,7 @@ RMS_SLOPES = {"surface": 1.3, "profile": 1.0}
 
 
 def case_cut_off(
-    case: CaseFile | str | Path,
+    case: Case,
     *,
     folder: str | Path,
     down_to: float | None = None,
@@ -59,7 +54,7 @@ def case_cut_off(
 
     Parameters
     ----------
-    case : path or CaseFile
+    case : Case
         The case; its surface must be measured profiles or a map.
     folder : path
         Gets `cut_off.nc`, and the solution as soon as it is there.
@@ -82,26 +77,25 @@ def case_cut_off(
     InputError, FileError
         For what cannot be used; if nothing was measured.
     """
-    results = prepare_case(case)
     with bench_in(folder, workers, None, on_task) as bench:
-        data = cut_off_curve(results, results.load, bench, down_to=down_to, hurst=hurst)
-    return save_curve(data, results, folder)
+        data = cut_off_curve(case, case.load, bench, down_to=down_to, hurst=hurst)
+    return save_curve(data, case, folder)
 
 
-def save_curve(data: xr.Dataset, results: CaseResults, folder: str | Path) -> xr.Dataset:
+def save_curve(data: xr.Dataset, case: Case, folder: str | Path) -> xr.Dataset:
     """Return the curve of a case as kept in a folder; `FileError` if it cannot be written."""
     attrs = {
         "title": "Contact and friction against the cut-off",
-        "case_file": str(results.file.path),
+        "case_file": case.origin.name,
         **provenance.attributes(),
     }
-    data = data.assign_attrs(results.file.attributes, **attrs)
-    groups = {"inputs": record.inputs(results)}
+    data = data.assign_attrs(case.attributes, **attrs)
+    groups = {"inputs": record.inputs(case)}
     return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
 
 
 def cut_off_curve(
-    results: CaseResults,
+    case: Case,
     load: Load,
     bench: Bench,
     *,
@@ -109,26 +103,11 @@ def cut_off_curve(
     hurst: float | None = None,
 ) -> xr.Dataset:
     """Return the curves of a prepared case under a load, as `case_cut_off`."""
-    table = results.file.case.below_measurement
-    end = down_to or table.down_to or DOWN_TO
-    model = prepare_continuation(results.file, down_to=end, hurst=hurst)
-    task = Task(results.rubber.rubber, results.surface, load, model)
-    label = f"continued down to {in_mm(end, 3)}"
+    model = case.continuation(down_to=down_to, hurst=hurst)
+    task = Task(case.rubber, case.surface, load, model)
+    label = f"continued down to {in_mm(model.down_to, 3)}"
     data = bench.solve({label: task}, _curves)[task.key]
-    return data.merge(_at_rules(data, results.surface)) if "cut_off" in data.dims else data
-
-
-def continuation_factor(data: xr.Dataset, cut_off: float) -> Factor:
-    """Return the factor of the roughness below a cut-off [m], with the error of a continuation."""
-    end = float(data.cut_off[-1])
-    sigma = math.log(float(data[f"{AREA}_upper"][-1] / data[AREA][-1])) / QUANTILE_90
-
-    def grown(curve: str) -> LogNormalValue:
-        ratio = float(data[curve][-1]) / at_cut_off(data, curve, cut_off)
-        return LogNormalValue(ratio if math.isfinite(ratio) else 1.0, sigma)
-
-    label = f"roughness continued from {in_mm(cut_off, 3)} to {in_mm(end, 3)}"
-    return Factor("below_measurement", label, grown(AREA), grown(FRICTION))
+    return data.merge(_at_rules(data, case.surface)) if "cut_off" in data.dims else data
 
 
 def _curves(answer: xr.Dataset, task: Task) -> xr.Dataset:

@@ -22,9 +22,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.case import Case
 from gripscale.case_file import folder as folders
-from gripscale.case_file.read import CaseFile, read_case
-from gripscale.case_file.run import prepare_case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
@@ -43,7 +42,7 @@ from gripscale.questions.design.compound_search import (
 from gripscale.questions.design.design_dataset import of_change, of_compound, scalars, today
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
 from gripscale.questions.inputs import record
-from gripscale.questions.vary.inputs import contents, prepared_rubber_of, rubber_notes, stated_by
+from gripscale.questions.vary.inputs import identity, measured_rubber_of, reading_notes
 from gripscale.questions.vary.rubber_comparison import at_one_temperature
 from gripscale.rubber import Rubber
 
@@ -76,13 +75,14 @@ class Reference:
 
 
 def design_compound(
-    case: CaseFile | str | Path,
+    case: Case,
     folder: str | Path,
     *,
     goals: Sequence[CompoundGoal] = (),
     limits: CompoundLimits | None = None,
     levels: Sequence[float] = (),
     rubbers: Mapping[str, Any] | None = None,
+    roads: Mapping[str, Any] | None = None,
     workers: int | None = None,
     on_point: OnPoint | None = None,
 ) -> xr.Dataset:
@@ -108,6 +108,8 @@ def design_compound(
         out, and those that give no more friction than a lower one.
     rubbers : mapping, optional
         Other compounds by what they are called, as for `compare_compounds`.
+    roads : mapping, optional
+        Surfaces of the goals by the names that the goals use.
     workers : int, optional
         Threads; one per core by default.
     on_point : callable, optional
@@ -126,33 +128,31 @@ def design_compound(
         If the case, a goal or a limit cannot be used, a temperature needs a shift that the rubber
         does not have, or today's compound has no friction.
     """
-    file = case if isinstance(case, CaseFile) else read_case(case)
-    results = prepare_case(file)
-    problem = design_problem(results, goals, limits, workers)
+    problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
-    key = _key(file, problem, wanted, rubbers or {})
+    key = _key(case, problem, wanted, rubbers or {})
     target = Path(folder) / RESULT
     folders.make(target.parent)
     stored, fruitless = _stored_points(target, key)
     reference = Reference.of(problem.friction)
     base = today(problem, reference.contacts, TOLERANCE).assign_attrs(
-        file.attributes,
-        case_file=str(file.path),
+        case.attributes,
+        case_file=case.origin.name,
         design_key=key,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
     )
-    prepared = {name: prepared_rubber_of(value, file) for name, value in (rubbers or {}).items()}
+    prepared = {name: measured_rubber_of(value, case) for name, value in (rubbers or {}).items()}
     read = {name: each.rubber for name, each in prepared.items()}
     compounds, notes = _compounds(problem, reference, read)
-    notes = (*notes, *_left_out(file))
+    notes = (*notes, *_left_out(case))
     base = base.merge(compounds).assign_attrs(base.attrs, notes="\n".join(notes))
     goal_loads = [
-        replace(results.load, speed=goal.speed, pressure=goal.pressure)
+        replace(case.load, speed=goal.speed, pressure=goal.pressure)
         for goal in problem.friction.goals
     ]
     misread = [f"{name}: {text}." for name, each in prepared.items() for text in each.doubts]
-    of_compounds = [*rubber_notes((rubbers or {}).values(), file), *misread]
-    of_inputs = record.inputs(results, problem.roads.values(), goal_loads, of_compounds)
+    of_compounds = [*reading_notes((rubbers or {}).values()), *misread]
+    of_inputs = record.inputs(case, problem.roads.values(), goal_loads, of_compounds)
     points: list[xr.Dataset] = []
     rising = _order(wanted, problem)
     for level in rising:
@@ -228,16 +228,15 @@ def _solved_point(
     )
 
 
-def _left_out(file: CaseFile) -> list[str]:
+def _left_out(case: Case) -> list[str]:
     """Return what the case asks for and a design does not know."""
     effects = {
         "softening": "softening by strain",
         "heat": "heat",
         "shear_stress": "the area term",
     }
-    asked = [
-        text for name, text in effects.items() if getattr(file.case.conditions, name) is not None
-    ]
+    conditions = case.conditions
+    asked = [text for name, text in effects.items() if getattr(conditions, name, None) is not None]
     if not asked:
         return []
     return [f"The design leaves out {checks.enumerated(asked)} of the case."]
@@ -281,18 +280,18 @@ def _joined(base: xr.Dataset, points: Sequence[xr.Dataset]) -> xr.Dataset:
 
 
 def _key(
-    file: CaseFile, problem: DesignProblem, levels: Sequence[float], rubbers: Mapping[str, Any]
+    case: Case, problem: DesignProblem, levels: Sequence[float], rubbers: Mapping[str, Any]
 ) -> str:
     """Return what a design depends on, but for the number of threads, as one word."""
     roads = {goal.road for goal in problem.friction.goals}
     inputs = [
         provenance.software(),
-        contents(file),
+        [case.key, case.origin.text],
         canonical_json(list(problem.friction.goals)),
         canonical_json(problem.limits),
         canonical_json([float(level) for level in levels]),
-        {road: stated_by(road, file) for road in sorted(roads)},
-        {name: stated_by(value, file) for name, value in rubbers.items()},
+        {road: identity(problem.roads[road]) for road in sorted(roads)},
+        {name: identity(value) for name, value in rubbers.items()},
     ]
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]
 

@@ -26,9 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.case_file.read import CaseFile
-from gripscale.case_file.results import CaseResults
-from gripscale.case_file.run import prepare_case
+from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
@@ -256,26 +254,26 @@ def _quadratic_steps(friction: GoalFriction, admissible: AdmissibleChanges, star
     return np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
 
 
-def default_goal(file: CaseFile) -> CompoundGoal:
+def default_goal(case: Case) -> CompoundGoal:
     """Return the goal of a case: its load, and its temperature before the contact."""
-    load = file.case.load
-    return CompoundGoal(load.speed, load.pressure, file.case.conditions.temperature)
+    temperature = None if case.conditions is None else case.conditions.temperature
+    return CompoundGoal(case.load.speed, case.load.pressure, temperature)
 
 
 def design_problem(
-    case: CaseResults | CaseFile,
+    case: Case,
     goals: Sequence[CompoundGoal] = (),
     limits: CompoundLimits | None = None,
     workers: int | None = None,
+    surfaces: Mapping[str, Any] | None = None,
 ) -> DesignProblem:
     """Return the problem that a case, goals and limits make; arguments as `design_compound`."""
-    results = case if isinstance(case, CaseResults) else prepare_case(case)
-    file, rubber = results.file, results.rubber.rubber
+    rubber = case.rubber
     if not rubber.moduli.size:
         raise InputError("a design needs a rubber that relaxes; got an elastic one")
-    wanted = list(goals) or [default_goal(file)]
-    names = {goal.road: results.surface if goal.road == "case" else goal.road for goal in wanted}
-    roads = {name: surface_of(road, file) for name, road in names.items()}
+    wanted = list(goals) or [default_goal(case)]
+    named = {goal.road: (surfaces or {}).get(goal.road, goal.road) for goal in wanted}
+    roads = {name: surface_of(road, case) for name, road in named.items()}
     friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers))
     rolling = PointLimit(
         "loss_factor", 0.0, 1.0, FREQUENCY, None if rubber.shift is None else ROLLING

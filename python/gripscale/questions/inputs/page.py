@@ -27,9 +27,9 @@ from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, s
 from gripscale.surface.texture import NOTE, QUANTITIES
 
 if TYPE_CHECKING:
-    from gripscale.case_file.prepare import PreparedRubber
     from gripscale.conditions.conditions import Conditions
     from gripscale.report.source import Run, Study
+    from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
 GIGA = 1e9
@@ -208,7 +208,7 @@ def sines_line(sines: SineStack) -> str:
     return text
 
 
-def rubber_parts(prepared: PreparedRubber) -> Iterator[str | Table]:
+def rubber_parts(prepared: MeasuredRubber) -> Iterator[str | Table]:
     """Yield what the rubber is and how well its Prony series fits, in sentences and a table."""
     rubber = prepared.rubber
     slow, fast = _end(slow_end(rubber), "relaxed"), _end(fast_end(rubber), "glassy")
@@ -221,7 +221,7 @@ def rubber_parts(prepared: PreparedRubber) -> Iterator[str | Table]:
     yield from shift_parts(prepared)
 
 
-def shift_parts(prepared: PreparedRubber) -> Iterator[str | Table]:
+def shift_parts(prepared: MeasuredRubber) -> Iterator[str | Table]:
     """Yield the sweeps of a master curve, how they meet, and the shift factors as a table."""
     shift, reference = prepared.rubber.shift, prepared.rubber.reference_temperature
     if prepared.sweeps is not None and prepared.superposition is not None:

@@ -7,7 +7,6 @@ fits themselves evaluate them.
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -17,10 +16,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.case_file.read import CaseFile
-from gripscale.case_file.results import CaseResults
+from gripscale.case import Case, NamedFile
 from gripscale.core.arrays import Array, ComplexArray
-from gripscale.io.text_table import read_bytes
 from gripscale.model import Load
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
@@ -101,7 +98,7 @@ POINTS = 600
 
 
 def inputs(
-    results: CaseResults,
+    case: Case,
     surfaces: Iterable[Surface] | None = None,
     loads: Iterable[Load] | None = None,
     rubber_notes: Iterable[str] = (),
@@ -113,17 +110,17 @@ def inputs(
     `rubber_notes`, what is assumed of rubbers beside that of the case; `friction_notes`, what is
     doubtful of measured friction, come first.
     """
-    surface = results.surface
-    excitation = excited(results.file.case.load.speed, surface.sines)
-    rubber = results.rubber
+    surface = case.surface
+    excitation = excited(case.load.speed, surface.sines)
+    rubber = case.measured_rubber
     of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
     notes = {
-        "conditions_notes": "\n".join(results.conditions_notes()) or None,
-        "load_notes": "\n".join(results.load_notes()) or None,
-        "doubts": "\n".join([*friction_notes, *results.doubts(surfaces, loads), *rubber_notes])
+        "conditions_notes": "\n".join(case.conditions_notes()) or None,
+        "load_notes": "\n".join(case.load_notes()) or None,
+        "doubts": "\n".join([*friction_notes, *case.doubts(surfaces, loads), *rubber_notes])
         or None,
     }
-    parts = [({}, _waves(surface)), (_files(results.file), {}), of_rubber]
+    parts = [({}, _waves(surface)), (_files(case.origin.files), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))
     if surface.measured is not None and surface.correlation is not None:
         parts.append((_profiles(surface.measured), {}))
@@ -146,17 +143,15 @@ def _excited_band(excitation: Array) -> Variables:
     }
 
 
-def _files(file: CaseFile) -> Variables:
+def _files(files: Sequence[NamedFile]) -> Variables:
     """Return names, sizes and checksums of the measured files of the case."""
-    named = file.case.named_files()
-    contents = [read_bytes(file.resolve(name)) for _, name in named]
-    if not named:
+    if not files:
         return {}
     return {
-        "file_role": ("file", _texts([role for role, _ in named])),
-        "file_name": ("file", _texts([name for _, name in named])),
-        "file_bytes": ("file", np.array([len(content) for content in contents])),
-        "file_sha256": ("file", _texts([hashlib.sha256(c).hexdigest() for c in contents])),
+        "file_role": ("file", _texts([file.role for file in files])),
+        "file_name": ("file", _texts([file.name for file in files])),
+        "file_bytes": ("file", np.array([file.size for file in files])),
+        "file_sha256": ("file", _texts([file.sha256 for file in files])),
     }
 
 
@@ -199,19 +194,20 @@ def _cut_off(surface: Surface, measured: Measured) -> Part:
 def _profiles(measured: Measured) -> Variables:
     """Return the profiles as drawn, and what each step of their cleaning did."""
     raw, cleaned = (list(column) for column in zip(*measured.profiles, strict=True))
-    steps = measured.cleaning[0].steps
     data: Variables = {
         "profile_name": ("profile", _texts([p.name or Path(p.source).name for p in raw])),
         "profile_step": ("profile", np.array([p.step for p in raw]), {"units": "m"}),
         "profile_length": ("profile", np.array([p.length for p in raw]), {"units": "m"}),
         "profile_points": ("profile", np.array([len(p) for p in raw])),
-        "cleaning_step_name": ("cleaning_step", _texts([step.step for step in steps])),
     }
-    for field in ("points", "removed", "made_missing", "missing"):
-        counts = [[getattr(step, field) for step in report] for report in measured.cleaning]
-        data[f"cleaning_{field}"] = (("profile", "cleaning_step"), np.array(counts))
-    notes = [[step.note for step in report] for report in measured.cleaning]
-    data["cleaning_note"] = (("profile", "cleaning_step"), _texts(notes))
+    if measured.cleaning:  # profiles may be given as they are
+        steps = [step.step for step in measured.cleaning[0].steps]
+        data["cleaning_step_name"] = ("cleaning_step", _texts(steps))
+        for field in ("points", "removed", "made_missing", "missing"):
+            counts = [[getattr(step, field) for step in report] for report in measured.cleaning]
+            data[f"cleaning_{field}"] = (("profile", "cleaning_step"), np.array(counts))
+        notes = [[step.note for step in report] for report in measured.cleaning]
+        data["cleaning_note"] = (("profile", "cleaning_step"), _texts(notes))
     for name, profiles in (("read", raw), ("cleaned", cleaned)):
         drawn = np.array([envelope(profile.x, profile.z) for profile in profiles])
         for i, part in enumerate(("x", "lowest", "highest")):

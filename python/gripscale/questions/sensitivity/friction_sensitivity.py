@@ -28,9 +28,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.prepare import case_chain
-from gripscale.case_file.read import CaseFile, read_case
-from gripscale.case_file.run import prepare_case
+from gripscale.case import Case
 from gripscale.chain import Chain
 from gripscale.chain.sensitivity import sensitivity, wave_sensitivity
 from gripscale.core import checks, provenance
@@ -47,8 +45,9 @@ from gripscale.io import netcdf
 from gripscale.model import STATUS
 from gripscale.questions.inputs import record
 from gripscale.questions.uncertainty.first_order import QUANTITIES, first_order
+from gripscale.questions.uncertainty.sampling import stated_options
 from gripscale.questions.vary.axis import axes_of
-from gripscale.questions.vary.inputs import NAMED_MODELS, conditions_of, rubber_notes
+from gripscale.questions.vary.inputs import NAMED_MODELS, conditions_of, reading_notes
 from gripscale.questions.vary.study import Study, coordinates
 
 if TYPE_CHECKING:
@@ -218,7 +217,7 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 
 
 def case_sensitivity(
-    case: CaseFile | str | Path,
+    case: Case,
     *,
     folder: str | Path,
     vary: Mapping[str, Any] | None = None,
@@ -233,7 +232,7 @@ def case_sensitivity(
 
     Parameters
     ----------
-    case : path or CaseFile
+    case : Case
         The case; its speed must be above zero, and its surface measured for the direct contact.
     folder : path
         Gets `sensitivity.nc`, and each solution as soon as it is there: a run that was stopped goes
@@ -272,14 +271,13 @@ def case_sensitivity(
         For what cannot be used; if the case is at rest, or has no measured surface for the direct
         contact.
     """
-    file = case if isinstance(case, CaseFile) else read_case(case)
-    axes = {"speed": [file.case.load.speed]} if vary is None else dict(vary)
+    axes = {"speed": [case.load.speed]} if vary is None else dict(vary)
     for axis in axes_of(axes):
         checks.one_of("vary", axis.name, VARIED)
         if axis.name == "speed" and min(axis.values) <= 0.0:
             raise InputError("speed must be above zero for derivatives of friction; got 0 m/s")
     chosen = checks.one_of("model", model, NAMED_MODELS)
-    chain = case_chain(file)
+    chain = case.chain
     if chosen == Chain.name:
         if with_feedback:
             raise InputError("with_feedback must be False for the chain; got True")
@@ -293,29 +291,28 @@ def case_sensitivity(
             with_feedback=with_feedback,
             traces=vary is None,
         )
-    prepared = prepare_case(file)
-    study = Study(prepared, axes, static=False, model=solved)
+    study = Study(case, axes, static=False, model=solved)
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     data = solve_design(study.design, bench, _kept)
-    data = data.assign_coords(coordinates(study.axes, file.units))
+    data = data.assign_coords(coordinates(study.axes, case.units))
     if STORAGE in data and chosen == DirectContact.name and vary is None:
-        errors = first_order(prepared, seed=file.case.uncertainty.seed)
+        errors = first_order(case, seed=stated_options(case).seed)
         named = {f"{name}_error": CARRIED.format(name) for name in QUANTITIES}
         data = data.assign(errors.rename(named).variables)
     if STORAGE in data:
         data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
     attrs = {
         "title": "What decides the friction of a case",
-        "case_file": str(file.path),
+        "case_file": case.origin.name,
         "model": chosen,
         "bands_per_decade": bands_per_decade,
         "iterated": int(chain.conditions is not None and chain.conditions.iterated),
         **provenance.attributes(),
     }
-    data = data.assign_attrs(file.attributes, **attrs)
+    data = data.assign_attrs(case.attributes, **attrs)
     loads = [point.task.load for point in study.points]
-    of_rubbers = rubber_notes(axes.get("rubber", ()), file)
-    groups = {"inputs": record.inputs(prepared, study.surfaces, loads, of_rubbers)}
+    of_rubbers = reading_notes(study.measured_rubbers)
+    groups = {"inputs": record.inputs(case, study.surfaces, loads, of_rubbers)}
     return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
 
 

@@ -29,7 +29,7 @@ from functools import cached_property
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.results import CaseResults
+from gripscale.case import Case
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError, RubberWarning
@@ -43,10 +43,10 @@ from gripscale.half_space.sensitivity import (
     scalar_changes,
 )
 from gripscale.model import SAMPLING_ERRORS
-from gripscale.questions.compare.ladder import DIRECT
+from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.uncertainty.sampled_answer import GRID, ROAD
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
-from gripscale.questions.uncertainty.sampling import Uncertainty, draws
+from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_options
 from gripscale.questions.uncertainty.sources import LABELS, Source
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
@@ -65,8 +65,8 @@ QUANTITIES = ("friction", "contact_fraction")
 class Tangent:
     """The direct contacts of a case, the derivatives of their friction, and the shares in it."""
 
-    results: CaseResults
-    case: Inputs
+    case: Case
+    usual: Inputs
     """Its inputs, which others are compared with."""
     contacts: Sequence[RoughContact]
     adjoints: Sequence[FrictionAdjoint]
@@ -78,14 +78,14 @@ class Tangent:
     """Relative standard errors of both from pieces of the profiles [-]."""
 
     @classmethod
-    def of(cls, results: CaseResults) -> Tangent:
+    def of(cls, case: Case) -> Tangent:
         """Solve the direct contact of a case on the grid with four points in the smallest wave.
 
         Raises `InputError` if the case is at rest, or a contact has no result.
         """
         contacts: list[RoughContact] = []
-        answer = _model(results).predict(
-            results.rubber.rubber, results.surface, results.load, on_progress=contacts.append
+        answer = _model(case).predict(
+            case.rubber, case.surface, case.load, on_progress=contacts.append
         )
         each = [(c.friction_from_dissipation, c.contact_fraction) for c in contacts]
         amounts = np.transpose(each) * [contact.grid.lengths[0] for contact in contacts]
@@ -97,39 +97,39 @@ class Tangent:
             )
         errors = [float(answer.get(name, math.nan)) for name in reversed(SAMPLING_ERRORS)]
         adjoints = [FrictionAdjoint.of(contact) for contact in contacts]
-        case, share = Inputs.of(Measurement.of(results)), amounts / amounts.sum(1, keepdims=True)
-        return cls(results, case, contacts, adjoints, share, _totals(answer), np.array(errors))
+        usual, share = Inputs.of(Measurement.of(case)), amounts / amounts.sum(1, keepdims=True)
+        return cls(case, usual, contacts, adjoints, share, _totals(answer), np.array(errors))
 
     def solved_change(self, inputs: Inputs) -> Array:
         """Return the changes of ln mu and ln A_r/A_0 by a contact with the other inputs [-]."""
-        surface, model = inputs.for_model(_model(self.results))
-        answer = model.predict(inputs.rubber, surface, inputs.under(self.results.load))
+        surface, model = inputs.for_model(_model(self.case))
+        answer = model.predict(inputs.rubber, surface, inputs.under(self.case.load))
         return np.log(_totals(answer) / self.totals)
 
     def change(self, inputs: Inputs) -> float:
         """Return what other inputs than those of the case change in ln mu, to first order [-]."""
-        case = self.case
+        usual = self.usual
         parts = np.zeros(len(self.contacts))
         for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
-            if inputs.rubber is not case.rubber:
+            if inputs.rubber is not usual.rubber:
                 parts[at] += _by_rubber(adjoint, inputs.rubber)
-            if inputs.cleaned is not case.cleaned or inputs.smooth_gaps != case.smooth_gaps:
+            if inputs.cleaned is not usual.cleaned or inputs.smooth_gaps != usual.smooth_gaps:
                 assert inputs.measured is not None
                 parts[at] += _by_surface(adjoint, inputs.measured.surfaces[at])
-            if inputs.end != case.end:
+            if inputs.end != usual.end:
                 exponent = contact.cut_off_exponents.friction
-                parts[at] += exponent * math.log(inputs.end / case.end)
+                parts[at] += exponent * math.log(inputs.end / usual.end)
         return float(self.share[0] @ (parts + self._by_conditions(inputs, 0)))
 
     def area_change(self, inputs: Inputs) -> float:
         """Return what another rubber or cut-off changes in ln A_r/A_0, to first order [-]."""
         parts = np.zeros(len(self.contacts))
         for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
-            if inputs.rubber is not self.case.rubber:
+            if inputs.rubber is not self.usual.rubber:
                 change = _log_ratio(adjoint, inputs.rubber)
                 parts[at] += ContactFractionDifferences(contact).by_modulus(change)
             exponent = contact.cut_off_exponents.contact_fraction
-            parts[at] += exponent * math.log(inputs.end / self.case.end)
+            parts[at] += exponent * math.log(inputs.end / self.usual.end)
         return float(self.share[1] @ (parts + self._by_conditions(inputs, 1)))
 
     def _by_conditions(self, inputs: Inputs, quantity: int) -> Array | float:
@@ -156,9 +156,9 @@ def _totals(answer: xr.Dataset) -> Array:
     return np.array([float(answer[name]) for name in names])
 
 
-def _model(results: CaseResults) -> DirectContact:
+def _model(case: Case) -> DirectContact:
     """Return the direct contact on the grid with four points in the smallest wave."""
-    return DirectContact(tolerance=None, conditions=results.conditions)
+    return DirectContact(tolerance=None, conditions=case.conditions)
 
 
 def _by_rubber(adjoint: FrictionAdjoint, rubber: Rubber) -> float:
@@ -188,7 +188,7 @@ def _by_surface(adjoint: FrictionAdjoint, surface: Profile | HeightMap) -> float
 
 
 def first_order(
-    results: CaseResults,
+    case: Case,
     uncertainty: Uncertainty | None = None,
     *,
     count: int = DRAWS,
@@ -198,7 +198,7 @@ def first_order(
 
     Parameters
     ----------
-    results : CaseResults
+    case : Case
         A prepared case with a measured surface, in motion.
     uncertainty : Uncertainty, optional
         What is uncertain; by default as the table [uncertainty] of the case says.
@@ -219,9 +219,9 @@ def first_order(
     InputError
         As `Tangent.of`.
     """
-    measurement = Measurement.of(results)
-    asked = uncertainty or Uncertainty.of_case(results.file.case.uncertainty)
-    tangent = Tangent.of(results)
+    measurement = Measurement.of(case)
+    asked = uncertainty or Uncertainty.of_case(stated_options(case))
+    tangent = Tangent.of(case)
     drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
     errors = {each.name: _scatter(tangent, each, count, seed) for each in sources}
@@ -246,7 +246,7 @@ def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
     """Return the standard errors of ln mu and ln A_r/A_0 by draws of a source [-]."""
 
     def drawn(count: int) -> list[Inputs]:
-        every = (each.inputs for each in draws(tangent.case, [source], count, seed))
+        every = (each.inputs for each in draws(tangent.usual, [source], count, seed))
         return [inputs for inputs in every if inputs is not None]
 
     with warnings.catch_warnings():
@@ -256,7 +256,7 @@ def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
             changes = np.array([tangent.solved_change(inputs) for inputs in every])
             return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))
         of_friction = of_area = drawn(count)
-        if of_area[0].rubber is not tangent.case.rubber:
+        if of_area[0].rubber is not tangent.usual.rubber:
             of_area = drawn(FEW_DRAWS)  # each is a difference of contacts
         friction = [tangent.change(inputs) for inputs in of_friction]
         return np.array([np.std(friction), np.std(list(map(tangent.area_change, of_area)))])

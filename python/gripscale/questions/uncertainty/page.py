@@ -14,17 +14,16 @@ import xarray as xr
 from gripscale.charts.draw import image
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
+from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.page import (
     answer_cards,
     answer_lines,
-    has_answer,
     interval,
-    is_measured,
     number_and_interval,
 )
+from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.chain.view import CONVERGED, SYMBOLS
-from gripscale.questions.compare.ladder import DIRECT
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.propagation import (
     FIRST_ORDER,

@@ -23,10 +23,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.read import CaseFile, read_case
-from gripscale.case_file.results import CaseResults
-from gripscale.case_file.run import prepare_case
-from gripscale.case_file.tables import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
@@ -54,16 +51,22 @@ from gripscale.model import (
     Model,
     input_doubts,
 )
+from gripscale.questions.answer.direct_contact import direct_contact_design
 from gripscale.questions.answer.samples import sample_numbers
-from gripscale.questions.compare.comparison import reference_design
 from gripscale.questions.uncertainty.first_order import first_order
+from gripscale.questions.uncertainty.options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
 from gripscale.questions.uncertainty.sampled_answer import GRID, chain_answer, measured_answer
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
-from gripscale.questions.uncertainty.sampling import Chosen, SampledInputs, Uncertainty, draws
+from gripscale.questions.uncertainty.sampling import (
+    Chosen,
+    SampledInputs,
+    Uncertainty,
+    draws,
+    stated_options,
+)
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, Source
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.questions.vary.axis import Axis, axes_of
-from gripscale.questions.vary.inputs import contents, digest
 from gripscale.questions.vary.study import coordinates
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -257,15 +260,6 @@ def stored_uncertainty(results: Path) -> xr.Dataset | None:
     return load_stored(results / FOLDER / RESULT)
 
 
-def input_digests(file: CaseFile) -> list[str]:
-    """Return the digests of the files that predictions of a case depend on.
-
-    Raises `FileError` if one cannot be read.
-    """
-    named = [name for role, name in file.case.named_files() if role != "measured"]
-    return [digest(file.resolve(name)) for name in named]
-
-
 def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = None) -> bool:
     """Return whether uncertainty `data` of `propagate` is of a case file with this text.
 
@@ -298,7 +292,7 @@ BOTH = {"chain": ("chain",), "direct": ("direct",), "both": MODELS}
 class Plan:
     """What is to be sampled: the case, its uncertainty, how often, by which models, over what."""
 
-    file: CaseFile
+    case: Case
     uncertainty: Uncertainty
     samples: int
     seed: int
@@ -313,7 +307,7 @@ class Plan:
         axis = self.axis
         content = {
             "software": software(),
-            "case": contents(self.file),
+            "case": [self.case.key, self.case.origin.text],
             "uncertainty": canonical_json(self.uncertainty),
             "samples": [self.samples, self.seed],
             "models": list(self.models),
@@ -324,7 +318,7 @@ class Plan:
 
 
 def propagate(
-    case: CaseFile | str | Path,
+    case: Case,
     uncertainty: Uncertainty | None = None,
     *,
     samples: int | None = None,
@@ -341,7 +335,7 @@ def propagate(
 
     Parameters
     ----------
-    case : path or CaseFile
+    case : Case
         The case; its speed is the one of the prediction.
     uncertainty : Uncertainty, optional
         What is taken to be uncertain; by default what the case states, or every source it has.
@@ -380,17 +374,16 @@ def propagate(
     InputError, FileError
         If an argument or a file cannot be used, or a result cannot be written.
     """
-    file = case if isinstance(case, CaseFile) else read_case(case)
-    table = file.case.uncertainty
-    accuracy = table.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
-    number = table.samples if samples is None else samples
-    choice = Uncertainty.of_case(table) if uncertainty is None else uncertainty
+    stated = stated_options(case)
+    accuracy = stated.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    number = stated.samples if samples is None else samples
+    choice = Uncertainty.of_case(stated) if uncertainty is None else uncertainty
     plan = Plan(
-        file,
+        case,
         choice,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", table.seed if seed is None else seed, least=0, most=MOST_SEED),
-        _models(stated_models(file, choice) if models is None else models),
+        checks.whole("seed", stated.seed if seed is None else seed, least=0, most=MOST_SEED),
+        _models(stated_models(case, choice) if models is None else models),
         _axis(vary),
         accuracy,
     )
@@ -398,22 +391,21 @@ def propagate(
     data = None if path is None else load_stored(path)
     if data is not None and data.attrs.get("plan_key") == plan.key:
         return data
-    results = prepare_case(plan.file)
-    chosen = plan.uncertainty.of(Measurement.of(results), plan.models)
+    chosen = plan.uncertainty.of(Measurement.of(case), plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        data = _solved(plan, results, chosen, bench)
+        data = _answered(plan, chosen, bench)
     return data if path is None else netcdf.load(netcdf.save(data, path))
 
 
-def stated_models(file: CaseFile, uncertainty: Uncertainty) -> tuple[str, ...]:
+def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
     """Return the models a case states; by default the one its answer is of, as far as it is quick.
 
     The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
     only the chain has asks for both.
     """
-    model = file.case.uncertainty.model
-    if model is None and file.case.surface.files is None:
+    model, measured = stated_options(case).model, case.surface.measured
+    if model is None and (measured is None or measured.map is not None):
         model = "chain"
     elif model is None:
         of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
@@ -441,17 +433,18 @@ def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
     return axes[0]
 
 
-def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> xr.Dataset:
+def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
     """Return all samples, and the answer of the case at each load."""
-    case, axis = Inputs.of(Measurement.of(results)), plan.axis
-    drawn = list(draws(case, chosen.sources, plan.samples, plan.seed))
-    loads, labels = [results.load], [""]
+    case, axis = plan.case, plan.axis
+    usual = Inputs.of(Measurement.of(case))
+    drawn = list(draws(usual, chosen.sources, plan.samples, plan.seed))
+    loads, labels = [case.load], [""]
     if axis is not None:
-        loads = [replace(results.load, **{axis.name: value}) for value in axis.values]
+        loads = [replace(case.load, **{axis.name: value}) for value in axis.values]
         labels = [f"{axis.name} {label}, " for label in axis.labels]
-    design = _design(plan, results, [SampledInputs(case, {}), *drawn], loads)
+    design = _design(plan, [SampledInputs(usual, {}), *drawn], loads)
     references = [
-        reference_design(results, load, label) for load, label in zip(loads, labels, strict=True)
+        direct_contact_design(case, load, label) for load, label in zip(loads, labels, strict=True)
     ]
     tasks = design.tasks
     for reference in references:
@@ -464,24 +457,23 @@ def _solved(plan: Plan, results: CaseResults, chosen: Chosen, bench: Bench) -> x
         part = data if axis is None else data.isel({axis.name: at}, drop=True)
         if reference is None:
             chain = part.sel(model=Chain.name)
-            answered.append(chain_answer(chain, results, load, chosen.sources, logarithms))
+            answered.append(chain_answer(chain, case, load, chosen.sources, logarithms))
             continue
         direct = None
         if DirectContact.name in plan.models:
             direct = _as_solved(part.sel(model=DirectContact.name))
         samples = reference.dataset(answers)
-        answered.append(measured_answer(samples, results, load, direct, chosen.sources, logarithms))
+        answered.append(measured_answer(samples, case, load, direct, chosen.sources, logarithms))
     answer = answered[0] if axis is None else xr.concat(answered, axis.name)
-    if axis is None and DirectContact.name in plan.models and results.load.speed > 0.0:
-        carried = first_order(results, plan.uncertainty, seed=plan.seed)
+    if axis is None and DirectContact.name in plan.models and case.load.speed > 0.0:
+        carried = first_order(case, plan.uncertainty, seed=plan.seed)
         carried = carried.reindex(source=data.source.values)
         for name in QUANTITIES:
             data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
-        plan.file.attributes
-        | input_doubts([results.surface, results.rubber], loads, plan.file.units),
-        case_file=str(plan.file.path),
-        **{FILES: json.dumps(input_digests(plan.file))},
+        case.attributes | input_doubts([case.surface, case.measured_rubber], loads, case.units),
+        case_file=case.origin.name,
+        **{FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         plan_key=plan.key,
         software=software(),
@@ -499,21 +491,19 @@ def _as_solved(direct: xr.Dataset) -> xr.Dataset:
     return direct.assign({name: direct[name] / factor for name, factor in drawn.items()})
 
 
-def _design(
-    plan: Plan, results: CaseResults, samples: Sequence[SampledInputs], loads: Sequence[Load]
-) -> Design:
+def _design(plan: Plan, samples: Sequence[SampledInputs], loads: Sequence[Load]) -> Design:
     """Return the tasks of the samples, of which the first is the case, by each model and load."""
-    axis = plan.axis
+    case, axis = plan.case, plan.axis
     points: list[Point] = []
     refused: dict[Index, str] = {}
     for at, name in enumerate(plan.models):
-        model: Model = results.chain
+        model: Model = case.chain
         if name == DirectContact.name:
-            if results.surface.measured is None:
+            if case.surface.measured is None:
                 raise InputError(
                     "the direct contact needs a measured profile; got waves stated by hand"
                 )
-            model = DirectContact(tolerance=plan.tolerance, conditions=results.conditions)
+            model = DirectContact(tolerance=plan.tolerance, conditions=case.conditions)
         for sample, inputs in enumerate(samples):
             by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
             try:
@@ -531,5 +521,5 @@ def _design(
     coords: dict[str, Any] = {"model": list(plan.models)}
     if axis is not None:
         sizes[axis.name] = len(loads)
-        coords |= coordinates([axis], plan.file.units)
+        coords |= coordinates([axis], case.units)
     return Design(sizes | {"sample": len(samples)}, points, coords, refused)

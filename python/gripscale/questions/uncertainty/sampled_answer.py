@@ -26,14 +26,14 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.results import CaseResults
+from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import TOTALS, Load, answer
 from gripscale.questions.answer.best_estimate import ESTIMATED, SHARES, SampledErrors
+from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_totals
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.answer.samples import running, usable
-from gripscale.questions.compare.comparison import reference_totals
 from gripscale.questions.uncertainty.sources import Source
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.rubber.extrapolation import Extrapolation
@@ -106,7 +106,7 @@ def sampled_error(
 
 def measured_answer(
     reference: xr.Dataset,
-    results: CaseResults,
+    case: Case,
     load: Load,
     direct: xr.Dataset | None,
     sources: Sequence[Source],
@@ -118,8 +118,8 @@ def measured_answer(
     ----------
     reference : xarray.Dataset
         Samples of `gripscale.questions.compare.comparison.reference_design` under the load.
-    results : CaseResults
-        The prepared case.
+    case : Case
+        The case.
     load : Load
         The load.
     direct : xarray.Dataset or None
@@ -137,7 +137,8 @@ def measured_answer(
         `best_..._half_width_of_run` is without them; over `part` the standard errors
         `best_..._part_error` the interval is made of, `part_label`.
     """
-    total = of_run = reference_totals(reference, results, load)
+    curve = continued_curve(case, load)
+    total = of_run = direct_contact_totals(reference, case, load, curve)
     errors, of_road = {}, False
     if direct is not None and int(direct.contact_fraction.count()) > 1:
         # the grid of the answer is finer than that of the samples, and counts by itself
@@ -146,23 +147,23 @@ def measured_answer(
         drawn = {source.name: logarithms[source.name] for source in ours}
         freedom = {s.name: s.freedom for s in ours if s.freedom is not None}
         for name, measure in ESTIMATED.items():
-            case = float(direct[f"{measure}_case"])
-            errors[name] = sampled_error(direct[measure].values, case, drawn, freedom)
+            usual = float(direct[f"{measure}_case"])
+            errors[name] = sampled_error(direct[measure].values, usual, drawn, freedom)
         sampled = {name: error.errors for name, error in errors.items()}
-        total = reference_totals(reference, results, load, SampledErrors(sampled, of_road))
+        total = direct_contact_totals(reference, case, load, curve, SampledErrors(sampled, of_road))
     labels = {source.name: source.label for source in sources}
-    total = total.assign(_below_measurement(reference, results))
+    total = total.assign(_below_measurement(reference, case))
     return _with_parts(total, of_run, errors, labels, of_road=of_road)
 
 
-def _below_measurement(reference: xr.Dataset, results: CaseResults) -> dict[str, float]:
+def _below_measurement(reference: xr.Dataset, case: Case) -> dict[str, float]:
     """Return the shortest wavelength that was measured [m], and how much friction is below it.
 
     Roughness that ends there has none: its shorter waves are those of the rubber at edges.
     """
-    correlation = results.surface.correlation
+    correlation = case.surface.correlation
     limit = None if correlation is None else correlation.resolution_limit
-    if limit is None or resolved_wavelength(results.surface) > 0.99 * limit:
+    if limit is None or resolved_wavelength(case.surface) > 0.99 * limit:
         return {}
     above = float(running(reference, "friction", np.array([limit]))[0])
     total = float(usable(reference, "friction_from_dissipation").mean("sample"))
@@ -172,7 +173,7 @@ def _below_measurement(reference: xr.Dataset, results: CaseResults) -> dict[str,
 
 def chain_answer(
     chain: xr.Dataset,
-    results: CaseResults,
+    case: Case,
     load: Load,
     sources: Sequence[Source],
     logarithms: Mapping[str, Array],
@@ -185,17 +186,17 @@ def chain_answer(
     best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
     errors = {}
     for name, measure in ESTIMATED.items():
-        case = float(chain[f"{measure}_case"])
-        errors[name] = sampled_error(chain[measure].values, case, drawn, {})
+        usual = float(chain[f"{measure}_case"])
+        errors[name] = sampled_error(chain[measure].values, usual, drawn, {})
         error = combined(errors[name].errors)
-        best[f"best_{name}"] = case
+        best[f"best_{name}"] = usual
         best[f"best_{name}_uncertainty"] = error.sigma
         best[f"best_{name}_half_width"] = half_width(error)
         best[f"best_{name}_sampling_error"] = best[f"best_{name}_grid_error"] = math.nan
         for part in ("factor", "factor_uncertainty"):
             best[f"best_{name}_{part}"] = ("factor", np.empty(0))
     best = best.assign({f"best_{share}": math.nan for share in SHARES})
-    best["cutoff_wavelength"] = results.surface.cutoff_wavelength
+    best["cutoff_wavelength"] = case.surface.cutoff_wavelength
     totals = {name: float(chain[f"{name.removeprefix('total_')}_case"]) for name in TOTALS}
     beyond = Extrapolation(float(chain["outside_band_case"]), math.nan, math.nan)
     word = str(chain.status_case_word.item())

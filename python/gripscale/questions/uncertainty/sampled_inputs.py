@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gripscale import model
-from gripscale.case_file.prepare import cleaning_options
-from gripscale.case_file.results import CaseResults
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks, provenance
@@ -108,10 +107,9 @@ class Measurement:
     """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
 
     @classmethod
-    def of(cls, case: CaseResults) -> Measurement:
+    def of(cls, case: Case) -> Measurement:
         """Return what a prepared case is known from."""
-        rubber, load = case.rubber, case.load
-        cleaning = cleaning_options(case.file.case.surface)
+        rubber, load = case.measured_rubber, case.load
         kelvin = (case.conditions or Conditions()).temperature_of(rubber.rubber)
         return cls(
             case.surface,
@@ -122,7 +120,7 @@ class Measurement:
             load.pressure,
             kelvin,
             load.load_time,
-            cleaning,
+            case.cleaning,
         )
 
     @property

@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gripscale.case_file.tables import UncertaintyTable
+from gripscale.case import Case
 from gripscale.core import checks
 from gripscale.core.errors import InputError
+from gripscale.questions.uncertainty.options import UncertaintyOptions
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sources import (
     SOURCES,
@@ -19,6 +20,12 @@ from gripscale.questions.uncertainty.sources import (
     SourceNotApplicable,
     SourceOptions,
 )
+
+
+def stated_options(case: Case) -> UncertaintyOptions:
+    """Return what a case states about its uncertainty, or the defaults."""
+    options: UncertaintyOptions = case.options.get("uncertainty", UncertaintyOptions())
+    return options
 
 
 class Chosen(NamedTuple):
@@ -72,7 +79,7 @@ class Uncertainty:
     @classmethod
     def of_case(
         cls,
-        table: UncertaintyTable,
+        options: UncertaintyOptions,
         *,
         without: Sequence[str] | None = None,
         ranges: Mapping[str, Any] | None = None,
@@ -85,12 +92,12 @@ class Uncertainty:
 
         Raises `InputError` as the constructor does.
         """
-        merged = {} if table.ranges is None else table.ranges.model_dump(exclude_none=True)
-        merged = {name: value for name, value in merged.items() if name not in (without or ())}
+        ranged = options.ranges.items()
+        merged = {name: value for name, value in ranged if name not in (without or ())}
         now = dict(ranges or {})
         if without is None:
-            without = [name for name in table.without if name not in now]
-        length = table.block_length if block_length is None else block_length
+            without = [name for name in options.without if name not in now]
+        length = options.block_length if block_length is None else block_length
         return cls(tuple(without), merged | now, length)
 
     def of(

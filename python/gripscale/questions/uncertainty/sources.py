@@ -12,11 +12,11 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from gripscale.case_file.tables import pressure_error
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.questions.uncertainty import sampled_inputs as quantities
+from gripscale.questions.uncertainty.options import pressure_error
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
 from gripscale.questions.uncertainty.sampled_inputs import (
     CleanedProfiles,

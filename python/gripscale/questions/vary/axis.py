@@ -298,7 +298,7 @@ def parse_vary(text: str, names: Iterable[str] = UNITS) -> tuple[str, str]:
 def _axis(name: str, value: Any) -> Axis:
     checks.one_of("vary", name, UNITS)
     if name in ("rubber", "surface"):
-        values, labels = _named(name, value)
+        values, labels = named_values(name, value)
     else:
         values = tuple(axis_value(name, entry) for entry in _entries(name, value))
         worded = any(isinstance(value, RmsSlope | str) for value in values)
@@ -368,8 +368,11 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
 
 
-def _named(name: str, value: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
-    """Return values and labels of rubbers or surfaces: a mapping, or texts and paths."""
+def named_values(name: str, value: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
+    """Return values and labels of varied rubbers or surfaces: a mapping, or texts and paths.
+
+    Raises `InputError` for anything else.
+    """
     if isinstance(value, Mapping):
         return tuple(value.values()), tuple(str(label) for label in value)
     entries = value.split(",") if isinstance(value, str) else list(value)

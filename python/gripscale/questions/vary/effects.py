@@ -14,7 +14,8 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.case_file.results import CaseResults
+from gripscale.case import Case
+from gripscale.chain.prediction import Prediction
 from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import (
@@ -143,11 +144,12 @@ FILE = "effects_{model}.nc"
 
 
 def case_effects(
-    results: CaseResults,
+    case: Case,
     model: Model,
     folder: str | Path,
     store: str | Path,
     *,
+    dynamic: Prediction | None = None,
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
@@ -156,14 +158,16 @@ def case_effects(
 
     Parameters
     ----------
-    results : CaseResults
-        The case; a prediction it has already is not solved again.
+    case : Case
+        The case.
     model : Model
         With the conditions of the case.
     folder : path
         Gets `effects_<model>.nc`.
     store : path
         Keeps the finished predictions.
+    dynamic : Prediction, optional
+        The chain of the sliding case, where it is solved already.
     workers, client, on_task
         As for `gripscale.experiment.solve_all`.
 
@@ -177,16 +181,16 @@ def case_effects(
     FileError
         If a result cannot be written.
     """
-    asked, load = inputs.effects_asked(model), results.load
+    asked, load = inputs.effects_asked(model), case.load
     if not asked or load.speed == 0.0:
         return None
-    setup = (model, results.rubber.rubber, results.surface, load)
-    if model == results.chain and results.dynamic is not None and results.dynamic.converged:
+    setup = (model, case.rubber, case.surface, load)
+    if model == case.chain and dynamic is not None and dynamic.converged:
         key = effect_tasks(*setup)[inputs.ALL].key
-        solved = results.dynamic.to_dataset().assign_attrs(prediction_key=key)
+        solved = dynamic.to_dataset().assign_attrs(prediction_key=key)
         Store(store).put(key, solved)
     data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)
-    data = data.assign_attrs(results.file.attributes)
+    data = data.assign_attrs(case.attributes)
     netcdf.save(data, Path(folder) / FILE.format(model=model.name))
     return data
 

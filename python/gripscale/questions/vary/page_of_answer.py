@@ -13,7 +13,7 @@ from gripscale.core.units import display_unit_of
 from gripscale.io.table import significant
 from gripscale.model import ADHESIVE_FRICTION, INPUT_DOUBTS, STATUS, STEEP_SHARE
 from gripscale.questions.answer.best_estimate import IsotropicSurface
-from gripscale.questions.answer.page import WORTH_NAMING
+from gripscale.questions.answer.reliance import WORTH_NAMING
 from gripscale.questions.chain.view import HEADINGS, SYMBOLS, believed
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN

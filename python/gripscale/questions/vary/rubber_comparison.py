@@ -27,8 +27,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.prepare import case_chain
-from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
@@ -40,7 +39,7 @@ from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import input_doubts
 from gripscale.questions.answer.best_estimate import with_best_estimate
-from gripscale.questions.vary.inputs import prepared_rubber_of, rubber_notes
+from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
 from gripscale.questions.vary.study import Study
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.theory.half_plane import HalfPlane
@@ -233,7 +232,7 @@ class Compounds:
 
 
 def compare_compounds(
-    case: CaseFile | str | Path,
+    case: Case,
     rubbers: Mapping[str, Any],
     folder: str | Path,
     *,
@@ -279,20 +278,19 @@ def compare_compounds(
         be brought to one temperature.
     """
     require_some("rubbers", rubbers, "compounds")
-    file = case if isinstance(case, CaseFile) else read_case(case)
-    prepared = {name: prepared_rubber_of(value, file) for name, value in rubbers.items()}
-    if temperature is None:
-        temperature = file.case.conditions.temperature
-    compounds = {name: each.rubber for name, each in prepared.items()}
+    measured = {name: measured_rubber_of(value, case) for name, value in rubbers.items()}
+    if temperature is None and case.conditions is not None:
+        temperature = case.conditions.temperature
+    compounds = {name: each.rubber for name, each in measured.items()}
     together, notes = at_one_temperature(compounds, temperature)
-    notes = (*rubber_notes(rubbers.values(), file), *notes)
+    notes = (*reading_notes(rubbers.values()), *notes)
     vary = {"rubber": together}
-    believed = Study(file, vary, static=False)
+    believed = Study(case, vary, static=False)
     best = None
     if isinstance(believed.model, DirectContact):
         best = believed.run(folder, workers=workers, on_task=_of_model(believed, on_task))
     # its file stays beside the result
-    study = Study(file, vary, static=False, model=Chain.name)
+    study = Study(case, vary, static=False, model=Chain.name)
     data = study.run(folder, workers=workers, on_task=_of_model(study, on_task))
     if uncertainty:
         bench = Bench(Store(Path(folder) / PREDICTIONS), workers)
@@ -300,7 +298,7 @@ def compare_compounds(
     data = data.assign(_believed(data if best is None else with_best_estimate(best), data))
     loads = [point.task.load for point in study.points]
     data = data.assign(_differences(data)).assign_attrs(
-        input_doubts([*study.surfaces, *prepared.values()], loads, file.units),
+        input_doubts([*study.surfaces, *measured.values()], loads, case.units),
         notes="\n".join(notes),
     )
     kelvins = [rubber.reference_temperature for rubber in together.values()]
@@ -346,8 +344,8 @@ def _widths(best: xr.Dataset, data: xr.Dataset, name: str) -> tuple[xr.DataArray
 
 def _ranges(study: Study, data: xr.Dataset, bench: Bench) -> dict[str, xr.DataArray]:
     """Return the lowest and highest totals of each compound over its admissible series."""
-    load = study.file.case.load.nominal
-    model = replace(case_chain(study.file), solver=HalfPlane(points=POINTS))
+    load = study.case.load
+    model = replace(study.case.chain, solver=HalfPlane(points=POINTS))
     points = [
         Point((at, i), f"{name}, series {i}", Task(rubber, study.surfaces[0], load, model))
         for at, (name, best) in enumerate(zip(data.rubber.values, study.rubbers, strict=True))

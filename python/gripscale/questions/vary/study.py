@@ -22,11 +22,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.prepare import PreparedRubber, prepare_conditions
-from gripscale.case_file.read import CaseFile, read_case
-from gripscale.case_file.results import CaseResults
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.conditions import Conditions
 from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import software
@@ -46,6 +43,7 @@ from gripscale.questions.vary.speed_and_temperature import (
     with_master_curve,
 )
 from gripscale.rubber import Rubber
+from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
 
 RENAMED = {"temperature": "wave_temperature"}
@@ -147,21 +145,19 @@ class Study:
 
     def __init__(
         self,
-        case: CaseResults | CaseFile | str | Path,
+        case: Case,
         vary: Mapping[str, Any],
         *,
         static: bool | None = None,
         model: Model | str | None = None,
         tolerance: float = JUDGED_TO,
     ) -> None:
-        self.prepared = case if isinstance(case, CaseResults) else None
-        file = case.file if isinstance(case, CaseResults) else case
-        self.file = file if isinstance(file, CaseFile) else read_case(file)
+        self.case = case
         self.axes: tuple[Axis, ...] = axes_of(vary)
-        self.static = self.file.case.load.static if static is None else static
+        self.static = case.static if static is None else static
         if model is None:
-            model = inputs.default_model(self.file, {axis.name: axis.values for axis in self.axes})
-        self.model = inputs.model_of(model, self.file, tolerance)
+            model = inputs.default_model(case, {axis.name: axis.values for axis in self.axes})
+        self.model = inputs.model_of(model, case, tolerance)
         for value in self._values("temperature"):
             inputs.at_temperature(self.model, value)
         for value in self._values("effects"):
@@ -174,45 +170,38 @@ class Study:
 
     @cached_property
     def surfaces(self) -> list[Surface]:
-        """The varied surfaces, or the one of the case, read and fitted."""
-        default = "case" if self.prepared is None else self.prepared.surface
-        values = self._values("surface") or (default,)
-        return [inputs.surface_of(value, self.file) for value in values]
+        """The varied surfaces, or the one of the case."""
+        values = self._values("surface") or (inputs.CASE,)
+        return [inputs.surface_of(value, self.case) for value in values]
 
     @cached_property
     def rubbers(self) -> list[Rubber]:
-        """The varied rubbers, or the one of the case, read and fitted."""
-        return [prepared.rubber for prepared in self.prepared_rubbers]
+        """The varied rubbers, or the one of the case."""
+        return [measured.rubber for measured in self.measured_rubbers]
 
     @cached_property
-    def prepared_rubbers(self) -> list[PreparedRubber]:
+    def measured_rubbers(self) -> list[MeasuredRubber]:
         """The `rubbers` with what they come from and what is doubtful of them."""
-        values = self._values("rubber")
-        if not values and self.prepared is not None:
-            return [self.prepared.rubber]
-        return [inputs.prepared_rubber_of(value, self.file) for value in values or ("case",)]
-
-    @cached_property
-    def _case_conditions(self) -> Conditions | None:
-        return prepare_conditions(self.file.case.conditions, self.file.resolve)
+        values = self._values("rubber") or (inputs.CASE,)
+        return [inputs.measured_rubber_of(value, self.case) for value in values]
 
     def _values(self, name: str) -> tuple[Any, ...]:
         return next((axis.values for axis in self.axes if axis.name == name), ())
 
     @cached_property
     def key(self) -> str:
-        """A hash of all the study depends on, its files unread but for their bytes."""
+        """Hash of everything that the study depends on."""
         named = {name: self._values(name) for name in ("surface", "rubber")}
         settings = {
             "software": software(),
-            "case": inputs.contents(self.file),
+            "case": [self.case.key, self.case.origin.text],
             "axes": {axis.name: axis.labels for axis in self.axes},
             "values": {
                 axis.name: canonical_json(axis.values)
                 for axis in self.axes
                 if axis.name not in named
             },
-            "named": {n: [inputs.stated_by(v, self.file) for v in vs] for n, vs in named.items()},
+            "named": {n: [inputs.identity(v) for v in vs] for n, vs in named.items()},
             "static": self.static,
             "model": canonical_json(self.model),
         }
@@ -223,7 +212,7 @@ class Study:
         count = len({point.task.key for point in [*self.points, *self.static_design.points]})
         names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in self.axes)
         return [
-            f"Study of {self.file.path}",
+            f"Study of {self.case.name}",
             f"  varied: {names}; {count} different predictions",
             *(f"  surface: {s.source}, {len(s.sines)} sine waves" for s in self.surfaces),
             *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
@@ -320,7 +309,7 @@ class Study:
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
         if set(BASIS) <= set(result):
             result = result.assign(self._measured_numbers())
-        result = result.assign_coords(coordinates(self.axes, self.file.units))
+        result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
@@ -350,7 +339,7 @@ class Study:
         """Yield the index of each point on the axes, and its label."""
         for index in product(*(range(len(axis.values)) for axis in axes)):
             words = [
-                f"{axis.name} {axis.called(i, self.file.units)}"
+                f"{axis.name} {axis.called(i, self.case.units)}"
                 for axis, i in zip(axes, index, strict=True)
             ]
             yield index, ", ".join(["static", *words] if static else words)
@@ -364,13 +353,13 @@ class Study:
         return Design({axis.name: len(axis.values) for axis in axes}, points)
 
     def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
-        load = self.file.case.load.nominal
+        load = self.case.load
         pressure, speed = (values.get(key, getattr(load, key)) for key in ("pressure", "speed"))
         speed = 0.0 if static else speed
         load_time = load.load_time if speed > 0.0 else "passage"
         model, rubber = self._model(values), self.rubbers[at.get("rubber", 0)]
-        if not model.takes_conditions and self._case_conditions is not None:
-            rubber = self._case_conditions.before(rubber)
+        if not model.takes_conditions and self.case.conditions is not None:
+            rubber = self.case.conditions.before(rubber)
         # nothing is solved if one point of the study is impossible
         inputs.rubber_before(rubber, model)
         load = replace(load, pressure=pressure, speed=speed, load_time=load_time)
@@ -394,15 +383,15 @@ class Study:
 
     def _provenance(self) -> dict[str, Any]:
         """Return what the study is of; nothing in it depends on when or how often it was run."""
-        load, model = self.file.case.load.nominal, self.model
-        conditions = model.conditions if model.takes_conditions else self._case_conditions
+        load, model = self.case.load, self.model
+        conditions = model.conditions if model.takes_conditions else self.case.conditions
         return {
             "title": "Study of real contact area and friction of rubber on a rough surface",
-            **self.file.attributes,
+            **self.case.attributes,
             **input_doubts(
-                [*self.surfaces, *self.prepared_rubbers],
+                [*self.surfaces, *self.measured_rubbers],
                 [point.task.load for point in self.points],
-                self.file.units,
+                self.case.units,
             ),
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,

@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file.read import CaseFile, read_case
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
@@ -52,7 +52,7 @@ from gripscale.questions.uncertainty.sampled_inputs import FailSafeModel, Inputs
 from gripscale.questions.uncertainty.sampling import draws
 from gripscale.questions.uncertainty.sources import SOURCES, SourceOptions
 from gripscale.questions.vary import rubber_comparison
-from gripscale.questions.vary.inputs import model_of, prepared_rubber_of, surface_note, surface_of
+from gripscale.questions.vary.inputs import model_of, reading_notes, surface_of
 from gripscale.questions.vary.study import UPPER_HEIGHT
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
@@ -253,7 +253,7 @@ class Roads:
 
 
 def compare_surfaces(
-    case: CaseFile | str | Path,
+    case: Case,
     surfaces: Mapping[str, Any],
     folder: str | Path,
     *,
@@ -296,20 +296,18 @@ def compare_surfaces(
     rubber_comparison.require_some("surfaces", surfaces, "roads")
     if samples is not None:
         checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
-    file = case if isinstance(case, CaseFile) else read_case(case)
     roads = {
         # a synthetic road with its profile, for the direct contact
         name: with_profile(value)
         if isinstance(value, str) and value in SYNTHETIC_SURFACES
-        else surface_of(value, file)
+        else surface_of(value, case)
         for name, value in surfaces.items()
     }
-    load, prepared = file.case.load.nominal, prepared_rubber_of("case", file)
-    rubber = prepared.rubber
+    load, rubber = case.load, case.rubber
     points: list[Point] = []
-    notes = [*filter(None, (surface_note(value, file) for value in surfaces.values()))]
+    notes = [*reading_notes(surfaces.values())]
     for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
-        model = model_of(name, file, JUDGED_TO)
+        model = model_of(name, case, JUDGED_TO)
         if "measurement" in model.needs and surface.measured is None:
             notes.append(f"{road} was not measured: no direct contact")
             continue
@@ -341,9 +339,9 @@ def compare_surfaces(
     data = data.assign_attrs(
         notes="\n".join(notes),
         surfaces=shlex.join(words),
-        case_file=str(file.path),
-        **file.attributes,
-        **input_doubts([*roads.values(), prepared], [load], file.units),
+        case_file=case.origin.name,
+        **case.attributes,
+        **input_doubts([*roads.values(), case.measured_rubber], [load], case.units),
         **provenance.attributes(),
     )
     return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))

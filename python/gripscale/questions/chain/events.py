@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from gripscale.chain.prediction import Prediction
+    from gripscale.questions.answer.answer import Answer
 
 PASSES = "passes"
 """Detail of the waves of a prediction whose rubber and contact were iterated."""
@@ -116,21 +117,18 @@ class PredictionFinished:
 
 
 @dataclass(frozen=True)
-class DirectContactSolved:
-    """The direct contact of the measured profiles, which judges the chain, is solved."""
+class AnswerSolved:
+    """The answer of the case is solved: friction and contact area of the measured surface."""
 
     converged: bool
     contact_fraction: float
     friction: float
 
     @classmethod
-    def of(cls, totals: xr.Dataset) -> DirectContactSolved:
-        """Return the event of the totals of a direct contact."""
-        return cls(
-            str(totals.prediction_status.item()) == "converged",
-            float(totals.total_contact_fraction),
-            float(totals.total_friction),
-        )
+    def of(cls, answer: Answer) -> AnswerSolved:
+        """Return the event of an answer."""
+        converged = answer.status == "converged"
+        return cls(converged, answer.contact_fraction, answer.friction)
 
 
 @dataclass(frozen=True)
@@ -174,7 +172,7 @@ Event: TypeAlias = (
     | ResultsReplaced
     | WaveSolved
     | PredictionFinished
-    | DirectContactSolved
+    | AnswerSolved
     | EffectsSolved
     | FileWritten
     | RunFinished

@@ -1,0 +1,369 @@
+"""A case: a surface, a rubber, a load and conditions, about which every question is asked.
+
+    case = gs.Case(profiles, rubber, pressure="3 bar", speed=0.3, smallest_wavelength="0.1 mm")
+    gs.answer(case)
+
+`gripscale.read_case` makes the same object from a case file.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+from gripscale.chain.chain import Chain
+from gripscale.conditions.conditions import Conditions
+from gripscale.core import checks
+from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.provenance import COMMAND
+from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
+from gripscale.experiment.measured_friction import MeasuredFriction
+from gripscale.experiment.task import canonical_json
+from gripscale.half_space.below_measurement import HurstExponent, OwnFaces, Roughness
+from gripscale.half_space.continued import DOWN_TO, ContinuedContact
+from gripscale.model import Doubtful, Load, LoadTime, doubt_sentences, load_doubts
+from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
+from gripscale.rubber.measured_rubber import MeasuredRubber
+from gripscale.surface import (
+    HeightMap,
+    Measured,
+    Profile,
+    SineStack,
+    Surface,
+    fit_self_affine,
+    fit_sines,
+    height_difference,
+)
+from gripscale.surface.cut_off import CutOffRule, find_cut_off
+from gripscale.theory.models import KlueppelHeinrich
+
+SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+RubberLike = Rubber | MasterCurve | MeasuredRubber
+
+
+@dataclass(frozen=True)
+class NamedFile:
+    """A file that a case names, with its checksum."""
+
+    role: str
+    """Table of the case that names it."""
+    name: str
+    size: int
+    """[bytes]"""
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a case was read from; of a case made in Python everything is empty."""
+
+    name: str = ""
+    """Path of the case file, as it was given."""
+    text: str = ""
+    """The case file, word for word."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Units that the case states, by key, in which results are shown."""
+    files: Sequence[NamedFile] = ()
+
+    @property
+    def digests(self) -> list[str]:
+        """Checksums of the files that predictions depend on."""
+        return [file.sha256 for file in self.files if file.role != "measured"]
+
+
+@dataclass(frozen=True)
+class BelowMeasurement:
+    """Roughness below the measurement.
+
+    Parameters
+    ----------
+    down_to : float, optional
+        Shortest wavelength that the answer continues the roughness to [m]; without it the answer
+        ends where the measurement or the cut-off does.
+    roughness : Roughness
+        What the roughness continues as.
+    seed : int
+        Seed of the random waves.
+    """
+
+    down_to: float | None = None
+    roughness: Roughness = field(default_factory=OwnFaces)
+    seed: int = 0
+
+
+class Case:
+    """A surface, a rubber, a load and conditions: all that a question needs.
+
+    Parameters
+    ----------
+    surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
+        Measured heights as they are, cleaned before (`gripscale.clean`), or sine waves.
+    rubber : Rubber, MasterCurve or MeasuredRubber
+        A master curve is fitted by a Prony series.
+    pressure : float or str
+        Nominal pressure [Pa], or a text with its unit such as "3 bar".
+    speed : float or str
+        Sliding speed [m/s]; zero is the relaxed rubber at rest.
+    footprint : float or str
+        Length of the nominal contact [m].
+    smallest_wavelength : float or str, optional
+        Shortest wave of the roughness that counts [m]; by default the shortest one measured.
+    waves : int, optional
+        Number of sine waves that are fitted; chosen from the factors of the fit by default.
+    conditions : Conditions, optional
+        Temperature, softening, heat and area term.
+    load_time : float or "passage"
+        How long a wave is loaded [s]: while the contact above it passes, or a time.
+    static : bool
+        Whether the chain also predicts the relaxed rubber at rest.
+    chain : Chain, optional
+        Solver and pressure classes of the chain of waves; its conditions are those of the case.
+    below_measurement : BelowMeasurement, optional
+        Roughness below the measurement.
+    klueppel_heinrich : KlueppelHeinrich, optional
+        Fitted parameters of that theory, for comparisons.
+    friction : MeasuredFriction, optional
+        Friction measured elsewhere.
+    cleaning : mapping, optional
+        Arguments of `gripscale.clean` that the profiles were cleaned with, where they are known.
+    options : mapping, optional
+        Options of questions that the case states, by question.
+    origin : Origin, optional
+        Where the case was read from.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, no waves fit the surface, or the rubber has no shift to the
+        temperature of the conditions.
+    """
+
+    def __init__(
+        self,
+        surface: SurfaceLike,
+        rubber: RubberLike,
+        *,
+        pressure: float | str,
+        speed: float | str,
+        footprint: float | str = 0.1,
+        smallest_wavelength: float | str | None = None,
+        waves: int | None = None,
+        conditions: Conditions | None = None,
+        load_time: LoadTime = "passage",
+        static: bool = False,
+        chain: Chain | None = None,
+        below_measurement: BelowMeasurement | None = None,
+        klueppel_heinrich: KlueppelHeinrich | None = None,
+        friction: MeasuredFriction | None = None,
+        cleaning: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
+        origin: Origin | None = None,
+    ) -> None:
+        self.origin = origin or Origin()
+        self.load = Load(
+            in_si("pressure", pressure, "pressure"),
+            in_si("speed", speed, "speed"),
+            in_si("footprint", footprint, "length"),
+            load_time,
+        )
+        self.static = static
+        self.chain = replace(chain or Chain(), conditions=conditions)
+        self.measured_rubber = _measured_rubber(rubber)
+        end = None
+        if smallest_wavelength is not None:
+            end = in_si("smallest_wavelength", smallest_wavelength, "length")
+        self.surface = _surface(surface, end, waves)
+        self.below_measurement = below_measurement or BelowMeasurement()
+        self.klueppel_heinrich = klueppel_heinrich
+        self.friction = friction
+        self.cleaning = dict(cleaning or {})
+        self.options = dict(options or {})
+        _ = self.rubber_before  # refuses a temperature without a shift
+
+    def __repr__(self) -> str:
+        unit = self.display_unit
+        load = ", ".join(unit(key).text(getattr(self.load, key)) for key in ("pressure", "speed"))
+        name = self.rubber.name or "rubber"
+        return f"Case({self.surface.source or 'surface'}; {name}; {load})"
+
+    @property
+    def rubber(self) -> Rubber:
+        """The rubber at the temperature of its master curve."""
+        return self.measured_rubber.rubber
+
+    @property
+    def conditions(self) -> Conditions | None:
+        """What changes the rubber, or None where nothing was asked for."""
+        return self.chain.conditions
+
+    @property
+    def rubber_before(self) -> Rubber:
+        """The rubber at the temperature before the contact."""
+        return self.rubber if self.conditions is None else self.conditions.before(self.rubber)
+
+    @property
+    def name(self) -> str:
+        """Path of the case file, or what stands for it."""
+        return self.origin.name or "a case made in Python"
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Units that the case states, by key."""
+        return self.origin.units
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attributes of every result: text and units of the case file, and the command."""
+        command = {"command": COMMAND.get()} if COMMAND.get() else {}
+        return {"case": self.origin.text, DISPLAY_UNITS: json.dumps(self.units)} | command
+
+    @cached_property
+    def key(self) -> str:
+        """Hash of everything that an answer depends on, but for the software."""
+        parts = [self.surface, self.measured_rubber, self.load, self.static, self.chain]
+        parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]
+        content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
+        return hashlib.sha256(content.encode()).hexdigest()
+
+    def display_unit(self, name: str) -> DisplayUnit:
+        """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
+        return display_unit(name, self.units)
+
+    def continuation(
+        self, *, down_to: float | None = None, hurst: float | None = None
+    ) -> ContinuedContact:
+        """Return the direct contact with the roughness below the measurement.
+
+        Parameters
+        ----------
+        down_to : float, optional
+            Shortest wavelength [m]; that of the case by default, else 10 um.
+        hurst : float, optional
+            Hurst exponent of the roughness [-], in place of what the case states.
+        """
+        below = self.below_measurement
+        return ContinuedContact(
+            conditions=self.conditions,
+            down_to=down_to or below.down_to or DOWN_TO,
+            roughness=below.roughness if hurst is None else HurstExponent(hurst),
+            seed=below.seed,
+        )
+
+    def conditions_notes(self) -> list[str]:
+        """Return what the conditions ask for that was not measured."""
+        if self.conditions is None or self.conditions.temperature is None:
+            return []
+        warnings = temperature_doubts({self.rubber.name or "rubber": self.rubber_before})
+        return [f"{text[0].upper()}{text[1:]}." for text in warnings]
+
+    def load_notes(self) -> list[str]:
+        """Return what is doubtful about the load on this surface."""
+        footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
+        if footprint >= largest:
+            return []
+        length_unit = self.display_unit("footprint")
+        return [
+            f"The footprint, {length_unit.text(footprint, 3)}, is shorter than the largest wave, "
+            f"{length_unit.text(largest, 3)}, "
+            "which it cannot hold once: is its unit right? If so, leave such waves out."
+        ]
+
+    def doubts(
+        self, surfaces: Iterable[Surface] | None = None, loads: Iterable[Load] | None = None
+    ) -> list[str]:
+        """Return why the answer may be that of another road, rubber or load, a sentence each.
+
+        Of an answer on other surfaces or under other loads than those of the case, these count.
+        """
+        roads = [self.surface] if surfaces is None else surfaces
+        inputs: list[Doubtful] = [*roads, self.measured_rubber]
+        texts = [text for measured in inputs for text in doubt_sentences(measured)]
+        texts += load_doubts([self.load] if loads is None else loads, self.units)
+        texts = list(dict.fromkeys(texts))
+        if self.rubber.reference_temperature is None:
+            texts.append(
+                "Neither the file of the rubber nor the case states the temperature of its moduli: "
+                "state reference_temperature in [rubber]."
+            )
+        return texts
+
+
+def in_si(name: str, value: float | str, kind: str) -> float:
+    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar".
+
+    Raises `InputError` if it is neither.
+    """
+    if not isinstance(value, str):
+        return checks.number(name, value)
+    try:
+        return parse_quantity(value, kind)
+    except ValueError as error:
+        raise InputError(f"{name} = {value!r}: {error}") from error
+
+
+def described_surface(
+    measured: Measured,
+    *,
+    counted: Mapping[str, Any],
+    fit: Mapping[str, Any],
+    cut_off: CutOffRule | None,
+    source: str,
+) -> Surface:
+    """Return a measured surface with its correlation and the sine waves that follow it.
+
+    Parameters
+    ----------
+    measured : Measured
+        Cleaned profiles or a map.
+    counted, fit : mapping
+        Arguments of `height_difference` and `fit_sines`.
+    cut_off : CutOffRule, optional
+        Where the roughness ends; None where `fit` says so.
+    source : str
+        Where the surface comes from.
+
+    Raises
+    ------
+    InputError
+        If the heights have no correlation, or no waves fit it.
+    """
+    try:
+        correlation = height_difference(measured.cleaned, **counted)
+    except InputError as error:  # a wrong unit may leave no heights
+        raise InputError("; ".join([*measured.doubts, str(error)])) from error
+    try:
+        measured = replace(measured, self_affine=fit_self_affine(correlation))
+    except GripscaleError as error:  # the sine waves do not need a self-affine surface
+        measured = replace(measured, no_self_affine=str(error))
+    options = dict(fit)
+    if not (cut_off is None or isinstance(cut_off, float)):
+        options["cut_off"] = find_cut_off(measured.slopes, cut_off).wavelength
+    sines = fit_sines(correlation, **options)
+    return Surface(sines, source, correlation, options, measured, counted, cut_off)
+
+
+def _surface(surface: SurfaceLike, end: float | None, waves: int | None) -> Surface:
+    if isinstance(surface, Surface):
+        return surface
+    if isinstance(surface, SineStack):
+        return Surface(surface, "sine waves")
+    heights = [surface] if isinstance(surface, Profile) else surface
+    measured = Measured.of(heights)
+    names = [line.source for line in heights] if isinstance(heights, Sequence) else [heights.source]
+    rule: CutOffRule | None = "instrument" if end is None else None
+    fit = {"scales": waves, "smallest_wavelength": end}
+    source = ", ".join(filter(None, map(str, names)))
+    return described_surface(measured, counted={}, fit=fit, cut_off=rule, source=source)
+
+
+def _measured_rubber(rubber: RubberLike) -> MeasuredRubber:
+    if isinstance(rubber, MeasuredRubber):
+        return rubber
+    if isinstance(rubber, Rubber):
+        return MeasuredRubber(rubber, rubber.source)
+    fitted, fit = fit_prony_report(rubber)
+    return MeasuredRubber(fitted, rubber.source, rubber, fit)

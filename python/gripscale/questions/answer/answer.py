@@ -1,0 +1,173 @@
+"""What is the answer: friction and contact area of a case, with their 90 % intervals.
+
+    answer = gs.answer(case)
+    answer.friction, answer.friction_interval
+
+The measured surface is pressed and slid as a whole; known factors lead to finite strain and from
+lines to a surface (`gripscale.questions.answer.best_estimate`). `gripscale run` prints this object.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import xarray as xr
+
+from gripscale.case import Case
+from gripscale.core import provenance
+from gripscale.core.errors import InputError
+from gripscale.experiment.measured_friction import friction_doubts
+from gripscale.io.table import Table
+from gripscale.questions.answer.direct_contact import (
+    continued_curve,
+    direct_contact_totals,
+    solve_direct_contact,
+)
+from gripscale.questions.answer.findings import case_notices, no_answer_notices
+from gripscale.questions.answer.intervals import interval_ends
+from gripscale.questions.answer.page import answer_lines, basis_lines
+from gripscale.questions.answer.reliance import has_answer, is_solved, no_answer
+from gripscale.questions.inputs import record
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.result import Result
+from gripscale.report.elements import Notice, Page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FILE = "answer.nc"
+"""Name of the saved answer in a results folder."""
+
+
+class Answer(Result):
+    """Friction and contact area of a case, with their intervals and what they rest on."""
+
+    kind = "answer"
+    curve: xr.Dataset | None = None
+    """Contact against the cut-off, where the case continues its roughness below the measurement."""
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient of the hysteresis [-]; NaN without an answer or at rest."""
+        return self._number("best_friction")
+
+    @property
+    def friction_interval(self) -> tuple[float, float]:
+        """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
+        return self._interval("friction")
+
+    @property
+    def contact_fraction(self) -> float:
+        """Real over nominal contact area [-]; NaN without an answer."""
+        return self._number("best_contact_fraction")
+
+    @property
+    def contact_fraction_interval(self) -> tuple[float, float]:
+        """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
+        return self._interval("contact_fraction")
+
+    @property
+    def reliable(self) -> bool:
+        """Whether there is an answer to rely on (`gripscale.questions.answer.reliance`)."""
+        return not no_answer(self.data)
+
+    @property
+    def status(self) -> str:
+        """How the direct contact ended: "converged", or why it has no result."""
+        return str(self.data["prediction_status"].item()) if self.is_solved else "not solved"
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether a measured surface was solved; there is none of sine waves."""
+        return is_solved(self.data)
+
+    @property
+    def basis(self) -> Sequence[str]:
+        """What the numbers are for, the factors they are made of, and what they rest on."""
+        return tuple(basis_lines(self.data))
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """Friction and contact area with their intervals, then the `basis`."""
+        return tuple(answer_lines(self.data))
+
+    @cached_property
+    def findings(self) -> Sequence[Notice]:
+        """What may change the answer, the most important first."""
+        statement = [] if self.is_solved else [*no_answer_notices(None)]
+        direct = self.data if self.is_solved else None
+        return tuple([*statement, *case_notices(direct, InputRecord(self.inputs))])
+
+    def table(self) -> Table:
+        """Return friction, contact area and all that qualifies them as one row."""
+        from gripscale.report.summary import summary_table
+
+        return summary_table([self.data])
+
+    def plot(self) -> Figure:
+        """Draw rubber on the surface, its pressure, and where the friction is made.
+
+        Raises `InputError` without a measured surface.
+        """
+        from gripscale.charts.draw import on_paper
+        from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
+
+        traces = named_traces(self.data, profile_names(self.inputs)) if self.is_solved else []
+        if not traces:
+            raise InputError("a figure of the answer needs a measured surface; got sine waves")
+        name, trace = traces[0]
+        return on_paper(trace_sheet(trace, name))
+
+    def page_content(self) -> Page:
+        """Return the answer, the contact, and the inputs with their origin."""
+        from gripscale.questions.answer.page import answer_page
+
+        return answer_page(self.data, InputRecord(self.inputs), self.findings)
+
+    def _number(self, name: str) -> float:
+        return float(self.data[name]) if has_answer(self.data) else math.nan
+
+    def _interval(self, name: str) -> tuple[float, float]:
+        if not has_answer(self.data):
+            return math.nan, math.nan
+        ends = interval_ends(self.data[f"best_{name}"], self.data[f"best_{name}_half_width"])
+        return float(ends[0]), float(ends[1])
+
+
+def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
+    """Return friction and contact area of a case, with their 90 % intervals.
+
+    Parameters
+    ----------
+    case : Case
+        Its surface must be measured for an answer with an interval; of sine waves
+        `Answer.reliable` is False.
+    folder : path, optional
+        Keeps the solution of a roughness that is continued below the measurement.
+
+    Returns
+    -------
+    Answer
+        `print` shows what `gripscale run` prints.
+
+    Raises
+    ------
+    InputError
+        If the direct contact cannot use the rubber or a profile, or the roughness below the
+        measurement has no result.
+    """
+    notes = friction_doubts(case.friction, case.load.speed)
+    inputs = record.inputs(case, friction_notes=notes)
+    samples = solve_direct_contact(case)
+    attrs = {"case_file": case.origin.name, **case.attributes, **provenance.attributes()}
+    if samples is None:
+        return Answer(xr.Dataset(attrs=attrs), inputs)
+    curve = continued_curve(case, case.load, folder)
+    data = direct_contact_totals(samples, case, case.load, curve)
+    result = Answer(data.assign_attrs(attrs), inputs)
+    result.curve = curve
+    return result

@@ -1,0 +1,203 @@
+"""The number behind every answer: direct contact of the measured surface, times known factors.
+
+The direct contact of each profile is a sample of the road, solved to an estimated relative error of
+`JUDGED_TO`; `gripscale.questions.answer.best_estimate` multiplies their mean by its factors.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import xarray as xr
+
+from gripscale.case import Case
+from gripscale.core.errors import InputError
+from gripscale.core.units import in_mm
+from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
+from gripscale.experiment.solve import Bench, bench_in
+from gripscale.experiment.task import Task
+from gripscale.half_space.continued import QUANTILE_90
+from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.location import PREFIX
+from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.model import (
+    STATUS,
+    Load,
+    answer,
+    cut_off_exponents_of,
+    extrapolation_of,
+    input_doubts,
+    with_area_term,
+)
+from gripscale.questions.answer import samples as reduce
+from gripscale.questions.answer.best_estimate import (
+    DIRECT,
+    Factor,
+    LogNormalValue,
+    SampledErrors,
+    best_estimate,
+)
+from gripscale.questions.cut_off.cut_off_curve import (
+    AREA,
+    CONTINUED_TO,
+    FRICTION,
+    at_cut_off,
+    cut_off_curve,
+)
+from gripscale.surface import HeightMap, Measured, Profile, Surface
+
+
+def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
+    """Return the waves of `surface` with one profile or map as the only measurement."""
+    heights = measured if isinstance(measured, HeightMap) else [measured]
+    return Surface(surface.sines, measured.name, measured=Measured.of(heights))
+
+
+def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
+    """Return names of the profiles of `surface`, or of its map, each with a surface of it alone."""
+    measured: Sequence[Profile | HeightMap] = (
+        [] if surface.measured is None else surface.measured.surfaces
+    )
+    return [
+        (part.name or f"profile {i}", with_single_measurement(surface, part))
+        for i, part in enumerate(measured, 1)
+    ]
+
+
+def direct_contact_design(
+    case: Case, load: Load, label: str = "", *, traces: bool = False
+) -> Design | None:
+    """Return the direct contacts of the profiles of a case under a load as tasks.
+
+    Parameters
+    ----------
+    case : Case
+        The case; its conditions change the rubber.
+    load : Load
+        The load.
+    label : str
+        Beginning of the names of the tasks.
+    traces : bool
+        Whether the answers hold the contacts as charts draw them.
+
+    Returns
+    -------
+    Design or None
+        Over `sample`; None if no profile was measured.
+    """
+    profiles = each_measured(case.surface)
+    if not profiles:
+        return None
+    model = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions, traces=traces)
+    points = [
+        Point((at,), f"{label}{name}", Task(case.rubber, surface, load, model))
+        for at, (name, surface) in enumerate(profiles)
+    ]
+    subjects = {"subject": ("sample", [name for name, _ in profiles])}
+    return Design({"sample": len(points)}, points, subjects)
+
+
+def solve_direct_contact(case: Case) -> xr.Dataset | None:
+    """Return the direct contact of each profile of a case, with its trace for charts.
+
+    Over `sample`, see `gripscale.questions.answer.samples`; None if no profile was measured. Raises
+    `InputError` if the direct contact cannot use the rubber or a profile.
+    """
+    design = direct_contact_design(case, case.load, traces=True)
+    if design is None:
+        return None
+
+    def numbers(predicted: xr.Dataset, task: Task) -> xr.Dataset:
+        traces = [name for name in map(str, predicted) if name.startswith(PREFIX)]
+        return reduce.sample_numbers(predicted, task).assign(predicted[traces].isel(profile=0))
+
+    return solve_design(design, Bench(None), numbers)
+
+
+def continued_curve(case: Case, load: Load, folder: str | Path | None = None) -> xr.Dataset | None:
+    """Return the contact against the cut-off, if the case continues its roughness; else None.
+
+    A `folder` keeps the solution. Raises `InputError` if it has no result.
+    """
+    if case.below_measurement.down_to is None:
+        return None
+    with bench_in(folder) as bench:
+        curve = cut_off_curve(case, load, bench)
+    if curve[STATUS].item() != CONVERGED:
+        raise InputError(f"roughness below the measurement has no result: {curve[STATUS].item()}")
+    return curve
+
+
+def continuation_factor(curve: xr.Dataset, cut_off: float) -> Factor:
+    """Return the factor of the roughness below a cut-off [m], with the error of a continuation."""
+    end = float(curve.cut_off[-1])
+    sigma = math.log(float(curve[f"{AREA}_upper"][-1] / curve[AREA][-1])) / QUANTILE_90
+
+    def grown(name: str) -> LogNormalValue:
+        ratio = float(curve[name][-1]) / at_cut_off(curve, name, cut_off)
+        return LogNormalValue(ratio if math.isfinite(ratio) else 1.0, sigma)
+
+    label = f"roughness continued from {in_mm(cut_off, 3)} to {in_mm(end, 3)}"
+    return Factor("below_measurement", label, grown(AREA), grown(FRICTION))
+
+
+def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
+    """Return the factor of a `continued_curve` of a case; none without a curve."""
+    if curve is None:
+        return []
+    return [continuation_factor(curve, resolved_wavelength(case.surface))]
+
+
+def direct_contact_totals(
+    samples: xr.Dataset,
+    case: Case,
+    load: Load,
+    curve: xr.Dataset | None = None,
+    sampled: SampledErrors | None = None,
+) -> xr.Dataset:
+    """Return the mean contact of the profiles as a model answers, with the best estimate.
+
+    Parameters
+    ----------
+    samples : xarray.Dataset
+        Answers of `direct_contact_design` under the load.
+    case : Case
+        The case.
+    load : Load
+        The load.
+    curve : xarray.Dataset, optional
+        Contact against the cut-off below the measurement (`continued_curve`).
+    sampled : SampledErrors, optional
+        Errors of the inputs, which widen the interval.
+    """
+    means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
+    beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
+    best = best_estimate(
+        samples.expand_dims(rung=[DIRECT]),
+        continuation_factors(case, curve),
+        upper_height=upper_height_of(case.surface),
+        sampled=sampled,
+    )
+    if curve is not None:
+        best[CONTINUED_TO] = case.below_measurement.down_to
+    end = resolved_wavelength(case.surface)
+    best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
+    totals = answer(
+        best,
+        {f"total_{name}": value for name, value in means.items()},
+        str(reduce.status(samples).item()),
+        DIRECT,
+        load,
+        extrapolation_of(beyond),
+        cut_off_exponents_of(exponents),
+        status_word=str(reduce.status_word(samples).item()),
+    ).assign_attrs(
+        case.attributes | input_doubts([case.surface, case.measured_rubber], [load], case.units),
+        tolerance=JUDGED_TO,
+    )
+    traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
+    if traces:
+        totals = totals.assign(samples[traces].variables)
+    return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))

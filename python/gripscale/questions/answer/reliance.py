@@ -1,0 +1,118 @@
+"""The law of reliance: whether a result has an answer, and whether it may be relied on.
+
+There is none to rely on where the inputs may be those of another case, where more than half of
+friction or contact comes from what was not measured, or where the measured surface is too small.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import xarray as xr
+
+from gripscale import model
+from gripscale.chain.chain import Chain
+from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.report.elements import Doubt, Notice, percent
+from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
+
+MOST_ON_GUESSES = 0.5
+"""Share of friction or contact from what was not measured that makes an answer a guess."""
+WORTH_NAMING = 0.005
+"""Share of the contact on filled gaps that is as good as none."""
+
+
+def is_solved(data: xr.Dataset) -> bool:
+    """Return whether the direct contact of a measured surface was solved for a result."""
+    return model.STATUS in data
+
+
+def has_answer(data: xr.Dataset) -> bool:
+    """Return whether a result of one load holds a best estimate of the contact area."""
+    area = data.get("best_contact_fraction")
+    return area is not None and not area.ndim and math.isfinite(float(area))
+
+
+def direct_of(data: xr.Dataset) -> xr.Dataset:
+    """Return the direct contact of a comparison with its best estimate; that of a run as it is."""
+    return data.sel(rung=DIRECT) if DIRECT in data.get("rung", ()) else data
+
+
+def no_answer(data: xr.Dataset | None) -> str:
+    """Return why a result has no answer, or none to rely on; empty if it has one."""
+    if data is None or not (has_answer(data) or _status(data)):
+        return (
+            "none with an interval. Only the direct contact of a measured surface has an interval, "
+            "and none was solved."
+        )
+    doubts = [*filter(None, [data.attrs.get(model.INPUT_DOUBTS)])]
+    if not has_answer(data):
+        words = f"The direct contact of the measured surface has no result: {_status(data)}."
+        return " ".join(["none.", *doubts, words])
+    guessed = [share.text for share in guesses(data) if share.effect > MOST_ON_GUESSES]
+    reasons = [*doubts, *guessed, *_sampled_too_little(data)]
+    return f"none to rely on. {' '.join(reasons)}" if reasons else ""
+
+
+def _status(data: xr.Dataset) -> str:
+    """Return how the direct contact of a result ended; empty if none was solved."""
+    direct = direct_of(data)
+    name = next((name for name in (model.STATUS, "status") if name in direct), "")
+    return str(direct[name].item()) if name and not direct[name].ndim else ""
+
+
+def guesses(data: xr.Dataset) -> Iterator[Notice]:
+    """Yield the shares of an answer on frequencies and heights that were not measured."""
+    beyond = model.extrapolation_of(direct_of(data))
+    if friction_sentence(beyond):
+        yield Notice(
+            "warning",
+            f"{friction_sentence(beyond)} There the Prony series is an extrapolation.",
+            friction=beyond.share,
+            doubt=Doubt.RUBBER,
+        )
+    missing = float(data.get("best_missing_share", math.nan))
+    if missing > WORTH_NAMING:
+        text = f"{percent(missing)} of the contact lies on filled gaps of the measurement."
+        yield Notice("warning", text, area=missing, doubt=Doubt.SURFACE)
+
+
+def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
+    """Yield that the surface is too small for an interval, or for one that says something."""
+    widths = [float(data[f"best_{name}_half_width"]) for name in estimated_names(data)]
+    if not math.isfinite(float(data.best_contact_fraction_half_width)):
+        if not is_measured(data):
+            yield "Fewer than two samples have an answer."
+            return
+        yield (
+            "The measured surface is too small to tell how well it represents its road: it holds "
+            "fewer than four pieces of two largest waves."
+        )
+    elif any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width)):
+        # the parts of an interval that is sampled say why
+        why = "" if "part_label" in data else ": the measured surface is too small"
+        yield f"The ends of the interval are more than a factor of two from the value{why}."
+
+
+def friction_sentence(beyond: Extrapolation) -> str:
+    """Return how much of a friction and how far; empty where it is not worth saying."""
+    if not beyond.share > WORTH_SAYING:
+        return ""
+    return f"{percent(beyond.share)} of the friction lies {beyond.furthest}."
+
+
+def is_moving(data: xr.Dataset) -> bool:
+    """Return whether a result is of sliding rubber."""
+    return float(data.nominal_speed) > 0.0
+
+
+def estimated_names(data: xr.Dataset) -> tuple[str, ...]:
+    """Return what is estimated: no friction at rest."""
+    return ("friction", "contact_fraction") if is_moving(data) else ("contact_fraction",)
+
+
+def is_measured(data: xr.Dataset) -> bool:
+    """Return whether an answer is of a measured surface: otherwise it is the chain's."""
+    total = data.get("total_friction")
+    return total is None or total.attrs.get("source") != Chain.name

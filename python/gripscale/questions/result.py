@@ -1,0 +1,181 @@
+"""What every question returns: a labelled Dataset that prints, draws, reports and saves itself.
+
+    result = gs.answer(case)
+    result.save("answer.nc")
+    gs.load("answer.nc").page("answer.html")
+
+A file knows its question by the attribute `kind`; `KINDS` leads from there to its class.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from html import escape
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import xarray as xr
+
+from gripscale.core.errors import FileError
+from gripscale.io import netcdf
+from gripscale.io.table import Table, as_text
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+    from gripscale.report.elements import Notice, Page
+
+KIND = "kind"
+"""Attribute of a saved result: the question it answers."""
+INPUTS = "inputs"
+"""Group of a saved result: the record of the inputs of its case."""
+WIDTH = 100
+"""Characters of a line of a printed result."""
+
+KINDS = {"answer": "gripscale.questions.answer.answer:Answer"}
+"""Class of the results of each question, by kind."""
+
+
+class Result(ABC):
+    """The result of a question about a case.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Numbers of the result, with the attributes of its case.
+    inputs : xarray.Dataset, optional
+        Record of the inputs of the case, which pages and findings show.
+    """
+
+    kind: ClassVar[str]
+    """Word for the question."""
+
+    def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
+        self.data = data.assign_attrs({KIND: self.kind})
+        self.inputs = xr.Dataset() if inputs is None else inputs
+
+    @property
+    @abstractmethod
+    def lines(self) -> Sequence[str]:
+        """The answer in words: what to believe, then what it rests on."""
+
+    @property
+    @abstractmethod
+    def findings(self) -> Sequence[Notice]:
+        """What may change the result, the most important first."""
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield tables and sentences that stand below the answer."""
+        yield from ()
+
+    @abstractmethod
+    def table(self) -> Table:
+        """Return the numbers of the result as one table."""
+
+    @abstractmethod
+    def plot(self) -> Figure:
+        """Draw the figure that shows the result (matplotlib)."""
+
+    def page(self, path: str | Path) -> Path:
+        """Write the result as one HTML page that needs no network, and return its path.
+
+        Raises `InputError` without the extra `gripscale[report]`, `FileError` if the page cannot be
+        written.
+        """
+        from gripscale.report import write_page
+
+        return write_page(self.page_content, path)
+
+    @abstractmethod
+    def page_content(self) -> Page:
+        """Return what stands on the page of the result."""
+
+    def save(self, path: str | Path) -> Path:
+        """Write the result with the record of its inputs to a netCDF file; return its path.
+
+        Raises `FileError` if it cannot be written.
+        """
+        groups = {INPUTS: self.inputs} if self.inputs.variables or self.inputs.attrs else {}
+        return netcdf.save(self.data, path, groups)
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return the numbers as a labelled Dataset."""
+        return self.data
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the table as a pandas DataFrame, in SI units."""
+        import pandas as pd
+
+        return pd.DataFrame({column.name: list(column.values) for column in self.table().columns})
+
+    def text(self, width: int = WIDTH) -> str:
+        """Return the answer, the findings and the tables as text with lines of a width."""
+        above = [*self.lines, *warning_lines(self.findings)]
+        below = list(self.parts())
+        return as_text(*above, *(["", *below] if below else []), width=width)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {next(iter(self.lines), 'empty')}>"
+
+    def _repr_html_(self) -> str:
+        lead, *basis = [escape(line.strip()) for line in self.lines]
+        rest = "".join(f"<li>{line}</li>" for line in basis)
+        findings = "".join(f"<li>{escape(finding.text)}</li>" for finding in self.findings)
+        folded = f"<details><summary>What may change it</summary><ul>{findings}</ul></details>"
+        return f"<p><b>{lead}</b></p><ul>{rest}</ul>{folded if findings else ''}"
+
+
+MOST_OPEN = 3
+"""Findings that a terminal opens with; the others are in a file beside the result."""
+
+
+def warning_lines(findings: Sequence[Notice], rest: str = "") -> Iterator[str]:
+    """Yield ranked findings as lines; with `rest`, a file that has them all, the first only.
+
+    These are `MOST_OPEN`, and all that leave open whether the answer is that of another case.
+    """
+    if findings:
+        yield "Warnings, by what they change:"
+    doubts = sum(finding.effect == float("inf") for finding in findings)
+    count = max(MOST_OPEN, doubts) if rest else len(findings)
+    yield from (f"  {finding.text}" for finding in findings[:count])
+    if len(findings) > count:
+        yield f"  ... and {len(findings) - count} more in {rest}"
+
+
+def result_class(kind: str) -> type[Result] | None:
+    """Return the class of the results of a kind; None for an unknown kind."""
+    if kind not in KINDS:
+        return None
+    module, _, name = KINDS[kind].partition(":")
+    chosen: type[Result] = getattr(import_module(module), name)
+    return chosen
+
+
+def load(path: str | Path) -> Any:
+    """Return a saved result as it was.
+
+    Parameters
+    ----------
+    path : path
+        A file that `Result.save` or a command wrote.
+
+    Raises
+    ------
+    FileError
+        If it does not exist, is damaged, or is no result of a question.
+    """
+    tree = netcdf.load_tree(path)
+    kind = str(tree.attrs.get(KIND, ""))
+    result = result_class(kind)
+    if result is None:
+        known = ", ".join(KINDS)
+        raise FileError(f"{path} holds no result of a question ({known}); got {kind or 'no kind'}")
+    inputs = tree.children.get(INPUTS, xr.DataTree()).to_dataset(inherit=False)
+    return result(tree.to_dataset(), inputs)

@@ -1,0 +1,47 @@
+"""A rubber together with the measurement it was fitted to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gripscale.core.errors import InputError
+from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber.material import Rubber
+from gripscale.rubber.prony_report import PronyFit
+from gripscale.rubber.shift import ShiftTable
+from gripscale.rubber.shift_fit import ShiftFit, fit_wlf
+from gripscale.rubber.superposition import Superposition
+from gripscale.rubber.sweeps import Sweeps
+
+
+@dataclass(frozen=True)
+class MeasuredRubber:
+    """A rubber and what it comes from; a rubber made by hand comes from nothing else."""
+
+    rubber: Rubber
+    source: str
+    master: MasterCurve | None = None
+    """The master curve that the Prony series was fitted to."""
+    fit: PronyFit | None = None
+    """The report on that fit."""
+    sweeps: Sweeps | None = None
+    """Sweeps at several temperatures that make the master curve."""
+    superposition: Superposition | None = None
+    """How these sweeps meet."""
+    note: str = ""
+    """What was assumed when its file was read, as a sentence; empty if nothing was."""
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why its moduli may be those of no rubber, a sentence each."""
+        return () if self.fit is None else self.fit.doubts
+
+    def shift_fits(self) -> list[ShiftFit]:
+        """Return the WLF law that the measured shift follows; none where it follows no such law."""
+        if self.master is None or not isinstance(self.master.shift, ShiftTable):
+            return []
+        try:
+            reference = self.master.reference_temperature
+            return [fit_wlf(self.master.shift, reference_temperature=reference)]
+        except InputError:
+            return []
