@@ -15,7 +15,7 @@ from gripscale.core.errors import InputError
 from gripscale.half_space import HurstExponent, contact_by_cut_off
 from gripscale.io import netcdf
 from gripscale.questions import case_cut_off
-from gripscale.questions.cut_off.cut_off_curve import AREA, FILE, FRICTION, at_cut_off
+from gripscale.questions.cut_off.curve import AREA, FILE, FRICTION, at_cut_off
 from gripscale.report import write_report
 from tests.half_space.rough_cases import isotropic_heights
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
