@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.case_file import CaseFile
+    from gripscale.core.finding import Finding
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
-    from gripscale.report.elements import Notice
     from gripscale.report.failures import Failure
 
 
@@ -115,7 +115,7 @@ def conclude(
     closing: str,
     opening: Sequence[str | Table] = (),
     lead: Sequence[str] = (),
-    warnings: Sequence[Notice] = (),
+    warnings: Sequence[Finding] = (),
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,

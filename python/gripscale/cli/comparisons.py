@@ -96,7 +96,7 @@ def compare(
     from gripscale.questions.vary.axis import parse_vary
     from gripscale.questions.vary.effects import case_effects
     from gripscale.questions.vary.page_side_by_side import effects_table
-    from gripscale.report.elements import ranked
+    from gripscale.core.finding import ranked
     from gripscale.report.notices import friction_notices
 
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])
