@@ -24,8 +24,9 @@ import param
 
 from gripscale.app.case import CaseState
 from gripscale.app.commands import COMMANDS, RUN, Command
-from gripscale.case_file import CaseFile, folder
+from gripscale.case_file import CaseFile
 from gripscale.core.errors import FileError, InputError
+from gripscale.io.folders import write_text
 from gripscale.questions.chain.events import (
     AnswerSolved,
     EffectsSolved,
@@ -300,7 +301,7 @@ class Runs(param.Parameterized):
         if earlier and earlier[-1].state in ("finished", "stopped"):
             run = earlier[-1]
         else:
-            folder.write_text(run.case, file.text)
+            write_text(run.case, file.text)
             self.all.append(run)
         if run.state != "finished":
             run.stopped = False
