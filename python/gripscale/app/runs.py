@@ -1,8 +1,7 @@
 """Runs of one visit: each is a `gripscale` command in its own process, which writes into a folder.
 
-The process of `gripscale run` writes its events (`gripscale.questions.chain.events`) to one file beside
-the
-results, each process its text to another. Stopping a run ends the process and all it started; what
+The process of `gripscale run` writes its events to one file beside the results, each process its
+text to another. Stopping a run ends the process and all it started; what
 it finished stays, and a run of the same case continues from there.
 """
 

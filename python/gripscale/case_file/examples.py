@@ -113,7 +113,7 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
     text = _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
     contents = {CASE: text.encode("utf-8")}
     contents |= {path: _packaged(path) for path in example.files}
-    contents |= {path: make_folder().encode("utf-8") for path, make in example.made}
+    contents |= {path: make().encode("utf-8") for path, make in example.made}
     parent = nearest_existing(target)
     if not parent.is_dir():
         raise FileError(f"folder {target} cannot be made: {parent} is not a folder")

@@ -100,7 +100,7 @@ class Answer(Result):
         """What may change the answer, the most important first."""
         statement = [] if self.is_solved else [*no_answer_notices(None)]
         direct = self.data if self.is_solved else None
-        return tuple([*statement, *case_notices(direct, InputRecord(self.inputs))])
+        return (*statement, *case_notices(direct, InputRecord(self.inputs)))
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""
