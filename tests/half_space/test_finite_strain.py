@@ -9,10 +9,10 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.half_space import one_period, solve_both_ways, spread_windows, surface_of_sines
 from gripscale.half_space.grid import periodic_heights
 from gripscale.surface import Profile, SineStack, self_affine_profile
-from gripscale.wave import Status
 from tests.samples import GENTLE_SINES as GENTLE
 
 from .rough_cases import ZENER

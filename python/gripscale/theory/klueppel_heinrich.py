@@ -33,13 +33,13 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
 from gripscale.theory.persson import TheoryResult, Variable, divided, refined, running_integral
-from gripscale.wave.problem import Status
 
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
 TOP_HEIGHT_FRACTION = 0.5

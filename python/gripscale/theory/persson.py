@@ -30,6 +30,7 @@ from gripscale import model
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.model import NOT_CONVERGED, Load, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
@@ -39,7 +40,6 @@ from gripscale.surface.spectrum import (
     areal_spectrum,
     last_wavenumber,
 )
-from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -89,7 +89,7 @@ class TheoryResult:
         """
         import xarray as xr
 
-        from gripscale.wave.result import labelled
+        from gripscale.core.labels import labelled
 
         data = {
             variable: labelled(dims, getattr(self, variable), unit, text, self.source)
