@@ -106,9 +106,7 @@ def test_a_finished_run_solves_nothing_again_unless_told_to(
     assert len(seen) == 6
 
 
-@pytest.mark.parametrize(
-    ("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 4", "rows = 5")]
-)
+@pytest.mark.parametrize(("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 4", "rows = 5")])
 def test_another_case_takes_nothing_up(
     case_copy: Path, tmp_path: Path, solved: Count, old: str, new: str
 ) -> None:

@@ -274,9 +274,7 @@ def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
     (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
     file = read_case_file(write(tmp_path))
     rubbers = {"right": "case", "misread": read_rubber("other.txt", file)}
-    compounds = compare_compounds(
-        read_case(file), rubbers, tmp_path / "rubbers", uncertainty=False
-    )
+    compounds = compare_compounds(read_case(file), rubbers, tmp_path / "rubbers", uncertainty=False)
     for data in (ladder, roads.data, compounds.data):
         assert data.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
 
@@ -390,7 +388,9 @@ def test_an_answer_ends_where_the_heights_do_whatever_the_cut_off(tmp_path: Path
     direct = answer(results, folder=tmp_path).data
     assert "roughness down to 0.2 mm" in " ".join(answer_lines(direct))  # two steps
     warnings = case_notices(direct, InputRecord(record.inputs(results)))
-    assert warnings[0].sentence.startswith("The cut-off of the case is 0.02 mm, but the heights hold")
+    assert warnings[0].sentence.startswith(
+        "The cut-off of the case is 0.02 mm, but the heights hold"
+    )
 
 
 def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Path) -> None:
