@@ -10,7 +10,8 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.app.case import CaseState, VisitFolder
-from gripscale.app.commands import COMMANDS, Command
+from gripscale.app.commands import COMMANDS
+from gripscale.questions.registry import Form
 from gripscale.app.elements import Cards
 from gripscale.app.run_tabs import answer_elements, run_status
 from gripscale.app.runs import Run, Runs
@@ -150,15 +151,15 @@ def test_a_command_that_printed_nothing_is_starting(tmp_path: Path) -> None:
     assert run.how_far() == "starting"
 
 
-def by_name(name: str) -> Command:
-    return next(command for command in COMMANDS if command.name == name)
+def by_name(name: str) -> Form:
+    return next(command for command in COMMANDS if command.command == name)
 
 
 def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
     """Words of the command lines, from what the commands print of themselves."""
     for command in COMMANDS:
-        help_text = CliRunner().invoke(app, [command.name, "--help"], env={"COLUMNS": "200"}).stdout
-        assert help_text.startswith("Usage: "), command.name
+        help_text = CliRunner().invoke(app, [command.command, "--help"], env={"COLUMNS": "200"}).stdout
+        assert help_text.startswith("Usage: "), command.command
         assert all(option.flag in help_text for option in command.options), command.title
     speeds = by_name("study")
     assert speeds.arguments({"speeds": "1,2"}) == ["--vary", "speed=1,2"]
