@@ -7,6 +7,7 @@ period of a line, superposed sines, and a surface with the same spectrum but ran
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, TypeVar
@@ -133,6 +134,22 @@ def windows(
     if not out:
         raise InputError(f"length {length} m leaves no window with half of its heights")
     return out
+
+
+def spread_windows(
+    profiles: Sequence[Profile], length: float, most: int, smallest_wavelength: float
+) -> list[Profile]:
+    """Return at most `most` windows of the profiles, each made `one_period`.
+
+    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly; waves
+    shorter than `smallest_wavelength` [m] are left out. Raises `InputError` as `windows` does, or
+    if `most` is not a whole number from 1.
+    """
+    number = checks.whole("most", most, least=1, most=100_000)
+    lines = checks.instances("profiles", profiles, Profile)
+    every = [window for line in lines for window in windows(line, length)]
+    chosen = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
+    return [one_period(every[index], smallest_wavelength) for index in chosen]
 
 
 def solve_windows(

@@ -12,7 +12,6 @@ from gripscale.surface.cut_off import (
     slope_by_wavelength,
 )
 from gripscale.surface.height_difference import HeightDifference, height_difference
-from gripscale.surface.isotropic_maps import isotropic_maps
 from gripscale.surface.plausibility import profile_warnings
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.read import read_map, read_profile, read_profiles
@@ -59,7 +58,6 @@ __all__ = [
     "fit_self_affine",
     "fit_sines",
     "height_difference",
-    "isotropic_maps",
     "map_spectrum",
     "profile_spectrum",
     "profile_warnings",
