@@ -335,6 +335,8 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
 @about_keys("below_measurement")
 def _below_measurement(file: CaseFile) -> BelowMeasurement:
     table = file.case.below_measurement
+    if table.down_to is not None and file.case.surface.map is not None:
+        raise InputError("roughness is continued below measured profiles; got a map")
     roughness: Roughness = OwnFaces()
     if table.hurst is not None:
         roughness = HurstExponent(table.hurst)

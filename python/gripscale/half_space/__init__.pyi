@@ -7,7 +7,6 @@ from .continued import ContinuedContact as ContinuedContact
 from .grid_sequence import GridRecord as GridRecord
 from .location import contact_trace as contact_trace
 from .location import shares_by_slope as shares_by_slope
-from .map_below_measurement import map_by_cut_off as map_by_cut_off
 from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact

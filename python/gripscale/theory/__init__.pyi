@@ -1,6 +1,3 @@
-from .diffusion import ContactPressures as ContactPressures
-from .diffusion import DiffusionResult as DiffusionResult
-from .diffusion import diffusion as diffusion
 from .elastic import contact_fraction as contact_fraction
 from .elastic import contact_half_width as contact_half_width
 from .elastic import contact_pressure as contact_pressure

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gripscale import surface as surfaces
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface, prepare_rubber
 from gripscale.core.errors import InputError
 from gripscale.half_space import HurstExponent, contact_by_cut_off
@@ -165,18 +165,16 @@ def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
     assert bool(result.curve_measured[-1])
 
 
-def test_a_map_is_continued_by_diffusion(tmp_path):
-    heights = 1e3 * isotropic_heights(128, length=0.0256, rms=2e-4)
-    np.savetxt(tmp_path / "map.txt", heights.T)
+def test_a_map_is_refused(tmp_path):
+    np.savetxt(tmp_path / "map.txt", 1e3 * isotropic_heights(128, length=0.0256, rms=2e-4).T)
     surface = (
         'map = "map.txt"\nstep = ["0.2 mm", "0.2 mm"]\nz_unit = "mm"\nscales = 3\ncut_off = "1 mm"'
     )
-    rubber = 'name = "styrene_butadiene"'
-    text = case_text(surface, rubber, HALF_PLANE, static=False)
+    text = case_text(surface, 'name = "styrene_butadiene"', HALF_PLANE, static=False)
     (tmp_path / "case.toml").write_text(text)
-    data = case_cut_off(tmp_path / "case.toml", folder=tmp_path / "result", down_to=1e-6)
-    assert float(data.resolved) == pytest.approx(0.8e-3)
-    assert data.curve_measured.values.sum() == 3
-    assert float(data.cut_off[-1]) == pytest.approx(1e-6)
-    assert data.total_friction_from_dissipation == pytest.approx(float(data[FRICTION][-1]))
-    assert np.all(np.diff(data[AREA]) < 0.0)
+    with pytest.raises(InputError, match="from measured profiles; got a map"):
+        case_cut_off(tmp_path / "case.toml", folder=tmp_path / "result", down_to=1e-6)
+    below = tmp_path / "below.toml"
+    below.write_text(text + BELOW)
+    with pytest.raises(InputError, match=r"\[below_measurement\].* measured profiles; got a map"):
+        read_case(read_case_file(below))

@@ -259,7 +259,7 @@ def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
 
 
 def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    if setup.continuation is None:
+    if setup.continuation is None or setup.of_map:
         return []
     profiles = each_measured(setup.surface)
     return [SampleSpec(setup.continuation, part, name) for name, part in profiles]

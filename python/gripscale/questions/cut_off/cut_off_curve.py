@@ -55,7 +55,7 @@ def case_cut_off(
     Parameters
     ----------
     case : Case
-        The case; its surface must be measured profiles or a map.
+        The case; its surface must be measured profiles.
     folder : path
         Gets `cut_off.nc`, and the solution as soon as it is there.
     down_to : float, optional
@@ -68,14 +68,14 @@ def case_cut_off(
     Returns
     -------
     xarray.Dataset
-        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off`, of a map those of
-        `map_by_cut_off`, with the prefix `curve_`. Over `rule`: the cut-off that each rule gives,
+        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off` with the prefix
+        `curve_`. Over `rule`: the cut-off that each rule gives,
         with friction and contact there. The totals are those of the last cut-off.
 
     Raises
     ------
     InputError, FileError
-        For what cannot be used; if nothing was measured.
+        For what cannot be used; for a map, or if nothing was measured.
     """
     with bench_in(folder, workers, None, on_task) as bench:
         data = cut_off_curve(case, case.load, bench, down_to=down_to, hurst=hurst)
