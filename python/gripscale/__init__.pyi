@@ -22,6 +22,8 @@ from .half_space.result import RoughContact as RoughContact
 from .half_space.solve import solve_rough_contact as solve_rough_contact
 from .questions.answer.answer import Answer as Answer
 from .questions.answer.answer import answer as answer
+from .questions.cut_off.question import CutOff as CutOff
+from .questions.cut_off.question import cut_off as cut_off
 from .questions.result import Result as Result
 from .questions.result import load as load
 from .rubber import MasterCurve as MasterCurve

@@ -168,7 +168,7 @@ def test_another_wording_does_not_change_the_progress(
         return [Progress.of(events[:count]).share for count in range(len(events))]
 
     before = shares()
-    command = import_module("gripscale.cli.terminal")
+    command = import_module("gripscale.terminal")
     print_wrapped: Callable[..., None] = command.print_wrapped
 
     def reworded(console: object, message: str) -> None:

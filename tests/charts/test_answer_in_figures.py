@@ -14,7 +14,7 @@ from gripscale.charts.draw import on_paper
 from gripscale.questions import contact_figure
 from gripscale.questions.chain.view import ANSWER, JUDGE
 from gripscale.questions.cut_off.charts import cut_off_sheet
-from gripscale.questions.cut_off.cut_off_curve import AREA, FRICTION, SLOPE_IN_CONTACT
+from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.uncertainty.charts import (
     distribution_figure,
     profiles_figure,

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from gripscale.cli.docs import anchors, pages
-from gripscale.report.notices import chapter_words
+from gripscale.report.failures import chapter_words
 from gripscale.wave import Status
 from tests.samples import DOCS, ROOT, Shell
 

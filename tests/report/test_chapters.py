@@ -10,7 +10,7 @@ import xarray as xr
 from gripscale.cli.docs import anchors
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.model import status_words
-from gripscale.report.notices import Failure, chapter_words, explained
+from gripscale.report.failures import Failure, chapter_words, explained
 from gripscale.wave import Status
 
 DOCS = Path(__file__).parents[2] / "docs"

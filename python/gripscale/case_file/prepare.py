@@ -335,8 +335,6 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
 @about_keys("below_measurement")
 def _below_measurement(file: CaseFile) -> BelowMeasurement:
     table = file.case.below_measurement
-    if table.down_to is not None and file.case.surface.map is not None:
-        raise InputError("roughness is continued below measured profiles; got a map")
     roughness: Roughness = OwnFaces()
     if table.hurst is not None:
         roughness = HurstExponent(table.hurst)
@@ -409,6 +407,8 @@ def read_case(path: CaseFile | str | Path) -> Case:
         For what cannot be read or used.
     """
     file = path if isinstance(path, CaseFile) else read_case_file(path)
+    if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:
+        raise InputError(f"{file.path}: [below_measurement] needs measured profiles; got a map")
     # measured friction is refused before anything is fitted
     friction, chain = stated_friction(file), case_chain(file)
     surface = case_surface(file)

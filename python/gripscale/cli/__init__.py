@@ -16,7 +16,6 @@ import typer
 from typer.core import TyperGroup
 
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
-from gripscale.cli.cut_off import cut_off
 from gripscale.cli.design import design
 from gripscale.cli.docs import docs
 from gripscale.cli.experiments import calibrate, study, uncertainty
@@ -27,6 +26,7 @@ from gripscale.cli.run import PASS_ON, report, reproduce, run
 from gripscale.cli.run import app as app_command
 from gripscale.cli.sensitivity import sensitivity
 from gripscale.core.provenance import COMMAND, version_of
+from gripscale.questions.registry import commands
 
 EPILOGUE = (
     "To start: `gripscale new ROAD RUBBER` writes a case for your files, `gripscale init FOLDER` "
@@ -63,7 +63,6 @@ app.command("report")(report)
 app.command("study")(study)
 app.command("uncertainty")(uncertainty)
 app.command("sensitivity")(sensitivity)
-app.command("cut-off")(cut_off)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
@@ -72,6 +71,8 @@ app.command("compare-surfaces")(compare_surfaces)
 app.command("keys")(keys)
 app.command("docs")(docs)
 app.command("app")(app_command)
+for name, question in commands():
+    app.command(name)(question)
 app.add_typer(export, name="export")
 
 

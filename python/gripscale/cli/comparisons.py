@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli import terminal
-from gripscale.cli.terminal import (
+from gripscale import terminal
+from gripscale.core.errors import InputError
+from gripscale.terminal import (
     CasePath,
     Cluster,
     Measured,
@@ -20,7 +21,6 @@ from gripscale.cli.terminal import (
     command,
     option,
 )
-from gripscale.core.errors import InputError
 
 if TYPE_CHECKING:
     import xarray as xr

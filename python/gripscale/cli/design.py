@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli import terminal
+from gripscale import terminal
 from gripscale.cli.comparisons import names_of
-from gripscale.cli.terminal import CasePath, OwnFolder, Workers, command, option, print_wrapped
+from gripscale.terminal import CasePath, OwnFolder, Workers, command, option, print_wrapped
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from gripscale.cli import terminal
-from gripscale.cli.terminal import CasePath, Cluster, Measured, OwnFolder, Workers, command, option
+from gripscale import terminal
 from gripscale.core.errors import InputError
+from gripscale.terminal import CasePath, Cluster, Measured, OwnFolder, Workers, command, option
 
 
 @command

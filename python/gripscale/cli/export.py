@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import argument, command, option, print_wrapped, screen
 from gripscale.core.errors import FileError, InputError
+from gripscale.terminal import argument, command, option, print_wrapped, screen
 
 if TYPE_CHECKING:
     from gripscale.rubber import Rubber

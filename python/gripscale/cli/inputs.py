@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.terminal import (
+from gripscale.core.errors import about_keys
+from gripscale.terminal import (
     COLUMNS,
     argument,
     as_options,
@@ -26,7 +27,6 @@ from gripscale.cli.terminal import (
     print_wrapped,
     screen,
 )
-from gripscale.core.errors import about_keys
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -90,7 +90,7 @@ def keys(
     from gripscale.case_file.keys import sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
-    from gripscale.report.notices import chapter_words
+    from gripscale.report.failures import chapter_words
 
     chosen = sections()
     if section is not None:

@@ -6,7 +6,8 @@ import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
-from gripscale.cli.terminal import (
+from gripscale.core.errors import GripscaleError, InputError
+from gripscale.terminal import (
     COLUMNS,
     argument,
     columns_of,
@@ -16,7 +17,6 @@ from gripscale.cli.terminal import (
     print_wrapped,
     screen,
 )
-from gripscale.core.errors import GripscaleError, InputError
 
 CURES = {
     "shift": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli import terminal
-from gripscale.cli.terminal import CasePath, argument, command, option
+from gripscale import terminal
 from gripscale.core.errors import FileError, GripscaleError
+from gripscale.terminal import CasePath, argument, command, option
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -126,7 +126,7 @@ def _run(
     from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.questions.chain.events import FileWritten
     from gripscale.questions.chain.run import ChainRun
-    from gripscale.report.notices import explained
+    from gripscale.report.failures import explained
     from gripscale.report.summary import FILE as SUMMARY
 
     chain = ChainRun.of(read_case(file), target, fresh=fresh)
@@ -200,7 +200,7 @@ def _solve(
     from gripscale.case_file import run_case
     from gripscale.questions.answer.answer import FILE as ANSWER
     from gripscale.questions.chain.events import AnswerSolved, EffectsSolved, FileWritten
-    from gripscale.questions.cut_off.cut_off_curve import save_curve
+    from gripscale.questions.cut_off.question import cut_off_result
     from gripscale.questions.vary.effects import FILE as EFFECTS
     from gripscale.questions.vary.effects import case_effects
 
@@ -220,7 +220,7 @@ def _solve(
             emit(AnswerSolved.of(answer))
             emit(FileWritten(str(target / ANSWER)))
         if answer.curve is not None:
-            save_curve(answer.curve, case, target)
+            cut_off_result(answer.curve, case).save(target / "cut_off.nc")
         effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
         if effects is not None:
             emit(EffectsSolved.of(effects))

@@ -27,7 +27,8 @@ from .compare.ladder import LADDER as LADDER
 from .compare.ladder import ComparisonSetup as ComparisonSetup
 from .compare.ladder import Rung as Rung
 from .compare.ladder import SampleSpec as SampleSpec
-from .cut_off.cut_off_curve import case_cut_off as case_cut_off
+from .cut_off.question import CutOff as CutOff
+from .cut_off.question import cut_off as cut_off
 from .design.compound_design import design_compound as design_compound
 from .design.compound_limits import CompoundLimits as CompoundLimits
 from .design.compound_limits import PointLimit as PointLimit

@@ -4,7 +4,8 @@
     result.save("answer.nc")
     gs.load("answer.nc").page("answer.html")
 
-A file knows its question by the attribute `kind`; `KINDS` leads from there to its class.
+A file knows its question by the attribute `kind`; `gripscale.questions.registry` leads from there
+to its class.
 """
 
 from __future__ import annotations
@@ -12,20 +13,21 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from html import escape
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import xarray as xr
 
-from gripscale.core.errors import FileError
+from gripscale.core.errors import FileError, InputError
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
+from gripscale.questions import registry
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from gripscale.charts.chart import Drawing
     from gripscale.report.elements import Notice, Page
 
 KIND = "kind"
@@ -34,9 +36,6 @@ INPUTS = "inputs"
 """Group of a saved result: the record of the inputs of its case."""
 WIDTH = 100
 """Characters of a line of a printed result."""
-
-KINDS = {"answer": "gripscale.questions.answer.answer:Answer"}
-"""Class of the results of each question, by kind."""
 
 
 class Result(ABC):
@@ -52,6 +51,16 @@ class Result(ABC):
 
     kind: ClassVar[str]
     """Word for the question."""
+
+    @property
+    def file(self) -> str:
+        """Name of the result in a results folder."""
+        return f"{self.kind}.nc"
+
+    @property
+    def failure(self) -> str:
+        """What has no result, in a sentence; empty if everything asked for has one."""
+        return ""
 
     def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
         self.data = data.assign_attrs({KIND: self.kind})
@@ -75,9 +84,24 @@ class Result(ABC):
     def table(self) -> Table:
         """Return the numbers of the result as one table."""
 
-    @abstractmethod
+    def figures(self) -> Iterator[tuple[str, Drawing | Figure]]:
+        """Yield the figures that show the result, with their names, the most telling first."""
+        yield from ()
+
     def plot(self) -> Figure:
-        """Draw the figure that shows the result (matplotlib)."""
+        """Draw the figure that shows the result (matplotlib).
+
+        Raises `InputError` if there is nothing to draw.
+        """
+        from gripscale.charts.chart import Drawing
+        from gripscale.charts.draw import on_paper
+
+        _, figure = next(self.figures(), ("", None))
+        if figure is None:
+            raise InputError(
+                f"the {self.kind} has no figure: {next(iter(self.lines), 'no result')}"
+            )
+        return on_paper(figure) if isinstance(figure, Drawing) else figure
 
     def page(self, path: str | Path) -> Path:
         """Write the result as one HTML page that needs no network, and return its path.
@@ -149,15 +173,6 @@ def warning_lines(findings: Sequence[Notice], rest: str = "") -> Iterator[str]:
         yield f"  ... and {len(findings) - count} more in {rest}"
 
 
-def result_class(kind: str) -> type[Result] | None:
-    """Return the class of the results of a kind; None for an unknown kind."""
-    if kind not in KINDS:
-        return None
-    module, _, name = KINDS[kind].partition(":")
-    chosen: type[Result] = getattr(import_module(module), name)
-    return chosen
-
-
 def load(path: str | Path) -> Any:
     """Return a saved result as it was.
 
@@ -173,9 +188,9 @@ def load(path: str | Path) -> Any:
     """
     tree = netcdf.load_tree(path)
     kind = str(tree.attrs.get(KIND, ""))
-    result = result_class(kind)
+    result = registry.result_class(kind)
     if result is None:
-        known = ", ".join(KINDS)
-        raise FileError(f"{path} holds no result of a question ({known}); got {kind or 'no kind'}")
+        expected = ", ".join(registry.kinds())
+        raise FileError(f"{path} holds no result of a question ({expected})")
     inputs = tree.children.get(INPUTS, xr.DataTree()).to_dataset(inherit=False)
     return result(tree.to_dataset(), inputs)

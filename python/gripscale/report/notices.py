@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,9 +20,9 @@ from gripscale.questions.answer.page import answer_cards
 from gripscale.questions.answer.reliance import friction_sentence, has_answer, no_answer
 from gripscale.questions.chain.view import CONVERGED, PredictionView
 from gripscale.report.elements import Card, Doubt, Notice, number, percent, ranked
+from gripscale.report.failures import Failure, chapter_words
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
-from gripscale.wave.problem import Status
 from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
@@ -76,48 +76,6 @@ def _in_total(view: PredictionView, error: np.ndarray) -> float:
         return math.nan
     friction = view.column("friction")
     return float(error @ friction / friction.sum())
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A prediction, or a part of one, without numbers to be used."""
-
-    sentence: str
-    word: str = ""
-    """Of its `Status`; empty if there is none, or the file is of an older version."""
-
-    @property
-    def status(self) -> Status | None:
-        """Its status, None if there is none."""
-        return Status(self.word) if self.word in FAILURES else None
-
-    def __str__(self) -> str:
-        return self.sentence
-
-
-FAILURES = set(Status) - {Status.CONVERGED}
-"""Statuses that say why there are no numbers."""
-
-
-def explained(failure: Failure | Exception) -> str:
-    """Return a failure with what to do about it, and what says more about it."""
-    text = str(failure)
-    status = getattr(failure, "status", None)
-    see = getattr(failure, "see", "") or ("" if status is None else status.chapter)
-    if not see:
-        return text
-    pointer = f"see {chapter_words(see)}"
-    if status is None:
-        return f"{text} S{pointer[1:]}" if text.endswith("?") else f"{text}; {pointer}"
-    return f"{text.rstrip('.')}. {status.advice} S{pointer[1:]}"
-
-
-def chapter_words(see: str) -> str:
-    """Return the command that shows a chapter such as `docs/limits.md#discretisation`."""
-    if see.startswith("`"):
-        return see
-    page, hash_sign, heading = see.removeprefix("docs/").partition("#")
-    return f"`gripscale docs {page.removesuffix('.md')}{hash_sign}{heading}`"
 
 
 def _share(value: float) -> str:

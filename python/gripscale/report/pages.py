@@ -11,7 +11,6 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.charts.page_elements import words_of
-from gripscale.core.provenance import versions
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Table
 from gripscale.model import FRICTION_OUTSIDE_BAND
@@ -24,19 +23,18 @@ from gripscale.questions.calibration.page_of_measured import measured_lines
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
 from gripscale.questions.chain.page import wave_tables
-from gripscale.questions.chain.run import KEY
 from gripscale.questions.chain.view import SYMBOLS, PredictionView
 from gripscale.questions.compare import page as comparison
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.cut_off import page as cut_off
-from gripscale.questions.cut_off.charts import cut_off_charts
 from gripscale.questions.design import page as design
 from gripscale.questions.design.charts import design_pictures
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
 from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.result import Result
 from gripscale.questions.sensitivity import page as sensitivity
 from gripscale.questions.sensitivity.charts import height_charts, sensitivity_charts
 from gripscale.questions.uncertainty import page as uncertainty
@@ -46,9 +44,9 @@ from gripscale.questions.vary import page_side_by_side as side_by_side
 from gripscale.questions.vary.charts import study_charts
 from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
 from gripscale.report import notices
+from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import (
     Card,
-    Code,
     Doubt,
     Element,
     Facts,
@@ -59,7 +57,8 @@ from gripscale.report.elements import (
     ranked,
 )
 from gripscale.report.equations import equations
-from gripscale.report.source import Compared, Run, Source, Study, case_name
+from gripscale.report.failures import Failure, explained
+from gripscale.report.source import Compared, Run, Source, Study
 from gripscale.surface import SineStack
 
 METHOD = (
@@ -120,12 +119,13 @@ def page_of(source: Source) -> Page:
         return run_page(source)
     if isinstance(source, Compared):
         return comparison_page(source)
+    if isinstance(source, Result):
+        return source.page_content()
     pages = {
         "study": study_page,
         "compounds": compounds_page,
         "roads": roads_page,
         "sensitivity": sensitivity_page,
-        "cut_off": cut_off_page,
         "design": design_page,
         "uncertainty": uncertainty_page,
         "calibration": calibration_page,
@@ -177,7 +177,7 @@ def run_page(run: Run) -> Page:
             Section("rubber", "Rubber", rubber_elements(run.record, moving)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
-            Section("cut-off", "Against the cut-off", cut_off_elements(run.cut_off)),
+            Section("cut-off", "Against the cut-off", cut_off.cut_off_elements(run.cut_off)),
             Section("effects", "What each effect is worth", effects_elements(run.effects)),
             Section(
                 "blocks",
@@ -305,26 +305,6 @@ def method_section() -> Section:
     return Section("method", "Method", [Text(METHOD), *equations()])
 
 
-def rerun_section(attrs: dict[object, object]) -> Section:
-    """Return versions, and the command that made the result with its case file."""
-    names = sorted(str(name) for name in attrs if str(name).startswith("version_"))
-    solved = [(name.removeprefix("version_"), str(attrs[name])) for name in names]
-    solved += [("Key of the result", str(attrs[KEY]))] if KEY in attrs else []
-    here = ", ".join(f"{name} {version}" for name, version in versions().items())
-    elements: list[Element] = [Facts("Solved with", [*solved, ("This page written by", here)])]
-    if "case" in attrs:
-        name = case_name(attrs) or "case.toml"
-        elements += [
-            Text(
-                f"Save the text below as {name}. Paths of files start at its folder. The inputs "
-                "list their checksums."
-            ),
-            *([Code("command", "Command", str(attrs["command"]))] if "command" in attrs else []),
-            Code("case", f"Case file {name}", str(attrs["case"])),
-        ]
-    return Section("again", "Software, and how to run it again", elements)
-
-
 def study_page(source: Study) -> Page:
     """Return the report of a study."""
     data = source.data
@@ -370,9 +350,9 @@ def _study_notices(data: xr.Dataset) -> list[Notice]:
     return [*heads, *(Notice("warning", text, doubt=Doubt.SURFACE) for text in notes if text)]
 
 
-def _errors(failed: Iterable[notices.Failure]) -> list[Notice]:
+def _errors(failed: Iterable[Failure]) -> list[Notice]:
     """Return what has no result, with what to do about it."""
-    return [Notice("error", notices.explained(each)) for each in failed]
+    return [Notice("error", explained(each)) for each in failed]
 
 
 def _study_cards(source: Study) -> list[Card]:
@@ -426,7 +406,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
         for where, failure in comparison.failures(data):
             placed = replace(failure, sentence=f"{where}: {failure}")
             level = "warning" if bool(data.best_friction.notnull().all()) else "error"
-            text = f"{notices.explained(placed)}."
+            text = f"{explained(placed)}."
             elements.append(Notice(level, text, doubt=Doubt.SOLUTION))
     for data in compared.over:
         over = f"Over {varied(data).replace('_', ' ')}"
@@ -521,7 +501,7 @@ def calibration_page(source: Study) -> Page:
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
         [
-            *([Notice("error", f"{notices.explained(failed)}.")] if failed else []),
+            *([Notice("error", f"{explained(failed)}.")] if failed else []),
             *findings.case_notices(data, source.record),
         ],
         calibration.calibration_cards(data),
@@ -550,33 +530,6 @@ def sensitivity_page(source: Study) -> Page:
                 "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
             ),
             Section("heights", "Which heights count", height_charts(data, source.record.data)),
-            rerun_section(data.attrs),
-        ],
-    )
-
-
-def cut_off_elements(data: xr.Dataset | None) -> list[Element]:
-    """Return curves, rules and tables of a result against the cut-off; nothing without one."""
-    if data is None or cut_off.failures(data):
-        return []
-    return [
-        *map(Text, cut_off.basis_lines(data)),
-        *cut_off_charts(data),
-        cut_off.rules_table(data),
-        cut_off.curve_table(data),
-    ]
-
-
-def cut_off_page(source: Study) -> Page:
-    """Return the report of contact and friction against the cut-off."""
-    data, case = source.data, case_name(source.data.attrs) or "case.toml"
-    return _page(
-        f"Contact and friction of {case} against the cut-off",
-        next(cut_off.answer_lines(data)),
-        [*_errors(cut_off.failures(data)), *findings.case_notices(None, source.record)],
-        cut_off.cards(data),
-        [
-            Section("cut-off", "Against the cut-off", cut_off_elements(data)),
             rerun_section(data.attrs),
         ],
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass, field, replace
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -17,9 +17,9 @@ from gripscale.questions.answer.answer import FILE as DIRECT
 from gripscale.questions.answer.best_estimate import with_best_estimate
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import varied
-from gripscale.questions.cut_off.cut_off_curve import FILE as CUT_OFF
-from gripscale.questions.cut_off.cut_off_curve import FRICTION as CURVE
 from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.registry import result_class
+from gripscale.questions.result import KIND, Result, load
 from gripscale.questions.sensitivity.friction_sensitivity import LOSS as SENSITIVITY
 from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
 from gripscale.questions.vary.axis import dimensions
@@ -140,12 +140,7 @@ class Study:
         return dimensions(self.data)
 
 
-Source = Run | Study | Compared
-
-
-def case_name(attrs: dict[Any, Any]) -> str:
-    """Return the file name of the case of a result, empty where it is not known."""
-    return PurePath(str(attrs.get("case_file", ""))).name
+Source = Run | Study | Compared | Result
 
 
 def read_result(path: Path) -> Source:
@@ -158,6 +153,9 @@ def read_result(path: Path) -> Source:
     if not path.exists():
         raise FileError(f"result {path} does not exist")
     tree = netcdf.load_tree(path)
+    if result_class(str(tree.attrs.get(KIND, ""))) is not None:
+        result: Result = load(path)
+        return result
     names, kind = set(tree.variables), ""
     if "profile_excess" in names:
         kind = "calibration"
@@ -165,8 +163,6 @@ def read_result(path: Path) -> Source:
         kind = "uncertainty"
     elif SENSITIVITY in names:
         kind = "sensitivity"
-    elif CURVE in names:
-        kind = "cut_off"
     elif "rolling_ratio" in names:
         kind = "design"
     else:
@@ -193,7 +189,7 @@ def _read_folder(folder: Path) -> Source:
         case = run.attrs.get("case")
         direct, curve = (
             _checked(path).to_dataset() if path.is_file() else None
-            for path in (folder / DIRECT, folder / CUT_OFF)
+            for path in (folder / DIRECT, folder / "cut_off.nc")
         )
         return replace(
             run,

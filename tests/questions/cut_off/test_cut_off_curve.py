@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 
 from gripscale import surface as surfaces
-from gripscale.case_file import read_case, read_case_file
+from gripscale.case_file import read_case_file
 from gripscale.case_file.prepare import case_surface, prepare_rubber
 from gripscale.core.errors import InputError
 from gripscale.half_space import HurstExponent, contact_by_cut_off
 from gripscale.io import netcdf
 from gripscale.questions import case_cut_off
-from gripscale.questions.cut_off.cut_off_curve import AREA, FILE, FRICTION, at_cut_off
+from gripscale.questions.cut_off.curve import AREA, FILE, FRICTION, at_cut_off
 from gripscale.report import write_report
-from tests.half_space.rough_cases import isotropic_heights
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
 
 SURFACE = 'files = ["road.txt"]\nscales = 3\ncut_off = "0.5 mm"'
@@ -163,18 +162,3 @@ def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
     assert ("below_measurement", "road.txt") in read_case_file(path).case.named_files()
     result = case_cut_off(path, folder=folder / "finer", down_to=0.4e-3)
     assert bool(result.curve_measured[-1])
-
-
-def test_a_map_is_refused(tmp_path):
-    np.savetxt(tmp_path / "map.txt", 1e3 * isotropic_heights(128, length=0.0256, rms=2e-4).T)
-    surface = (
-        'map = "map.txt"\nstep = ["0.2 mm", "0.2 mm"]\nz_unit = "mm"\nscales = 3\ncut_off = "1 mm"'
-    )
-    text = case_text(surface, 'name = "styrene_butadiene"', HALF_PLANE, static=False)
-    (tmp_path / "case.toml").write_text(text)
-    with pytest.raises(InputError, match="from measured profiles; got a map"):
-        case_cut_off(tmp_path / "case.toml", folder=tmp_path / "result", down_to=1e-6)
-    below = tmp_path / "below.toml"
-    below.write_text(text + BELOW)
-    with pytest.raises(InputError, match=r"\[below_measurement\].* measured profiles; got a map"):
-        read_case(read_case_file(below))

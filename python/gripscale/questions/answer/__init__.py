@@ -1,1 +1,3 @@
-"""What is the answer: friction and contact area with their intervals."""
+"""What is the answer: friction and contact area of a case, with their intervals."""
+
+KINDS = {"answer": "answer:Answer"}

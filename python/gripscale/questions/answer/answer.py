@@ -10,7 +10,7 @@ lines to a surface (`gripscale.questions.answer.best_estimate`). `gripscale run`
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +19,6 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.core import provenance
-from gripscale.core.errors import InputError
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer.direct_contact import (
@@ -37,7 +36,7 @@ from gripscale.questions.result import Result
 from gripscale.report.elements import Notice, Page
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from gripscale.charts.chart import Sheet
 
 FILE = "answer.nc"
 """Name of the saved answer in a results folder."""
@@ -108,19 +107,13 @@ class Answer(Result):
 
         return summary_table([self.data])
 
-    def plot(self) -> Figure:
-        """Draw rubber on the surface, its pressure, and where the friction is made.
-
-        Raises `InputError` without a measured surface.
-        """
-        from gripscale.charts.draw import on_paper
+    def figures(self) -> Iterator[tuple[str, Sheet]]:
+        """Yield rubber on the surface, its pressure, and where the friction is made."""
         from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
 
-        traces = named_traces(self.data, profile_names(self.inputs)) if self.is_solved else []
-        if not traces:
-            raise InputError("a figure of the answer needs a measured surface; got sine waves")
-        name, trace = traces[0]
-        return on_paper(trace_sheet(trace, name))
+        if self.is_solved:
+            for name, trace in named_traces(self.data, profile_names(self.inputs))[:1]:
+                yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:
         """Return the answer, the contact, and the inputs with their origin."""

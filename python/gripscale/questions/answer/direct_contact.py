@@ -39,7 +39,7 @@ from gripscale.questions.answer.best_estimate import (
     SampledErrors,
     best_estimate,
 )
-from gripscale.questions.cut_off.cut_off_curve import (
+from gripscale.questions.cut_off.curve import (
     AREA,
     CONTINUED_TO,
     FRICTION,

@@ -19,7 +19,7 @@ from gripscale.questions.answer.reliance import (
     is_moving,
     no_answer,
 )
-from gripscale.questions.cut_off.cut_off_curve import CONTINUED_TO
+from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import Doubt, Notice, number, percent, ranked
 from gripscale.rubber.extrapolation import WORTH_SAYING

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from pathlib import PurePath
 
 import numpy as np
 import xarray as xr
@@ -28,9 +27,10 @@ from gripscale.questions.answer.reliance import (
     no_answer,
 )
 from gripscale.questions.chain.view import HEADINGS, SYMBOLS
-from gripscale.questions.cut_off.cut_off_curve import CONTINUED_TO
+from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
+from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Notice, Page, Section, percent
 
 
@@ -155,11 +155,10 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Notice
         Section("surface", "Surface", pages.surface_elements(record)),
         Section("rubber", "Rubber", pages.rubber_elements(record)),
         pages.method_section(),
-        pages.rerun_section(data.attrs),
+        rerun_section(data.attrs),
     ]
-    case = PurePath(str(data.attrs.get("case_file", ""))).name
     return Page(
-        f"Contact and friction: {case or 'a case'}",
+        f"Contact and friction: {case_name(data.attrs) or 'a case'}",
         next(iter(basis_lines(data)), ""),
         findings,
         list(answer_cards(data)) if is_solved(data) else [],

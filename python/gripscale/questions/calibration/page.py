@@ -19,7 +19,7 @@ from gripscale.questions.calibration.calibration_text import HELD_UNITS, interva
 from gripscale.questions.calibration.page_of_measured import residual_table
 from gripscale.questions.chain.view import CONVERGED
 from gripscale.report.elements import Card, Facts
-from gripscale.report.notices import Failure
+from gripscale.report.failures import Failure
 
 PARAMETERS = {
     "stress_0": "shear stress τ_0",

@@ -26,7 +26,8 @@ from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
 from gripscale.report.elements import Card
-from gripscale.report.notices import Failure, comparison_notices
+from gripscale.report.failures import Failure
+from gripscale.report.notices import comparison_notices
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 TINY = 0.05

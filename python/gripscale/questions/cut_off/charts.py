@@ -21,7 +21,7 @@ from gripscale.charts.chart import (
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI
-from gripscale.questions.cut_off.cut_off_curve import (
+from gripscale.questions.cut_off.curve import (
     AREA,
     CONTACT_SLOPE,
     FRICTION,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import xarray as xr
@@ -13,14 +13,16 @@ from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.chain.view import CONVERGED, HEADINGS, SYMBOLS
-from gripscale.questions.cut_off.cut_off_curve import (
+from gripscale.questions.cut_off.charts import cut_off_charts
+from gripscale.questions.cut_off.curve import (
     AREA,
     FRICTION,
     SLOPE_IN_CONTACT,
     at_cut_off,
 )
-from gripscale.report.elements import Card
-from gripscale.report.notices import Failure
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Element, Notice, Page, Section, Text
+from gripscale.report.failures import Failure, explained
 
 NAMES = {"friction": FRICTION, "contact_fraction": AREA}
 """Names of the curves by those of the numbers of an answer."""
@@ -149,3 +151,27 @@ def failures(data: xr.Dataset) -> list[Failure]:
     if sentence == CONVERGED:
         return []
     return [Failure(sentence, str(data[f"{STATUS}_word"].item()))]
+
+
+def cut_off_elements(data: xr.Dataset | None) -> list[Element]:
+    """Return curves, rules and tables of a result against the cut-off; nothing without one."""
+    if data is None or failures(data):
+        return []
+    return [*map(Text, basis_lines(data)), *cut_off_charts(data), *cut_off_parts(data)]
+
+
+def cut_off_page(data: xr.Dataset, findings: Sequence[Notice]) -> Page:
+    """Return the page of contact and friction against the cut-off."""
+    case = case_name(data.attrs) or "case.toml"
+    errors = [Notice("error", explained(failure)) for failure in failures(data)]
+    sections = [
+        Section("cut-off", "Against the cut-off", cut_off_elements(data)),
+        rerun_section(data.attrs),
+    ]
+    return Page(
+        f"Contact and friction of {case} against the cut-off",
+        next(answer_lines(data)),
+        [*errors, *findings],
+        list(cards(data)),
+        [section for section in sections if section.elements],
+    )

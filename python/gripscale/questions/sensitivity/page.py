@@ -23,7 +23,7 @@ from gripscale.questions.uncertainty.first_order import QUANTITIES
 from gripscale.questions.uncertainty.page import not_stated
 from gripscale.questions.vary.axis import points
 from gripscale.report.elements import Card
-from gripscale.report.notices import Failure
+from gripscale.report.failures import Failure
 
 SCALARS = {
     "ln_pressure": ("pressure", "1"),

@@ -36,7 +36,7 @@ from gripscale.questions.uncertainty.sources import LABELS, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
 from gripscale.report.elements import Card, Doubt, Element, Notice, Section, Text
-from gripscale.report.notices import Failure, explained
+from gripscale.report.failures import Failure, explained
 
 HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
 """Symbols of the quantities, in their order."""

@@ -16,7 +16,8 @@ from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, st
 from gripscale.questions.chain.view import CONVERGED, SYMBOLS, believed
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
-from gripscale.report.notices import Failure, study_sentence
+from gripscale.report.failures import Failure
+from gripscale.report.notices import study_sentence
 
 MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""

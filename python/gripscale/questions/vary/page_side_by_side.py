@@ -19,7 +19,7 @@ from gripscale.questions.chain.view import CONVERGED, SYMBOLS
 from gripscale.questions.inputs.page import texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.rubber_comparison import TEMPERATURE
-from gripscale.report.notices import Failure
+from gripscale.report.failures import Failure
 
 RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
 CHAIN_RANKS_NOTHING = (

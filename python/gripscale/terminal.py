@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from gripscale.case_file import CaseFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
+    from gripscale.questions.result import Result
     from gripscale.report.elements import Notice
-    from gripscale.report.notices import Failure
+    from gripscale.report.failures import Failure
 
 
 BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
@@ -71,7 +72,7 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
             "and the same command continues from them"
         )
         return stopped, STOPPED
-    from gripscale.report.notices import explained
+    from gripscale.report.failures import explained
 
     exit_code = NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
     return explained(error), exit_code
@@ -159,9 +160,53 @@ def conclude(
         raise typer.Exit(NOT_CONVERGED)
 
 
+def finish(
+    console: Console,
+    target: Path,
+    result: Result,
+    file: CaseFile,
+    text: str,
+    contents: str,
+    *,
+    opening: Sequence[str | Table] = (),
+    drawings: str = "figures",
+    page: bool = False,
+) -> None:
+    """End a command with the result of its question: save, print and draw it.
+
+    `text` is the file of what is printed, `contents` what the folder holds beside the result, and
+    `drawings` the folder of its figures in it; with `page` the page of the result is written, too.
+    """
+    from gripscale.case_file import folder
+    from gripscale.charts.figure_folder import FigureFolder
+
+    result.save(target / result.file)
+    figures = FigureFolder(target / drawings, file.case.output.figures)
+    folder.make(figures.path)
+
+    def draw() -> None:
+        for name, figure in result.figures():
+            figures.save(figure, name)
+
+    conclude(
+        console,
+        target,
+        list(result.parts()),
+        results=[result.data],
+        lead=result.lines,
+        warnings=result.findings,
+        text=text,
+        closing=f"Result ({result.file}), {contents} are in",
+        opening=opening,
+        draw=draw,
+        page=result.file if page else "",
+        failure=result.failure,
+    )
+
+
 def first_of(failed: Sequence[Failure], total: int, what: str) -> str:
     """Return how many of the `total` failed, with what to do about the first; empty if none."""
-    from gripscale.report.notices import explained
+    from gripscale.report.failures import explained
 
     if not failed:
         return ""

@@ -1,34 +1,22 @@
-"""Contact and friction of a case against the cut-off, down below the measurement.
-
-from gripscale.questions import case_cut_off
-data = case_cut_off("case.toml", folder="results", down_to=10e-6)
-data.curve_friction_from_dissipation
-"""
+"""Contact and friction against the cut-off, down below the measurement, and the usual rules."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import attributes, surface_numbers
-from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
 from gripscale.half_space.below_measurement import FACTS, cut_off_at
-from gripscale.io import netcdf
 from gripscale.model import STATUS, Load
-from gripscale.questions.inputs import record
 from gripscale.surface import RmsSlope, Surface, find_cut_off
-
-FILE = "cut_off.nc"
-"""The Dataset, in the folder of the command."""
 
 CONTINUED_TO = "continued_to"
 """Name of the wavelength [m] that the roughness of a best estimate is continued to."""
@@ -41,59 +29,6 @@ RMS_SLOPES = {"surface": 1.3, "profile": 1.0}
 """Usual slopes at which the roughness is cut off: see docs/cut-off.md."""
 
 
-def case_cut_off(
-    case: Case,
-    *,
-    folder: str | Path,
-    down_to: float | None = None,
-    hurst: float | None = None,
-    workers: int | None = None,
-    on_task: OnTask | None = None,
-) -> xr.Dataset:
-    """Return contact and friction of a case against the cut-off, and write them to a folder.
-
-    Parameters
-    ----------
-    case : Case
-        The case; its surface must be measured profiles.
-    folder : path
-        Gets `cut_off.nc`, and the solution as soon as it is there.
-    down_to : float, optional
-        Last cut-off [m]; that of [below_measurement] of the case by default, else 10 um.
-    hurst : float, optional
-        Hurst exponent of the continued roughness, in place of what the case states.
-    workers, on_task
-        As for `Study.run`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off` with the prefix
-        `curve_`. Over `rule`: the cut-off that each rule gives,
-        with friction and contact there. The totals are those of the last cut-off.
-
-    Raises
-    ------
-    InputError, FileError
-        For what cannot be used; for a map, or if nothing was measured.
-    """
-    with bench_in(folder, workers, None, on_task) as bench:
-        data = cut_off_curve(case, case.load, bench, down_to=down_to, hurst=hurst)
-    return save_curve(data, case, folder)
-
-
-def save_curve(data: xr.Dataset, case: Case, folder: str | Path) -> xr.Dataset:
-    """Return the curve of a case as kept in a folder; `FileError` if it cannot be written."""
-    attrs = {
-        "title": "Contact and friction against the cut-off",
-        "case_file": case.origin.name,
-        **provenance.attributes(),
-    }
-    data = data.assign_attrs(case.attributes, **attrs)
-    groups = {"inputs": record.inputs(case)}
-    return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
-
-
 def cut_off_curve(
     case: Case,
     load: Load,
@@ -102,7 +37,7 @@ def cut_off_curve(
     down_to: float | None = None,
     hurst: float | None = None,
 ) -> xr.Dataset:
-    """Return the curves of a prepared case under a load, as `case_cut_off`."""
+    """Return the curves of a prepared case under a load, as `cut_off`."""
     model = case.continuation(down_to=down_to, hurst=hurst)
     task = Task(case.rubber, case.surface, load, model)
     label = f"continued down to {in_mm(model.down_to, 3)}"

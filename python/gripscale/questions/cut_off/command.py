@@ -1,0 +1,47 @@
+"""`gripscale cut-off CASE.toml`: contact and friction against the cut-off."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from gripscale import terminal
+from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
+
+
+@command
+def cut_off(
+    case: CasePath,
+    down_to: Annotated[
+        str | None,
+        option(
+            "Shortest wavelength, such as '10 um'; that of [below_measurement] by default.",
+            metavar="LENGTH",
+        ),
+    ] = None,
+    hurst: Annotated[
+        float | None,
+        option(
+            "Hurst exponent of the roughness below the measurement, in place of that of the "
+            "faces that touch.",
+            metavar="NUMBER",
+        ),
+    ] = None,
+    output: OwnFolder = None,
+    workers: Workers = None,
+) -> None:
+    """Contact and friction against the cut-off, down below what the profiles resolve."""
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.questions.cut_off.question import cut_off
+
+    file = read_case_file(case)
+    opening = f"Contact and friction of {file.path} against the cut-off"
+    console, target = terminal.open_folder(file, output, "cut_off", opening)
+    result = cut_off(
+        read_case(file),
+        folder=target,
+        down_to=down_to,
+        hurst=hurst,
+        workers=workers,
+        on_task=terminal.progress_printer(console),
+    )
+    terminal.finish(console, target, result, file, "cut_off.txt", "tables and figure")

@@ -1,0 +1,82 @@
+"""The questions: one room each, found by the kind of a result, by a command and by the app.
+
+A room is a package that says in its `__init__` what it holds, as texts, so that nothing heavy is
+imported to list them:
+
+    KINDS       the class of a saved result by its kind,  {"cut_off": "question:CutOff"}
+    COMMANDS    the function of a command by its name,    {"cut-off": "command:cut_off"}
+    FORMS       what the page in the browser offers
+
+To add a question is to add a room and its line here; to drop one is to delete both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gripscale.questions.result import Result
+
+ROOMS = [
+    "gripscale.questions.answer",
+    "gripscale.questions.cut_off",
+]
+"""Rooms in the order of the command line."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """An option of a command as a field of a form."""
+
+    flag: str
+    label: str
+    value: str
+    """Content of the field at first."""
+    prefix: str = ""
+    """Text before the value on the command line, as in `--vary speed=...`."""
+    choices: Sequence[tuple[str, str]] = ()
+    """Labels and values of a choice; any text where there are none."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A command on a case as a form: title, meaning and fields."""
+
+    command: str
+    title: str
+    about: str
+    fields: Sequence[Field] = ()
+    others: str = ""
+    """What files it needs beside the case, if any."""
+
+
+def commands() -> Iterator[tuple[str, Callable[..., None]]]:
+    """Yield names and functions of the commands of all questions."""
+    for room in ROOMS:
+        for name, path in getattr(import_module(room), "COMMANDS", {}).items():
+            yield name, _attribute(room, path)
+
+
+def forms() -> list[Form]:
+    """Return the forms of all questions."""
+    return [form for room in ROOMS for form in getattr(import_module(room), "FORMS", ())]
+
+
+def kinds() -> dict[str, str]:
+    """Return the kinds of results, with the room of each."""
+    return {kind: room for room in ROOMS for kind in getattr(import_module(room), "KINDS", {})}
+
+
+def result_class(kind: str) -> type[Result] | None:
+    """Return the class of the results of a kind; None for an unknown kind."""
+    room = kinds().get(kind)
+    return None if room is None else _attribute(room, import_module(room).KINDS[kind])
+
+
+def _attribute(room: str, path: str) -> Any:
+    """Return what `module:name` in a room stands for."""
+    module, _, name = path.partition(":")
+    return getattr(import_module(f"{room}.{module}"), name)
