@@ -17,7 +17,7 @@ from gripscale.half_space import (
 from gripscale.half_space.below_measurement import BAND, cut_off_at
 from gripscale.model import Load
 from gripscale.surface import HeightMap, Measured, Surface, self_affine_profile
-from gripscale.surface.octaves import Intermittency, PeriodicLine
+from gripscale.surface.periodic import Intermittency, PeriodicLine
 from tests.samples import THREE_SINES
 from tests.verification.families import tread
 from tests.verification.withheld_octaves import coarser, intermittent

@@ -50,7 +50,7 @@ from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.theory.models import KlueppelHeinrich
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
 RawHeights = surfaces.HeightMap | list[surfaces.Profile]

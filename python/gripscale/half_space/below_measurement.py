@@ -1,7 +1,7 @@
 """Contact and friction against the cut-off, from the longest waves to far below the measurement.
 
 A line is continued octave by octave: its measured waves stay, and random waves are added below them
-(`gripscale.surface.octaves`). What counts is how rough the faces are that touch, so the slope of
+(`gripscale.surface.periodic`). What counts is how rough the faces are that touch, so the slope of
 each octave is measured on the points in contact of the solution without it, as the 68 % quantile of
 its magnitude: steep edges, of which there are few, do not decide it. Each new octave gets a slope
 that is r times that of the octave above. r comes from
@@ -41,7 +41,7 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
-from gripscale.surface.octaves import Intermittency, PeriodicLine
+from gripscale.surface.periodic import Intermittency, PeriodicLine
 
 if TYPE_CHECKING:
     import xarray as xr

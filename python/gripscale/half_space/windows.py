@@ -23,7 +23,7 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
-from gripscale.surface.period import one_period as one_period
+from gripscale.surface.periodic import one_period as one_period
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import filled
 

@@ -11,14 +11,17 @@ from gripscale.surface.cut_off import (
     find_cut_off,
     slope_by_wavelength,
 )
-from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_difference import (
+    HeightDifference,
+    SelfAffineFit,
+    fit_self_affine,
+    height_difference,
+)
 from gripscale.surface.plausibility import profile_warnings
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.read import read_map, read_profile, read_profiles
 from gripscale.surface.resampling import resample
-from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
-from gripscale.surface.sine_ambiguity import SineAmbiguity, sine_ambiguity
-from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sine_fit import SineAmbiguity, fit_sines, sine_ambiguity
 from gripscale.surface.sines import SineStack
 from gripscale.surface.spectrum import (
     ArealSpectrum,

@@ -18,11 +18,10 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
-from gripscale.surface.sine_fit import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE
-from gripscale.surface.sines import SineStack
+from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
 from gripscale.surface.supports import road_between, support_plates
 
-STEEPEST = 3.0
+SPIKE_SLOPE = 3.0
 """Height change per step of a spike (ISO 13473-1:2019, section 7.5)."""
 
 MOST_SPIKES = 0.5
@@ -87,12 +86,24 @@ def profile_warnings(
     doubts = _doubts(profile, cleaned)
     if doubts.heights is None:
         return doubts.texts
-    level = _levelled(doubts.heights)
-    return (
-        *doubts.texts,
-        *(() if doubts.plates else (*_jump_warnings(level), *_flat_warnings(level))),
-        *(_slope_warnings(doubts.heights, profile.step) if steep else ()),
-    )
+    warnings = list(doubts.texts)
+    if not doubts.plates:
+        level = _levelled(doubts.heights)
+        warnings += [*_jump_warnings(level), *_flat_warnings(level)]
+    if steep:
+        slopes = _between_neighbours(doubts.heights) / profile.step
+        rms, count = _rms(slopes), int((slopes >= SPIKE_SLOPE * (1 + 1e-6)).sum())
+        if rms > SPIKE_SLOPE:
+            warnings.append(
+                f"the rms slope is {rms:.3g}, above {SPIKE_SLOPE:g}: spikes, or another unit?"
+            )
+        elif count:
+            warnings.append(
+                f"{count} of {slopes.size} remaining slopes are {SPIKE_SLOPE:g} or steeper, up to "
+                f"{slopes.max():.3g}: remove_spikes with spike_slope = {SPIKE_SLOPE:g} takes them "
+                "out"
+            )
+    return tuple(warnings)
 
 
 def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
@@ -130,7 +141,7 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
     spikes = float((np.isfinite(measured) & ~kept).sum() / valid.size)
     if spikes > MOST_SPIKES:  # the remaining heights mean nothing
         text = (
-            f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {STEEPEST:g}: "
+            f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {SPIKE_SLOPE:g}: "
             "is the unit of heights or of distances right?"
         )
         return _Doubts((text, *_unit_warnings(_levelled(measured), profile)), units=True)
@@ -138,9 +149,18 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
     sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
     if sentinels:  # a sentinel is far off, steep, flat and high, too
         return _Doubts(sentinels)
-    plates = tuple(_plate_warnings(part))
     units = tuple(_unit_warnings(_levelled(part.z), profile))
-    return _Doubts((*plates, *units), part.z, bool(plates), bool(units))
+    supports = support_plates(part)
+    if not supports:
+        return _Doubts(units, part.z, units=bool(units))
+    road = road_between(part)
+    ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
+    plates = (
+        "plates, supports or filled gaps lie in the profile, at "
+        f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
+        f"crop{ends} leaves them out"
+    )
+    return _Doubts((plates, *units), part.z, plates=True, units=bool(units))
 
 
 def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
@@ -157,19 +177,6 @@ def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
             f"{cleaned.x[0]:g} m on of a profile from {profile.x[0]:g} m to {profile.x[-1]:g} m"
         )
     return replace(cleaned, z=measured)
-
-
-def _plate_warnings(profile: Profile) -> Iterator[str]:
-    """Warn of plates and supports, and say which crop leaves them out."""
-    supports = support_plates(profile)
-    if supports:
-        road = road_between(profile)
-        ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
-        yield (
-            "plates, supports or filled gaps lie in the profile, at "
-            f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
-            f"crop{ends} leaves them out"
-        )
 
 
 def _levelled(z: Array) -> Array:
@@ -221,19 +228,6 @@ def _flat_warnings(z: Array) -> Iterator[str]:
         yield (
             f"{flat.sum()} of {flat.size} parts of the profile are flat or straight, with less "
             f"than {FLAT:g} of the usual roughness: are plates or filled gaps in it?"
-        )
-
-
-def _slope_warnings(z: Array, step: float) -> Iterator[str]:
-    """Warn of slopes that no surface has."""
-    slopes = _between_neighbours(z) / step
-    rms, steep = _rms(slopes), int((slopes >= STEEPEST * (1 + 1e-6)).sum())
-    if rms > STEEPEST:
-        yield f"the rms slope is {rms:.3g}, above {STEEPEST:g}: spikes, or another unit?"
-    elif steep:
-        yield (
-            f"{steep} of {slopes.size} remaining slopes are {STEEPEST:g} or steeper, up to "
-            f"{slopes.max():.3g}: remove_spikes with spike_slope = {STEEPEST:g} takes them out"
         )
 
 

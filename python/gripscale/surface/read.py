@@ -23,8 +23,13 @@ from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
-from gripscale.surface.sdf import is_sdf_text, read_sdf_text
-from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
+from gripscale.surface.text_files import (
+    is_sdf_text,
+    length_unit,
+    read_sdf_text,
+    read_text_map,
+    read_text_profile,
+)
 
 MOST_POINTS_PER_BYTE = 1032
 """Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""

@@ -133,15 +133,15 @@ def printed_grid(
     Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
-    if grid is None:
-        refusal = _uneven(table, column, distances, lines)
-    elif grid.left_out > MOST_LEFT_OUT * grid.size:
+    if grid is not None and grid.left_out <= MOST_LEFT_OUT * grid.size:
+        return grid
+    if grid is not None:
         refusal = FileError(
             f"{table.path}: expected a distance in column {column + 1} at half the points of an "
             f"even grid or more; got {grid.number.size} of {grid.size} in steps of {grid.step:.6g}"
         )
     else:
-        return grid
+        refusal = _uneven(table, column, distances, lines)
     refusal.see = "" if lines is None else "docs/inputs.md#a-measured-profile"
     raise refusal
 

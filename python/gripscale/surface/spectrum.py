@@ -227,23 +227,21 @@ def profile_spectrum(
                 f"got {window:g}"
             )
     heights = [filled(p.z, periodic=taper == "none") for p in profiles]
-    powers = [_windowed_power(z, points, taper) for z in heights]
+    weights = np.hanning(points + 1)[:-1] if taper == "hann" else np.ones(points)
+    powers = []
+    for z in heights:
+        windows = sliding_window_view(z, points)[:: points - points // 2]
+        if taper == "hann":
+            windows = without_line(windows)
+        else:
+            windows = windows - windows.mean(axis=1, keepdims=True)
+        power = np.mean(np.abs(np.fft.rfft(weights * windows)) ** 2, axis=0) / (weights @ weights)
+        power[1 : (points + 1) // 2] *= 2.0  # the highest wave of an even number has no mirror
+        powers.append(power)
     density = step / (2.0 * np.pi) * np.average(powers, axis=0, weights=[len(p) for p in profiles])
     q = 2.0 * np.pi / (points * step) * np.arange(1.0, points // 2 + 1)
     missing = sum(p.missing for p in profiles) / sum(len(p) for p in profiles)
     return ProfileSpectrum(q, density[1:], np.full(q.size, q[0]), missing)
-
-
-def _windowed_power(z: Array, points: int, taper: str) -> Array:
-    """Return the one-sided |F{w z}|^2 / sum(w^2), mean over windows that overlap by a half."""
-    windows = sliding_window_view(z, points)[:: points - points // 2]
-    if taper == "hann":
-        windows, weights = without_line(windows), np.hanning(points + 1)[:-1]
-    else:
-        windows, weights = windows - windows.mean(axis=1, keepdims=True), np.ones(points)
-    power = np.mean(np.abs(np.fft.rfft(weights * windows)) ** 2, axis=0) / (weights @ weights)
-    power[1 : (points + 1) // 2] *= 2.0  # the highest wave of an even number has no mirror image
-    return np.asarray(power)
 
 
 def map_spectrum(

@@ -18,7 +18,7 @@ from gripscale.surface.cut_off import (
     find_cut_off,
     slope_by_wavelength,
 )
-from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.plausibility import (
     doubt_warnings,
     extrapolation_notes,
@@ -26,7 +26,6 @@ from gripscale.surface.plausibility import (
     stack_notes,
 )
 from gripscale.surface.profile import HeightMap, Profile
-from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.texture import Heights, textures

@@ -103,7 +103,9 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     if isinstance(surface, HeightMap):
         lines = surface.lines()
         level, _ = subtract_form(surface, order=1)
-        squares = _squared_gradients(level)
+        x, y = ((np.diff(level.z, axis=axis) / level.step[axis]) ** 2 for axis in (0, 1))
+        # the corners of all cells, NaN where a height is missing
+        squares = np.array([a + b for a in (x[:, :-1], x[:, 1:]) for b in (y[:-1], y[1:])])
         values |= _height_numbers(level.z) | {
             "rms_gradient": _mean(squares) ** 0.5,
             "developed_area_ratio": _mean(np.sqrt(1.0 + squares) - 1.0),
@@ -116,7 +118,15 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
         values["rms_slope"] = _mean(slopes**2) ** 0.5
     depths = np.concatenate([segment_depths(line) for line in lines])
     values |= {"mean_profile_depth": _mean(depths), "depth_segments": depths.size}
-    return _dataset(values, "" if depths.size else _no_depth(lines))
+    note = ""
+    if not depths.size:
+        if max(line.length for line in lines) < SEGMENT:
+            note = f"shorter than {in_mm(SEGMENT)}"
+        elif max(line.step for line in lines) > COARSEST:
+            note = f"step above {in_mm(COARSEST)}"
+        else:
+            note = f"more than {MOST_MISSING:.0%} of heights missing"
+    return _dataset(values, note)
 
 
 Heights = Profile | Sequence[Profile] | HeightMap
@@ -189,15 +199,6 @@ def _without_short_waves(heights: Array, frequency: float) -> Array:
     return values[PADDING:-PADDING]
 
 
-def _no_depth(lines: Sequence[Profile]) -> str:
-    """Return why lines have no mean profile depth."""
-    if max(line.length for line in lines) < SEGMENT:
-        return f"shorter than {in_mm(SEGMENT)}"
-    if max(line.step for line in lines) > COARSEST:
-        return f"step above {in_mm(COARSEST)}"
-    return f"more than {MOST_MISSING:.0%} of heights missing"
-
-
 def _height_numbers(z: Array) -> dict[str, float]:
     """Return the numbers of heights [m], NaN where missing."""
     heights = z[np.isfinite(z)]
@@ -213,12 +214,6 @@ def _height_numbers(z: Array) -> dict[str, float]:
         "pit_depth": -bottom,
         "total_height": top - bottom,
     }
-
-
-def _squared_gradients(surface: HeightMap) -> Array:
-    """Return the squared gradients at the corners of all cells, NaN where a height is missing."""
-    x, y = ((np.diff(surface.z, axis=axis) / surface.step[axis]) ** 2 for axis in (0, 1))
-    return np.array([a + b for a in (x[:, :-1], x[:, 1:]) for b in (y[:-1], y[1:])])
 
 
 def _mean(values: Array) -> float:

@@ -25,21 +25,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import ClassVar
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.model import Load
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
-from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_difference import (
+    HeightDifference,
+    SelfAffineFit,
+    fit_self_affine,
+    height_difference,
+)
 from gripscale.surface.profile import Profile
-from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
-from gripscale.theory.persson import TheoryResult, Variable, divided, refined, running_integral
+from gripscale.surface.surface import Surface, SurfacePart
+from gripscale.theory.persson import (
+    TheoryResult,
+    Variable,
+    answered,
+    divided,
+    measured_lines,
+    refined,
+    running_integral,
+)
 from gripscale.wave.problem import Status
+
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
 TOP_HEIGHT_FRACTION = 0.5
@@ -133,7 +151,19 @@ def klueppel_heinrich(
         Length of the nominal contact [m]: recorded, without effect; the cut-off length of the
         surface by default.
     """
-    fit = surface if isinstance(surface, SelfAffineFit) else _fit(surface)
+    if not isinstance(surface, SelfAffineFit | HeightDifference):
+        profiles = [surface] if isinstance(surface, Profile) else surface
+        if (
+            not isinstance(profiles, Sequence)
+            or not profiles
+            or not all(isinstance(profile, Profile) for profile in profiles)
+        ):
+            raise InputError(
+                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
+                f"got {checks.short_repr(surface)}"
+            )
+        surface = height_difference(profiles, top_height_fraction=TOP_HEIGHT_FRACTION)
+    fit = surface if isinstance(surface, SelfAffineFit) else fit_self_affine(surface)
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)
     depth = checks.positive("penetration_depth", penetration_depth, unit="m")
@@ -165,18 +195,34 @@ def strain_spectrum(q: Array, fit: SelfAffineFit) -> Array:
     return np.asarray(level * (q / first) ** (-(2.0 * fit.hurst + 1.0)))
 
 
-def _fit(surface: HeightDifference | Profile | Sequence[Profile]) -> SelfAffineFit:
-    """Return the self-affine fit of a correlation, or of the upper part of profiles."""
-    if not isinstance(surface, HeightDifference):
-        profiles = [surface] if isinstance(surface, Profile) else surface
-        if (
-            not isinstance(profiles, Sequence)
-            or not profiles
-            or not all(isinstance(profile, Profile) for profile in profiles)
-        ):
-            raise InputError(
-                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
-                f"got {checks.short_repr(surface)}"
-            )
-        surface = height_difference(profiles, top_height_fraction=TOP_HEIGHT_FRACTION)
-    return fit_self_affine(surface)
+class KlueppelHeinrich(Checked, Model):
+    """The theory of Klueppel and Heinrich for the upper part of the profiles."""
+
+    name: ClassVar[str] = "klueppel_heinrich"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
+
+    layer_ratio: float = checked(checks.positive)
+    """See `klueppel_heinrich` [-]."""
+    penetration_depth: float = checked(checks.positive, unit="m")
+    """See `klueppel_heinrich` [m]; the same at every load."""
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer as a Dataset; `on_progress` gets the `KlueppelHeinrichResult`.
+
+        Raises `InputError` if the surface was not measured or its upper part is not self-affine.
+        """
+        result = klueppel_heinrich(
+            rubber,
+            measured_lines(surface, self.name),
+            pressure=load.pressure,
+            speed=load.speed,
+            layer_ratio=self.layer_ratio,
+            penetration_depth=self.penetration_depth,
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
+        )
+        return answered(replace(result, load=load), on_progress)

@@ -21,7 +21,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -29,16 +29,20 @@ import numpy as np
 from gripscale import model
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.model import NOT_CONVERGED, Load, of_curve
+from gripscale.model import NOT_CONVERGED, Load, Model, OnProgress, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
+from gripscale.surface.profile import Profile
 from gripscale.surface.spectrum import (
     ArealSpectrum,
     ProfileSpectrum,
     areal_spectrum,
     last_wavenumber,
+    profile_spectrum,
 )
+from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
@@ -323,3 +327,51 @@ def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[A
         stiff += width * np.abs(modulus / load.pressure) ** 2
         lossy += width * cosine * modulus.imag / load.pressure
     return stiff, lossy
+
+
+class Persson(Checked, Model):
+    """Persson's theory; the profiles are lines on an isotropic surface."""
+
+    name: ClassVar[str] = "persson"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
+
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
+    gamma: float = checked(checks.not_negative, default=0.5)
+    """See `persson`."""
+    window: float | None = checked(checks.positive, unit="m", default=None)
+    """See `profile_spectrum` [m]."""
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer as a Dataset; `on_progress` gets the `PerssonResult`.
+
+        Raises `InputError` if the surface was not measured, or not down to the smallest wave.
+        """
+        result = persson(
+            rubber,
+            profile_spectrum(measured_lines(surface, self.name), window=self.window),
+            pressure=load.pressure,
+            speed=load.speed,
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
+            gamma=self.gamma,
+        )
+        return answered(replace(result, load=load), on_progress)
+
+
+def answered(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
+    """Return a result as a Dataset, after `on_progress` got it."""
+    if on_progress is not None:
+        on_progress(result)
+    return result.to_dataset()
+
+
+def measured_lines(surface: Surface, name: str) -> list[Profile]:
+    """Return the cleaned profiles for a theory; `InputError` without any."""
+    if surface.measured is None:
+        raise InputError(
+            f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
+        )
+    return surface.measured.cleaned

@@ -35,7 +35,8 @@ from gripscale.surface import (
 )
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
 from gripscale.theory.half_plane import HalfPlane
-from gripscale.theory.models import KlueppelHeinrich, Persson
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
+from gripscale.theory.persson import Persson
 from gripscale.wave.kernel import WaveSolver
 
 
