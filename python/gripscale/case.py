@@ -42,6 +42,9 @@ from gripscale.surface.cut_off import CutOffRule, find_cut_off
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+WAVES = 8
+"""Sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre."""
+
 RubberLike = Rubber | MasterCurve | MeasuredRubber
 
 
@@ -112,8 +115,8 @@ class Case:
         Length of the nominal contact [m].
     smallest_wavelength : float or str, optional
         Shortest wave of the roughness that counts [m]; by default the shortest one measured.
-    waves : int, optional
-        Number of sine waves that are fitted; chosen from the factors of the fit by default.
+    waves : int
+        Number of sine waves that are fitted to measured heights.
     conditions : Conditions, optional
         Temperature, softening, heat and area term.
     load_time : float or "passage"
@@ -151,7 +154,7 @@ class Case:
         speed: float | str,
         footprint: float | str = 0.1,
         smallest_wavelength: float | str | None = None,
-        waves: int | None = None,
+        waves: int = WAVES,
         conditions: Conditions | None = None,
         load_time: LoadTime = "passage",
         static: bool = False,
@@ -346,7 +349,7 @@ def described_surface(
     return Surface(sines, source, correlation, options, measured, counted, cut_off)
 
 
-def _surface(surface: SurfaceLike, end: float | None, waves: int | None) -> Surface:
+def _surface(surface: SurfaceLike, end: float | None, waves: int) -> Surface:
     if isinstance(surface, Surface):
         return surface
     if isinstance(surface, SineStack):

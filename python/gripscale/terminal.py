@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.case_file import CaseFile
+    from gripscale.core.finding import Finding
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
-    from gripscale.report.elements import Notice
     from gripscale.report.failures import Failure
 
 
@@ -115,7 +115,7 @@ def conclude(
     closing: str,
     opening: Sequence[str | Table] = (),
     lead: Sequence[str] = (),
-    warnings: Sequence[Notice] = (),
+    warnings: Sequence[Finding] = (),
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,
@@ -131,7 +131,7 @@ def conclude(
     `closing` says what is in the folder. `page` is the result whose page is written, where the
     libraries for it are installed; `failure` is what has no result, and sets the exit code.
     """
-    from gripscale.case_file import folder
+    from gripscale.io.folders import write_text
     from gripscale.io.table import as_text
     from gripscale.questions.result import warning_lines
     from gripscale.report.summary import write_summary
@@ -142,7 +142,7 @@ def conclude(
     above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
     texts = {text: as_text(*above, *parts, width=width), **(files or {})}
     for name, content in texts.items():
-        folder.write_text(target / name, content)
+        write_text(target / name, content)
     write_summary(results, target)
     if draw is not None:
         draw()
@@ -177,12 +177,12 @@ def finish(
     `text` is the file of what is printed, `contents` what the folder holds beside the result, and
     `drawings` the folder of its figures in it; with `page` the page of the result is written, too.
     """
-    from gripscale.case_file import folder
     from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.io.folders import make_folder
 
     result.save(target / result.file)
     figures = FigureFolder(target / drawings, file.case.output.figures)
-    folder.make(figures.path)
+    make_folder(figures.path)
 
     def draw() -> None:
         for name, figure in result.figures():
@@ -360,13 +360,13 @@ def open_folder(
     file: CaseFile, output: Path | None, name: str, *opening: str
 ) -> tuple[Console, Path]:
     """Print what a command begins with and make its folder `name`, by default in the case's."""
-    from gripscale.case_file import folder
+    from gripscale.io.folders import make_folder, require_writable
 
     target = output or file.resolve(file.case.output.folder) / name
-    folder.require_writable(target)
+    require_writable(target)
     RESULTS.set(target)
     console = screen()
     for line in opening:
         print_wrapped(console, line)
-    folder.make(target)
+    make_folder(target)
     return console, target

@@ -14,10 +14,11 @@ from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
 from gripscale.case_file import read_case_file, run_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
+from gripscale.core.finding import Finding, Severity
 from gripscale.questions.compare.comparison import save_reference
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.report import source
-from gripscale.report.elements import Element, Notice, Text
+from gripscale.report.elements import Element, Text
 from gripscale.report.pages import page_of
 
 from .conftest import CASE
@@ -70,8 +71,8 @@ def test_measured_friction_is_drawn_with_what_is_predicted(ran: Path) -> None:
 
 
 def test_three_warnings_are_open_and_the_others_folded() -> None:
-    error = Notice("error", "no result")
-    warnings = [Notice("warning", str(number)) for number in range(5)]
+    error = Finding(Severity.ERROR, "no result")
+    warnings = [Finding(Severity.WARNING, str(number)) for number in range(5)]
     *opened, folded = notice_elements([*warnings, error])
     assert opened == [error, *warnings[:2]]
     assert folded == Folded(warnings[2:])

@@ -15,10 +15,10 @@ from typer.testing import CliRunner, Result
 from gripscale.case_file.folder import AT_TIMES, NOTE, RESULTS
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.cli import app
-from gripscale.terminal import time_left
 from gripscale.io import netcdf
 from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.reliance import no_answer
+from gripscale.terminal import time_left
 from gripscale.theory import HalfPlane
 from gripscale.wave import Status, WaveProblem, WaveResult
 from tests.samples import Shell

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.questions.answer.best_estimate import IsotropicSurface
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import warning_lines
-from gripscale.report.elements import Doubt, Notice, Page, ranked
+from gripscale.report.elements import Page
 
 
 def answered(**changed: float) -> xr.Dataset:
@@ -105,7 +106,7 @@ def test_a_guess_is_called_one_before_its_numbers(changed: dict[str, float], why
     assert first.index(" It would be μ = 0.200") > len(why)
     assert all(card.bad for card in answer_cards(data))
     (notice,) = no_answer_notices(data)
-    assert (notice.level, why in notice.text) == ("error", True)
+    assert (notice.severity, why in notice.sentence) == ("error", True)
     assert not any(why in other.text for other in answer_notices(data)), "it is said once"
 
 
@@ -136,23 +137,23 @@ def test_two_frictions_that_disagree_are_warned_of() -> None:
 def test_those_without_a_number_stand_below_in_an_order() -> None:
     """An error, what may be another answer, numbers, then what was solved, rubber, surface."""
     several = [
-        Notice("warning", "from where", doubt=Doubt.SOURCE),
-        Notice("warning", "surface", doubt=Doubt.SURFACE),
-        Notice("warning", "2 %", area=-0.02),
-        Notice("warning", "solution", doubt=Doubt.SOLUTION),
-        Notice("warning", "a third", friction=0.3, area=math.nan),
-        Notice("warning", "another unit", math.inf),
-        Notice("error", "no numbers"),
-        Notice("warning", "rubber", doubt=Doubt.RUBBER),
+        Finding(Severity.WARNING, "from where", topic=Topic.SOURCE),
+        Finding(Severity.WARNING, "surface", topic=Topic.SURFACE),
+        Finding(Severity.WARNING, "2 %", area=-0.02),
+        Finding(Severity.WARNING, "solution", topic=Topic.SOLUTION),
+        Finding(Severity.WARNING, "a third", friction=0.3, area=math.nan),
+        Finding(Severity.WARNING, "another unit", math.inf),
+        Finding(Severity.ERROR, "no numbers"),
+        Finding(Severity.WARNING, "rubber", topic=Topic.RUBBER),
     ]
     order = ["no numbers", "another unit", "a third", "2 %"]
     order += ["solution", "rubber", "surface", "from where"]
     notices = ranked(several)
-    assert [notice.text for notice in notices] == order
+    assert [notice.sentence for notice in notices] == order
     page = Page("", "", notices, [])
-    assert [notice.text for notice in page.errors] == order[:1]
-    assert [notice.text for notice in page.notices_open] == order[1:3]
-    assert [notice.text for notice in page.notices_folded] == order[3:]
+    assert [notice.sentence for notice in page.errors] == order[:1]
+    assert [notice.sentence for notice in page.notices_open] == order[1:3]
+    assert [notice.sentence for notice in page.notices_folded] == order[3:]
     assert list(warning_lines(notices[:4], "report.txt")) == [
         "Warnings, by what they change:",
         *(f"  {text}" for text in order[:3]),
@@ -199,7 +200,7 @@ def test_inputs_know_what_they_change() -> None:
         "Roughness from 0.200 mm, where the measurement ends, to 0.100 mm is extrapolated: without "
         "it the friction changes by -29 %."
     )
-    effects = {round(notice.effect, 3): notice.text for notice in notices}
+    effects = {round(notice.effect, 3): notice.sentence for notice in notices}
     assert "25 % below the measured" in effects[0.25]
     assert "26 % of their height" in effects[round(10**0.1 - 1, 3)]
     assert notices[-1].text == "Surface: road: heights jump."

@@ -186,7 +186,7 @@ def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) ->
     folder = changed_run(lambda data: data.isel(scale=slice(0, 2)), "static")
     run = read_result(folder)
     assert isinstance(run, Run)
-    errors = [notice.text for notice in notices(run) if notice.level == "error"]
+    errors = [notice.sentence for notice in notices(run) if notice.severity == "error"]
     assert len(errors) == 1
     assert errors[0].startswith("Static: the run ended after wave 2 of 3.")
     assert [card.label for card in cards(run) if card.bad] == ["No totals"]
@@ -229,7 +229,7 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
 
     run = read_result(changed_run(edit, "dynamic"))
     assert isinstance(run, Run)
-    text = " ".join(notice.text for notice in notices(run))
+    text = " ".join(notice.sentence for notice in notices(run))
     assert "Wave 2: the two frictions are up to 20 % apart; take a finer mesh." in text
     assert (
         "Dynamic, 0.3 m/s: 1 of 3 waves, 32 % of the friction, lie up to 0.8 decades above the "
@@ -237,7 +237,7 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
     )
     assert [card.label for card in cards(run) if card.bad] == ["Largest mismatch of μ"]
     friction = run.predictions[0].column("friction")
-    (apart,) = (notice for notice in notices(run) if "Wave 2" in notice.text)
+    (apart,) = (notice for notice in notices(run) if "Wave 2" in notice.sentence)
     assert apart.effect == pytest.approx(0.2 * friction[1] / friction.sum())
 
 
@@ -253,7 +253,7 @@ def test_doubts_about_the_rubber_are_warned_of(changed_run: Callable[..., Path])
     assert isinstance(run, Run)
     run.inputs.attrs["bulk_modulus_Pa"] = 1e9
     run.inputs.attrs["prony_findings"] = "no plateau at the slow end\nno plateau at the fast end"
-    texts = [notice.text for notice in notices(run)]
+    texts = [notice.sentence for notice in notices(run)]
     assert "Rubber: no plateau at the fast end." in texts
     text = next(text for text in texts if "Poisson" in text)
     assert "Wave 3: Poisson's ratio is down to 0.227, less than 0.3" in text
@@ -287,7 +287,7 @@ def test_notes_on_the_surface_are_warnings(run_folder: Path, tmp_path: Path) -> 
     netcdf.save(data, tmp_path / "dynamic.nc", groups)
     run = read_result(tmp_path)
     assert isinstance(run, Run)
-    warned = [notice.text for notice in notices(run) if notice.level == "warning"]
+    warned = [notice.sentence for notice in notices(run) if notice.severity == "warning"]
     assert {"Surface: road: heights jump.", "Surface: the largest wave is long."} <= set(warned)
 
 

@@ -26,6 +26,7 @@ from gripscale.case_file.examples import write_example
 from gripscale.case_file.folder import CASE, INPUTS, renamed
 from gripscale.case_file.new import case_text, propose
 from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.io.folders import make_folder, write_bytes, write_text
 from gripscale.io.text_table import require_numbers
 
 MAX_UPLOAD = 50_000_000
@@ -44,7 +45,7 @@ class VisitFolder:
     def new(cls, root: Path) -> VisitFolder:
         """Make the folder of a new visit in `root`, named by the time."""
         path = root / f"{time.strftime('%Y-%m-%d_%H%M%S')}_{secrets.token_hex(4)}"
-        folder.make(path / INPUTS)
+        make_folder(path / INPUTS)
         return cls(path.resolve())
 
     @property
@@ -68,7 +69,7 @@ class VisitFolder:
         while path.exists() and path.read_bytes() != content:
             number += 1
             path = path.with_name(f"{safe.stem}_{number}{safe.suffix}")
-        folder.write_bytes(path, content)
+        write_bytes(path, content)
         return f"{INPUTS}/{path.name}"
 
     def require_inside(self, file: CaseFile) -> None:
@@ -222,7 +223,7 @@ class CaseState(param.Parameterized):
     def set_text(self, text: str) -> None:
         """Take `text` as the case, valid or not."""
         text = text.replace("\r\n", "\n")
-        folder.write_text(self.visit.case, text)
+        write_text(self.visit.case, text)
         self.param.update(text=text, problem=self._problem_of_text())
 
     def _problem_of_text(self) -> Problem | None:
@@ -302,7 +303,7 @@ class CaseState(param.Parameterized):
         except UnicodeDecodeError as error:
             raise InputError(f"{cases[0]} cannot be read: it is not UTF-8 text") from error
         stored = {n: self.visit.store(n, c) for n, c in uploads.items() if n not in cases}
-        folder.write_text(self.visit.case, text)
+        write_text(self.visit.case, text)
         try:
             names = [name for _, name in read_case_file(self.visit.case).case.named_files()]
         except GripscaleError:

@@ -10,7 +10,7 @@ from gripscale.app.case import CaseState
 from gripscale.app.elements import CUT_TEXT, column, html, in_worker, work_button
 from gripscale.app.uploads import file_upload
 from gripscale.case_file.examples import EXAMPLES
-from gripscale.report.elements import Notice
+from gripscale.core.finding import Finding, Severity
 
 
 def case_panel(state: CaseState) -> pn.Column:
@@ -70,9 +70,9 @@ def problem_pane(state: CaseState, *tables: str) -> pn.Column:
     def follow(*_: object) -> None:
         problem = state.problem
         if problem is not None and (not tables or problem.table in tables):
-            pane.objects = [html(Notice("error", problem.sentence))]
+            pane.objects = [html(Finding(Severity.ERROR, problem.sentence))]
         else:
-            pane.objects = [] if tables else [html(Notice("good", "This case can be run."))]
+            pane.objects = [] if tables else [html(Finding(Severity.GOOD, "This case can be run."))]
 
     follow()
     state.param.watch(follow, "problem")

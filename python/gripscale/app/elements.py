@@ -18,7 +18,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
-from gripscale.report.elements import Card, Code, Element, Notice, Text, open_and_folded, with_code
+from gripscale.core.finding import Finding
+from gripscale.report.elements import Card, Code, Element, Text, open_and_folded, with_code
 
 T = TypeVar("T")
 
@@ -36,7 +37,7 @@ class Cards:
 class Folded:
     """Warnings that open at a click."""
 
-    notices: Sequence[Notice]
+    notices: Sequence[Finding]
     kind: ClassVar[str] = "folded"
 
 
@@ -45,7 +46,7 @@ AppElement = Element | Cards | Folded | Callable[[], pn.viewable.Viewable]
 PageElements = Sequence[AppElement]
 
 
-def notice_elements(notices: Sequence[Notice]) -> Iterator[AppElement]:
+def notice_elements(notices: Sequence[Finding]) -> Iterator[AppElement]:
     """Yield errors and the first few warnings, then the others folded."""
     opened, folded = open_and_folded(notices)
     yield from opened

@@ -33,6 +33,7 @@ from gripscale.case_file import (
 )
 from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
+from gripscale.core.finding import Finding, Severity
 from gripscale.model import doubt_sentences
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
@@ -45,7 +46,7 @@ from gripscale.questions.inputs.page import (
     surface_facts,
 )
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import Notice, Text
+from gripscale.report.elements import Text
 
 ROAD_FIELDS = (
     "scales",
@@ -81,7 +82,7 @@ def surface_elements(file: CaseFile) -> list[AppElement]:
     any_rubber = validate(RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     case = _case_with(file, rubber=any_rubber)
     inputs = record.inputs(case)
-    notes = [*notice_elements([Notice("warning", note) for note in case.surface.notes])]
+    notes = [*notice_elements([Finding(Severity.WARNING, note) for note in case.surface.notes])]
     if case.surface.measured is None:
         return [*notes, Text("The case states the sine waves; no surface is measured.")]
     return [
@@ -101,7 +102,7 @@ def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[Ap
     inputs = record.inputs(case)
     findings = InputRecord(inputs).findings
     texts = [*doubt_sentences(case.measured_rubber), *(f"{text}." for text in findings)]
-    elements = [*notice_elements([Notice("warning", text) for text in texts])]
+    elements = [*notice_elements([Finding(Severity.WARNING, text) for text in texts])]
     for part in shift_parts(case.measured_rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
     elements += superposition_elements(state, case.measured_rubber, redraw)

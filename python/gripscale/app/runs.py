@@ -1,8 +1,7 @@
 """Runs of one visit: each is a `gripscale` command in its own process, which writes into a folder.
 
-The process of `gripscale run` writes its events (`gripscale.questions.chain.events`) to one file beside
-the
-results, each process its text to another. Stopping a run ends the process and all it started; what
+The process of `gripscale run` writes its events to one file beside the results, each process its
+text to another. Stopping a run ends the process and all it started; what
 it finished stays, and a run of the same case continues from there.
 """
 
@@ -24,8 +23,9 @@ import param
 
 from gripscale.app.case import CaseState
 from gripscale.app.commands import COMMANDS, RUN, Command
-from gripscale.case_file import CaseFile, folder
+from gripscale.case_file import CaseFile
 from gripscale.core.errors import FileError, InputError
+from gripscale.io.folders import write_text
 from gripscale.questions.chain.events import (
     AnswerSolved,
     EffectsSolved,
@@ -300,7 +300,7 @@ class Runs(param.Parameterized):
         if earlier and earlier[-1].state in ("finished", "stopped"):
             run = earlier[-1]
         else:
-            folder.write_text(run.case, file.text)
+            write_text(run.case, file.text)
             self.all.append(run)
         if run.state != "finished":
             run.stopped = False

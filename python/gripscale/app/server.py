@@ -20,9 +20,10 @@ from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
 from gripscale.app.uploads import prepare_areas
-from gripscale.case_file import folder, read_case_file
+from gripscale.case_file import read_case_file
 from gripscale.case_file.examples import EXAMPLES
 from gripscale.core.errors import InputError
+from gripscale.io.folders import make_folder, require_writable
 
 TITLE = "gripscale"
 INTRO = (
@@ -86,8 +87,8 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     """Serve the page until it is interrupted."""
     if case is not None:
         read_case_file(case)
-    folder.require_writable(root)
-    folder.make(root)
+    require_writable(root)
+    make_folder(root)
     port = _free_port(port)
     pn.extension("filedropper", raw_css=[LIGHT])
 

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.case_file.folder import nearest_existing, write_bytes
 from gripscale.core import checks
 from gripscale.core.errors import FileError
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.io.folders import nearest_existing, write_bytes
 
 
 def road_text() -> str:

@@ -9,7 +9,6 @@ Files too large to be copied are named where they are.
 from __future__ import annotations
 
 import json
-import os
 import re
 import time
 import tomllib
@@ -21,8 +20,8 @@ from typing import get_args
 
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
-from gripscale.core.errors import FileError, GripscaleError
-from gripscale.io.netcdf import write_whole
+from gripscale.core.errors import GripscaleError
+from gripscale.io.folders import make_folder, unwritable, write_bytes, write_text
 from gripscale.io.text_table import read_bytes
 
 CASE, INPUTS = "case.toml", "inputs"
@@ -142,28 +141,6 @@ RESULTS = (
 """Everything a run may write into its folder, beside copies of the files the case names."""
 
 
-def require_writable(folder: Path) -> None:
-    """Raise `FileError` unless `folder` could be made and written; touch nothing."""
-    parent = nearest_existing(folder)
-    if not parent.is_dir():
-        raise FileError(f"output folder {folder} cannot be made: {parent} is not a folder")
-    if not os.access(parent, os.W_OK | os.X_OK):
-        raise FileError(f"output folder {folder} cannot be written: no permission for {parent}")
-
-
-def nearest_existing(path: Path) -> Path:
-    """Return `path`, or the nearest of its parents that exists."""
-    return next((step for step in (path, *path.parents) if step.exists()), path)
-
-
-def make(folder: Path) -> None:
-    """Make `folder`; raise `FileError` if that fails."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise _refusal(folder, error) from error
-
-
 def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
     """Return a sentence on what an earlier run left in `folder` but for `keep`, or nothing."""
     replaced = [name for name in RESULTS if (folder / name).exists() and name not in keep]
@@ -181,12 +158,12 @@ def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
     Raises `FileError` if that fails, or a file that the case names cannot be read.
     """
     saved = saved_case(file, folder)
-    make(folder / "figures")
+    make_folder(folder / "figures")
     try:
         for name in {*RESULTS, *saved_inputs(folder)} - {*keep, *saved.copies, CASE}:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
-        raise _refusal(folder, error) from error
+        raise unwritable(folder, error) from error
     _save(saved, folder)
 
 
@@ -200,21 +177,7 @@ def save_case(file: CaseFile, folder: Path) -> None:
 
 def _save(saved: SavedCase, folder: Path) -> None:
     if saved.copies:
-        make(folder / INPUTS)
+        make_folder(folder / INPUTS)
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
     write_text(folder / CASE, saved.text)
-
-
-def _refusal(folder: Path, error: OSError) -> FileError:
-    return FileError(f"output folder {folder} cannot be written: {error.strerror or error}")
-
-
-def write_text(path: Path, text: str) -> Path:
-    """Write `text` as UTF-8 to `path`, completely or not at all."""
-    return write_bytes(path, text.encode("utf-8"))
-
-
-def write_bytes(path: Path, content: bytes) -> Path:
-    """Write `content` to `path`, completely or not at all."""
-    return write_whole(path, lambda part: part.write_bytes(content))

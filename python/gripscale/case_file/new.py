@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 from gripscale.case import Case
-from gripscale.case_file import folder
 from gripscale.case_file.keys import sections
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
@@ -32,6 +31,7 @@ from gripscale.case_file.proposals import (
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.units import temperature_in_kelvin
+from gripscale.io.folders import make_folder, write_text
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
@@ -110,15 +110,15 @@ def new_case(
         shift=shift,
         layout=layout,
     )
-    folder.make(target.parent)
+    make_folder(target.parent)
     results = "results" if target.stem == "case" else f"results-{target.stem}"
-    folder.write_text(target, case_text(tables, results=results))
+    write_text(target, case_text(tables, results=results))
     try:
         of_inputs = doubts_of_inputs(read_case_file(target))
     except GripscaleError:
         target.unlink()
         raise
-    folder.write_text(target, case_text(tables, of_inputs, results))
+    write_text(target, case_text(tables, of_inputs, results))
     return NewCase(target, ranked(tables, of_inputs), skipped)
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from gripscale.case_file import folder
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.read import CaseFile, read_case_file
+from gripscale.io.folders import require_writable
 from gripscale.questions.chain import events
 from gripscale.questions.chain.events import OnEvent
 from gripscale.questions.chain.run import ChainRun, planned
@@ -57,7 +58,7 @@ def run_case(
     emit = on_event or (lambda event: None)
     target = None if output is None else Path(output)
     if target is not None:
-        folder.require_writable(target)
+        require_writable(target)
     run = ChainRun.of(read_case(file), target, fresh=fresh) if run is None else run
     case = run.case
     names = tuple(name for name, _ in planned(case))

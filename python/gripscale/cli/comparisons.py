@@ -68,6 +68,7 @@ def compare(
     from gripscale.case_file import read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw_comparison, draw_effects
+    from gripscale.core.finding import ranked
     from gripscale.experiment.measured_friction import (
         FRICTION_DOUBTS,
         friction_doubts,
@@ -96,7 +97,6 @@ def compare(
     from gripscale.questions.vary.axis import parse_vary
     from gripscale.questions.vary.effects import case_effects
     from gripscale.questions.vary.page_side_by_side import effects_table
-    from gripscale.report.elements import ranked
     from gripscale.report.notices import friction_notices
 
     axes = None if vary is None else dict([parse_vary(vary, VARIED)])

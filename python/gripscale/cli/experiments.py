@@ -49,6 +49,7 @@ def study(
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io import netcdf
+    from gripscale.io.folders import make_folder
     from gripscale.questions.answer.best_estimate import with_best_estimate
     from gripscale.questions.vary.axis import parse_vary
     from gripscale.questions.vary.page import failed_predictions, study_parts
@@ -70,7 +71,7 @@ def study(
     for line in [*opening, ""]:
         terminal.print_wrapped(console, line)
     figures = FigureFolder(target / "figures", file.case.output.figures)
-    folder.make(figures.path)
+    make_folder(figures.path)
     folder.save_case(file, target)
     result = planned.run(
         target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
@@ -163,13 +164,14 @@ def uncertainty(
 
     Options go before what the case states in its table [uncertainty].
     """
-    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file import read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.core import checks
     from gripscale.core.parallel import worker_count
     from gripscale.experiment.solve import PROCESSES
     from gripscale.half_space.model import DirectContact
+    from gripscale.io.folders import make_folder
     from gripscale.questions.uncertainty.charts import uncertainty_pictures
     from gripscale.questions.uncertainty.page import failures, too_many_failed, uncertainty_parts
     from gripscale.questions.uncertainty.propagation import (
@@ -206,7 +208,7 @@ def uncertainty(
         file, output, "uncertainty", f"Uncertainty of {file.path}"
     )
     figures = FigureFolder(target / "figures", file.case.output.figures)
-    folder.make(figures.path)
+    make_folder(figures.path)
     data = propagate(
         read,
         choice,

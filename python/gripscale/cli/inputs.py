@@ -148,8 +148,9 @@ def fit_surface(
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
-    from gripscale.case_file import SurfaceTable, folder, prepare_surface, validate
+    from gripscale.case_file import SurfaceTable, prepare_surface, validate
     from gripscale.case_file.proposals import open_surface
+    from gripscale.io.folders import make_folder, require_writable
     from gripscale.questions.inputs.page import (
         slopes_table,
         surface_lines,
@@ -177,7 +178,7 @@ def fit_surface(
         values["map"] = values.pop("files")[0]
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
-        folder.require_writable(output)
+        require_writable(output)
     with keys_as_options(context):
         prepared = prepare_surface(surface, raw=raw)
     console = screen()
@@ -199,7 +200,7 @@ def fit_surface(
         from gripscale.charts.figure_folder import FigureFolder
         from gripscale.charts.write import surface_figures
 
-        folder.make(output)
+        make_folder(output)
         surface_figures(prepared, FigureFolder(output, FIGURES))
         console.print()
         print_wrapped(console, f"Figures are in {output}")
@@ -255,7 +256,8 @@ def fit_rubber(
     output: Annotated[Path | None, option("Folder for figures and files.", metavar="DIR")] = None,
 ) -> None:
     """Fit a Prony series to a master curve, or to sweeps at several temperatures."""
-    from gripscale.case_file import RubberSource, folder, prepare_rubber, validate
+    from gripscale.case_file import RubberSource, prepare_rubber, validate
+    from gripscale.io.folders import require_writable
     from gripscale.questions.inputs.page import band_table, prony_table, rubber_parts
 
     values = keys_of(context, RubberSource) | {"file": file[0] if len(file) == 1 else file}
@@ -265,7 +267,7 @@ def fit_rubber(
         values["sheet"] = column_of(sheet)
     source = validate(RubberSource, values, "options")
     if output is not None:
-        folder.require_writable(output)
+        require_writable(output)
     console = screen()
     with keys_as_options(context):
         prepared = prepare_rubber(source)
@@ -280,11 +282,11 @@ def fit_rubber(
 
 def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
-    from gripscale.case_file import folder
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import rubber_figures
+    from gripscale.io.folders import make_folder, write_text
 
-    folder.make(output)
+    make_folder(output)
     rubber_figures(prepared, (), FigureFolder(output, FIGURES))
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
@@ -293,7 +295,7 @@ def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     from gripscale.rubber import ShiftTable, write_master_curve, write_shift_table
 
     write_master_curve(output / "master_curve.csv", master)
-    folder.write_text(output / "rubber.json", json.dumps(prepared.rubber.to_dict(), indent=1))
+    write_text(output / "rubber.json", json.dumps(prepared.rubber.to_dict(), indent=1))
     if len(sweeps) > 1 and isinstance(master.shift, ShiftTable):
         write_shift_table(output / "shift_table.csv", master.shift)
     what = "Figures, shift table, master curve" if len(sweeps) > 1 else "The figure, master curve"

@@ -65,10 +65,10 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
-    from gripscale.case_file import folder
     from gripscale.case_file.finished import is_finished
     from gripscale.case_file.read import read_case_file
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
+    from gripscale.io.folders import require_writable
 
     as_json = progress == ProgressFormat.JSON
     console = terminal.screen(stderr=as_json)
@@ -78,7 +78,7 @@ def run(
         if not (fresh or as_json) and is_finished(file, target, _shown_too(target)):
             _print_finished(console, target)
         else:
-            folder.require_writable(target)
+            require_writable(target)
             terminal.RESULTS.set(target)
             kinds = file.case.output.figures
             with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:

@@ -52,10 +52,11 @@ def sensitivity(
     workers: Workers = None,
 ) -> None:
     """Tell which part of the master curve, and which input, decides the friction of a case."""
-    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file import read_case, read_case_file
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw as write_pictures
+    from gripscale.io.folders import make_folder
     from gripscale.questions.answer.findings import case_notices
     from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.questions.sensitivity.charts import height_pictures, sensitivity_figure
@@ -91,7 +92,7 @@ def sensitivity(
 
     def draw() -> None:
         if STORAGE in data:
-            folder.make(target / "figures")
+            make_folder(target / "figures")
             figures = FigureFolder(target / "figures", file.case.output.figures)
             figures.save(sensitivity_figure(data), "sensitivity")
             write_pictures(height_pictures(data, record.data), figures)

@@ -16,9 +16,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.case_file import folder as folders
 from gripscale.core import checks
 from gripscale.io import netcdf
+from gripscale.io.folders import make_folder
 from gripscale.io.table import Column as Column
 from gripscale.io.table import Table as Table
 from gripscale.io.table import write_csv
@@ -87,7 +87,7 @@ def write_tables(
     read = netcdf.load_tree(result) if isinstance(result, str | Path) else result
     tables = tables_of(read)
     target = Path(folder)
-    folders.make(target)
+    make_folder(target)
     if format == "xlsx":
         return [write_workbook(tables, target / WORKBOOK)]
     return [write_csv(table, target / f"{table.name}.csv") for table in tables]

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gripscale.charts.chart import Drawing
-    from gripscale.report.elements import Notice, Page
+    from gripscale.core.finding import Finding
+    from gripscale.report.elements import Page
 
 KIND = "kind"
 """Attribute of a saved result: the question it answers."""
@@ -73,7 +74,7 @@ class Result(ABC):
 
     @property
     @abstractmethod
-    def findings(self) -> Sequence[Notice]:
+    def findings(self) -> Sequence[Finding]:
         """What may change the result, the most important first."""
 
     def parts(self) -> Iterator[str | Table]:
@@ -150,7 +151,7 @@ class Result(ABC):
     def _repr_html_(self) -> str:
         lead, *basis = [escape(line.strip()) for line in self.lines]
         rest = "".join(f"<li>{line}</li>" for line in basis)
-        findings = "".join(f"<li>{escape(finding.text)}</li>" for finding in self.findings)
+        findings = "".join(f"<li>{escape(finding.sentence)}</li>" for finding in self.findings)
         folded = f"<details><summary>What may change it</summary><ul>{findings}</ul></details>"
         return f"<p><b>{lead}</b></p><ul>{rest}</ul>{folded if findings else ''}"
 
@@ -159,7 +160,7 @@ MOST_OPEN = 3
 """Findings that a terminal opens with; the others are in a file beside the result."""
 
 
-def warning_lines(findings: Sequence[Notice], rest: str = "") -> Iterator[str]:
+def warning_lines(findings: Sequence[Finding], rest: str = "") -> Iterator[str]:
     """Yield ranked findings as lines; with `rest`, a file that has them all, the first only.
 
     These are `MOST_OPEN`, and all that leave open whether the answer is that of another case.
@@ -168,7 +169,7 @@ def warning_lines(findings: Sequence[Notice], rest: str = "") -> Iterator[str]:
         yield "Warnings, by what they change:"
     doubts = sum(finding.effect == float("inf") for finding in findings)
     count = max(MOST_OPEN, doubts) if rest else len(findings)
-    yield from (f"  {finding.text}" for finding in findings[:count])
+    yield from (f"  {finding.sentence}" for finding in findings[:count])
     if len(findings) > count:
         yield f"  ... and {len(findings) - count} more in {rest}"
 

@@ -5,13 +5,12 @@ All texts are plain: escaping is the template's task. A `gripscale.io.table.Tabl
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from enum import IntEnum
 from typing import ClassVar
 
 from gripscale.charts.page_elements import Chart, Image
+from gripscale.core.finding import Finding, Severity
 from gripscale.io import table
 from gripscale.io.table import Column, Table, on_page, significant
 
@@ -29,47 +28,6 @@ class Text:
 
     text: str
     kind: ClassVar[str] = "text"
-
-
-class Doubt(IntEnum):
-    """What a warning puts in doubt; warnings without a number stand in this order.
-
-    A part that was not solved well has no good number at all. Of the inputs the rubber makes the
-    friction, the surface how the load is shared. Where the result comes from changes no number.
-    """
-
-    SOLUTION = 0
-    RUBBER = 1
-    SURFACE = 2
-    SOURCE = 3
-
-
-@dataclass(frozen=True)
-class Notice:
-    """Something the reader must not miss; `level` is "error" or "warning"."""
-
-    level: str
-    text: str
-    friction: float = math.nan
-    """By how much it may change the friction, relative; NaN if that is not known.
-
-    Infinite where the answer may be that of another case.
-    """
-    area: float = math.nan
-    """By how much it may change the contact area."""
-    doubt: Doubt = Doubt.SOLUTION
-    kind: ClassVar[str] = "notice"
-
-    @property
-    def effect(self) -> float:
-        """The larger of its relative changes; 0 if neither is known."""
-        changes = (abs(change) for change in (self.friction, self.area) if not math.isnan(change))
-        return max(changes, default=0.0)
-
-
-def ranked(notices: Iterable[Notice]) -> list[Notice]:
-    """Return errors first, then warnings by what they change, then those without a number."""
-    return sorted(notices, key=lambda n: (n.level != "error", -n.effect, n.doubt))
 
 
 @dataclass(frozen=True)
@@ -105,7 +63,7 @@ class Code:
     kind: ClassVar[str] = "code"
 
 
-Element = Text | Notice | Facts | Table | Chart | Image | Equation | Code
+Element = Text | Finding | Facts | Table | Chart | Image | Equation | Code
 
 
 @dataclass(frozen=True)
@@ -130,13 +88,13 @@ class Card:
 
 
 MOST_OPEN = 3
-"""Notices that a page or a terminal opens with; further warnings are folded."""
+"""Findings that a page or a terminal opens with; further warnings are folded."""
 
 
-def open_and_folded(notices: Sequence[Notice]) -> tuple[list[Notice], list[Notice]]:
+def open_and_folded(notices: Sequence[Finding]) -> tuple[list[Finding], list[Finding]]:
     """Return what a page opens with, errors and the first few warnings, and the rest."""
-    errors = [notice for notice in notices if notice.level == "error"]
-    warnings = [notice for notice in notices if notice.level != "error"]
+    errors = [notice for notice in notices if notice.severity == Severity.ERROR]
+    warnings = [notice for notice in notices if notice.severity != Severity.ERROR]
     room = max(0, MOST_OPEN - len(errors))
     return errors + warnings[:room], warnings[room:]
 
@@ -147,7 +105,7 @@ class Page:
 
     title: str
     subtitle: str
-    notices: Sequence[Notice]
+    notices: Sequence[Finding]
     """Ranked."""
     cards: Sequence[Card]
     sections: Sequence[Section] = field(default_factory=tuple)
@@ -155,17 +113,19 @@ class Page:
     """What the numbers of the cards are for, and what they rest on."""
 
     @property
-    def errors(self) -> list[Notice]:
+    def errors(self) -> list[Finding]:
         """Those that stand above the numbers."""
-        return [notice for notice in self.notices if notice.level == "error"]
+        return [notice for notice in self.notices if notice.severity == Severity.ERROR]
 
     @property
-    def notices_open(self) -> list[Notice]:
+    def notices_open(self) -> list[Finding]:
         """The first few warnings, below the numbers."""
-        return [each for each in open_and_folded(self.notices)[0] if each.level != "error"]
+        return [
+            each for each in open_and_folded(self.notices)[0] if each.severity != Severity.ERROR
+        ]
 
     @property
-    def notices_folded(self) -> list[Notice]:
+    def notices_folded(self) -> list[Finding]:
         """The other warnings."""
         return open_and_folded(self.notices)[1]
 

@@ -12,6 +12,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.area_term import heat_left_out
+from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.provenance import versions
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import NONE
@@ -19,7 +20,7 @@ from gripscale.questions.answer.findings import LARGE_MISFIT, case_notices, no_a
 from gripscale.questions.answer.page import answer_cards
 from gripscale.questions.answer.reliance import friction_sentence, has_answer, no_answer
 from gripscale.questions.chain.view import CONVERGED, PredictionView
-from gripscale.report.elements import Card, Doubt, Notice, number, percent, ranked
+from gripscale.report.elements import Card, number, percent
 from gripscale.report.failures import Failure, chapter_words
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
@@ -35,7 +36,7 @@ FLAGS = {
 """What a wave may be flagged for, and in words."""
 
 
-def conditions_notices(view: PredictionView) -> Iterator[Notice]:
+def conditions_notices(view: PredictionView) -> Iterator[Finding]:
     """Yield a warning for each flag of the rubber of the waves, and for heat left out."""
     for name, words in FLAGS.items():
         if view.has(name):
@@ -47,7 +48,7 @@ def conditions_notices(view: PredictionView) -> Iterator[Notice]:
     if view.has("contact_temperature") and model.ADHESIVE_FRICTION in view.data:
         area_term = float(view.data[model.ADHESIVE_FRICTION])
         for text in heat_left_out(area_term, view.total("friction")):
-            yield Notice("warning", text, doubt=Doubt.RUBBER)
+            yield Finding(Severity.WARNING, text, topic=Topic.RUBBER)
 
 
 def _of_waves(
@@ -55,12 +56,14 @@ def _of_waves(
     flagged: np.ndarray,
     words: str,
     error: np.ndarray | float = 1.0,
-    doubt: Doubt = Doubt.RUBBER,
-) -> Iterator[Notice]:
+    doubt: Topic = Topic.RUBBER,
+) -> Iterator[Finding]:
     """Yield a warning of the flagged waves; `error` is the relative one of their friction."""
     waves = _named_waves(flagged)
     if waves:
-        yield Notice("warning", f"{waves}: {words}.", _in_total(view, flagged * error), doubt=doubt)
+        yield Finding(
+            Severity.WARNING, f"{waves}: {words}.", _in_total(view, flagged * error), topic=doubt
+        )
 
 
 def _named_waves(flagged: np.ndarray) -> str:
@@ -114,31 +117,33 @@ def study_sentence(data: xr.Dataset) -> str:
     return f"{count}, lie {Extrapolation(most, *ends).furthest}."
 
 
-def comparison_notices(comparison: xr.Dataset) -> Iterator[Notice]:
+def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
     """Yield a warning for each rung with friction beyond the band, of a comparison over an axis."""
     for at, label in enumerate(comparison.label.values):
         rung = comparison.isel(rung=at)
         text = study_sentence(rung)
         if text:
             share = float(rung[model.FRICTION_OUTSIDE_BAND].max())
-            yield Notice("warning", f"{label}: {text}", share, doubt=Doubt.RUBBER)
+            yield Finding(Severity.WARNING, f"{label}: {text}", share, topic=Topic.RUBBER)
 
 
-def notices(run: Run) -> list[Notice]:
+def notices(run: Run) -> list[Finding]:
     """Return errors first, then warnings by what they change."""
     of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
     of_friction = friction_notices(friction_doubts(run.measured, run.predictions[0].speed))
     return ranked([*failures(run), *of_friction, *of_case, *_of_predictions(run)])
 
 
-def friction_notices(doubts: Iterable[str]) -> Iterator[Notice]:
+def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
     """Yield a warning for each doubt of measured friction."""
-    yield from (Notice("warning", text, math.inf, math.inf) for text in doubts)
+    yield from (Finding(Severity.DOUBT, text) for text in doubts)
 
 
-def failures(run: Run) -> Iterator[Notice]:
+def failures(run: Run) -> Iterator[Finding]:
     """Yield what has no numbers in a run: waves and predictions."""
-    yield from (Notice("error", text) for view in run.predictions for text in _failures(view))
+    yield from (
+        Finding(Severity.ERROR, text) for view in run.predictions for text in _failures(view)
+    )
 
 
 def _failures(view: PredictionView) -> Iterator[str]:
@@ -168,7 +173,7 @@ def _advice(word: str) -> str:
     return f"{status.advice} See {chapter_words(status.chapter)}."
 
 
-def _of_predictions(run: Run) -> Iterator[Notice]:
+def _of_predictions(run: Run) -> Iterator[Finding]:
     """Yield warnings about the waves, and about where the results come from."""
     answered = run.direct is not None and has_answer(run.direct)
     if run.direct is not None and not no_answer(run.direct):
@@ -177,8 +182,8 @@ def _of_predictions(run: Run) -> Iterator[Notice]:
         beyond = prediction_sentence(view)
         if beyond and not answered:
             text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
-            yield Notice(
-                "warning", text, model.extrapolation_of(view.data).share, doubt=Doubt.RUBBER
+            yield Finding(
+                Severity.WARNING, text, model.extrapolation_of(view.data).share, topic=Topic.RUBBER
             )
     for view in run.by_wave:
         for notice in (
@@ -186,17 +191,17 @@ def _of_predictions(run: Run) -> Iterator[Notice]:
             *conditions_notices(view),
             *_compressible(view, run.record.bulk_modulus),
         ):
-            yield replace(notice, text=f"{view.title}: {notice.text}")
+            yield replace(notice, sentence=f"{view.title}: {notice.sentence}")
     if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
         text = "The dynamic and the static result come from different case files."
-        yield Notice("warning", text, math.inf, math.inf)
+        yield Finding(Severity.DOUBT, text)
     solved, here = run.attrs.get("version_gripscale"), versions()["gripscale"]
     if solved is not None and solved != here:
         text = f"Solved with gripscale {solved}, reported with {here}."
-        yield Notice("warning", text, doubt=Doubt.SOURCE)
+        yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)
 
 
-def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Notice]:
+def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Finding]:
     """Yield how the totals of the chain differ from the best estimate of the same load."""
     if not chain.complete:
         return
@@ -204,16 +209,16 @@ def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[No
     ratios = {name: chain.total(name) / float(direct[f"best_{name}"]) for name in names}
     area = f"{ratios['contact_fraction']:.2g} times the contact area"
     text = f"{ratios['friction']:.2g} times the friction and {area}" if chain.moving else area
-    yield Notice(
-        "warning",
+    yield Finding(
+        Severity.WARNING,
         f"The chain of waves has {text} of the best estimate.",
         ratios.get("friction", math.nan) - 1.0,
         ratios["contact_fraction"] - 1.0,
-        Doubt.SOLUTION,
+        Topic.SOLUTION,
     )
 
 
-def _compressible(view: PredictionView, bulk: float) -> Iterator[Notice]:
+def _compressible(view: PredictionView, bulk: float) -> Iterator[Finding]:
     """Warn where the bulk modulus is too small for the modulus of a wave."""
     if not view.has("modulus"):
         return
@@ -225,17 +230,17 @@ def _compressible(view: PredictionView, bulk: float) -> Iterator[Notice]:
             f"Poisson's ratio is down to {number(ratio[low].min())}, less than "
             f"{LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli"
         )
-        yield Notice("warning", f"{_named_waves(low)}: {words}.", doubt=Doubt.RUBBER)
+        yield Finding(Severity.WARNING, f"{_named_waves(low)}: {words}.", topic=Topic.RUBBER)
 
 
-def _mismatch(view: PredictionView) -> Iterator[Notice]:
+def _mismatch(view: PredictionView) -> Iterator[Finding]:
     if not view.moving:
         return
     mismatch = np.nan_to_num(view.usable("friction_mismatch"))
     worst = percent(mismatch.max(initial=0.0))
     words = f"the two frictions are up to {worst} apart; take a finer mesh"
     large = mismatch > LARGE_MISMATCH
-    yield from _of_waves(view, large, words, mismatch, Doubt.SOLUTION)
+    yield from _of_waves(view, large, words, mismatch, Topic.SOLUTION)
 
 
 def cards(run: Run) -> list[Card]:

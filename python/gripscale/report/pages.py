@@ -11,6 +11,7 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.charts.page_elements import words_of
+from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Table
 from gripscale.model import FRICTION_OUTSIDE_BAND
@@ -45,17 +46,7 @@ from gripscale.questions.vary.charts import study_charts
 from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
 from gripscale.report import notices
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import (
-    Card,
-    Doubt,
-    Element,
-    Facts,
-    Notice,
-    Page,
-    Section,
-    Text,
-    ranked,
-)
+from gripscale.report.elements import Card, Element, Facts, Page, Section, Text
 from gripscale.report.equations import equations
 from gripscale.report.failures import Failure, explained
 from gripscale.report.source import Compared, Run, Source, Study
@@ -103,7 +94,7 @@ CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
 )
-OF_ANOTHER = Notice("warning", uncertainty.OF_ANOTHER, doubt=Doubt.SOURCE)
+OF_ANOTHER = Finding(Severity.WARNING, uncertainty.OF_ANOTHER, topic=Topic.SOURCE)
 SENSITIVITY = (
     "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
     "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
@@ -136,7 +127,7 @@ def page_of(source: Source) -> Page:
 def _page(
     title: str,
     subtitle: str,
-    heads: Iterable[Notice],
+    heads: Iterable[Finding],
     numbers: Iterable[Card],
     sections: Iterable[Section],
     answered: xr.Dataset | None = None,
@@ -283,7 +274,7 @@ def _comparison(run: Run) -> list[Element]:
     stale = len(same.parts) < len(run.compared.parts)
     answered = same.ladder is not None and has_answer(same.ladder)
     lines = answer.answer_lines(same.ladder) if answered else ()
-    heads: list[Element] = [Notice("warning", STALE)] if stale else []
+    heads: list[Element] = [Finding(Severity.WARNING, STALE)] if stale else []
     return [*heads, *(Text(line.strip()) for line in lines), *comparison_elements(same)]
 
 
@@ -293,7 +284,7 @@ def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
     errors: list[Element] = list(notices.failures(run))
     names = ("errors", "solution", "mesh")
     return [
-        *(errors or [Notice("good", "Every wave converged.")]),
+        *(errors or [Finding(Severity.GOOD, "Every wave converged.")]),
         Text(EVIDENCE),
         *(tables[name] for name in names if name in tables),
         *verification_charts(run.by_wave),
@@ -335,24 +326,29 @@ def _study_sections(source: Study) -> list[Section]:
     ]
 
 
-def _study_notices(data: xr.Dataset) -> list[Notice]:
+def _study_notices(data: xr.Dataset) -> list[Finding]:
     failed = list(study.failures(data))
     heads = _errors(failed[:NAMED_FAILURES])
     if len(failed) > NAMED_FAILURES:
         rest = len(failed) - NAMED_FAILURES
-        heads.append(Notice("error", f"{rest} more did not converge; see the table of totals."))
+        heads.append(
+            Finding(Severity.ERROR, f"{rest} more did not converge; see the table of totals.")
+        )
     beyond = notices.study_sentence(data)
     if beyond:
         share = float(data[FRICTION_OUTSIDE_BAND].max())
         text = f"{beyond} There the Prony series is an extrapolation."
-        heads.append(Notice("warning", text, share, doubt=Doubt.RUBBER))
+        heads.append(Finding(Severity.WARNING, text, share, topic=Topic.RUBBER))
     notes = [study.shift_sentence(data), *str(data.attrs.get("notes", "")).splitlines()]
-    return [*heads, *(Notice("warning", text, doubt=Doubt.SURFACE) for text in notes if text)]
+    return [
+        *heads,
+        *(Finding(Severity.WARNING, text, topic=Topic.SURFACE) for text in notes if text),
+    ]
 
 
-def _errors(failed: Iterable[Failure]) -> list[Notice]:
+def _errors(failed: Iterable[Failure]) -> list[Finding]:
     """Return what has no result, with what to do about it."""
-    return [Notice("error", explained(each)) for each in failed]
+    return [Finding(Severity.ERROR, explained(each)) for each in failed]
 
 
 def _study_cards(source: Study) -> list[Card]:
@@ -378,7 +374,7 @@ def comparison_page(compared: Compared) -> Page:
         [
             *notices.friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
             *_of_ladder(compared.ladder),
-            *(element for element in elements if isinstance(element, Notice)),
+            *(element for element in elements if isinstance(element, Finding)),
             *([OF_ANOTHER] if stale else []),
         ],
         [*comparison.ladder_cards(compared.ladder), *uncertainty.uncertainty_cards(sampled)],
@@ -390,7 +386,7 @@ def comparison_page(compared: Compared) -> Page:
     )
 
 
-def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Notice]:
+def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Finding]:
     """Yield what is to be known of the answer of a comparison of one load."""
     if ladder is not None:
         yield from findings.no_answer_notices(ladder)
@@ -407,11 +403,11 @@ def comparison_elements(compared: Compared) -> list[Element]:
             placed = replace(failure, sentence=f"{where}: {failure}")
             level = "warning" if bool(data.best_friction.notnull().all()) else "error"
             text = f"{explained(placed)}."
-            elements.append(Notice(level, text, doubt=Doubt.SOLUTION))
+            elements.append(Finding(level, text, topic=Topic.SOLUTION))
     for data in compared.over:
         over = f"Over {varied(data).replace('_', ' ')}"
         for notice in notices.comparison_notices(data):
-            elements.append(replace(notice, text=f"{over}, {notice.text}"))
+            elements.append(replace(notice, sentence=f"{over}, {notice.sentence}"))
     ladder = compared.ladder
     if ladder is not None:
         elements.append(comparison.comparison_table(ladder))
@@ -501,7 +497,7 @@ def calibration_page(source: Study) -> Page:
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
         [
-            *([Notice("error", f"{explained(failed)}.")] if failed else []),
+            *([Finding(Severity.ERROR, f"{explained(failed)}.")] if failed else []),
             *findings.case_notices(data, source.record),
         ],
         calibration.calibration_cards(data),

@@ -122,7 +122,7 @@ def test_failures_are_counted_and_said(half_failing):
     assert np.isfinite(data.friction_quantile).all()
     assert too_many_failed(data)
     (notice,) = page_notices(data)
-    assert notice.level == "error"
+    assert notice.severity == "error"
 
 
 def test_few_failures_are_a_warning(half_failing):
@@ -131,7 +131,7 @@ def test_few_failures_are_a_warning(half_failing):
     few = data.assign(failed=0 * data.failed + 2)
     assert not too_many_failed(few)
     (notice,) = page_notices(few)
-    assert notice.level == "warning"
+    assert notice.severity == "warning"
     assert too_many_failed(data.assign(failed=0 * data.failed + 3))
 
 

@@ -19,6 +19,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.core import provenance
+from gripscale.core.finding import Finding
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer.direct_contact import (
@@ -33,7 +34,7 @@ from gripscale.questions.answer.reliance import has_answer, is_solved, no_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.report.elements import Notice, Page
+from gripscale.report.elements import Page
 
 if TYPE_CHECKING:
     from gripscale.charts.chart import Sheet
@@ -95,11 +96,11 @@ class Answer(Result):
         return tuple(answer_lines(self.data))
 
     @cached_property
-    def findings(self) -> Sequence[Notice]:
+    def findings(self) -> Sequence[Finding]:
         """What may change the answer, the most important first."""
         statement = [] if self.is_solved else [*no_answer_notices(None)]
         direct = self.data if self.is_solved else None
-        return tuple([*statement, *case_notices(direct, InputRecord(self.inputs))])
+        return (*statement, *case_notices(direct, InputRecord(self.inputs)))
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import xarray as xr
 
 from gripscale import model
+from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.units import MILLI, in_mm
 from gripscale.io.table import significant
 from gripscale.questions.answer.reliance import (
@@ -21,7 +22,7 @@ from gripscale.questions.answer.reliance import (
 )
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import Doubt, Notice, number, percent, ranked
+from gripscale.report.elements import number, percent
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
 
@@ -33,15 +34,15 @@ LARGE_RESIDUAL = 0.1
 """Of the heights of the sine waves."""
 
 
-def no_answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
+def no_answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
     """Yield that a result has no answer, or none to rely on; nothing if it has one."""
     statement = no_answer(data)
     if statement:
         level = "warning" if data is None else "error"
-        yield Notice(level, f"Answer: {statement}", math.inf, math.inf)
+        yield Finding(level, f"Answer: {statement}", math.inf, math.inf)
 
 
-def answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
+def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
     """Yield what may change an answer, other than what `no_answer` says of it."""
     if data is None or not has_answer(data):
         return
@@ -49,35 +50,35 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Notice]:
     direct = direct_of(data)
     steep = float(data.get("best_steep_share", math.nan))
     if steep > WORTH_SAYING:
-        yield Notice(
-            "warning",
+        yield Finding(
+            Severity.WARNING,
             f"{percent(steep)} of the friction comes from slopes above 1, where neither small "
             "strain nor a measured profile is reliable.",
             friction=steep,
-            doubt=Doubt.SOLUTION,
+            topic=Topic.SOLUTION,
         )
     octave = {} if CONTINUED_TO in data else changes(data, 1.0 / model.OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
         half = in_mm(float(data.cutoff_wavelength) / model.OCTAVE, 3)
-        yield Notice(
-            "warning",
+        yield Finding(
+            Severity.WARNING,
             f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "
             f"{in_words(octave)}; `gripscale cut-off` computes it.",
             friction=octave.get("friction", math.nan),
             area=octave.get("contact_fraction", math.nan),
-            doubt=Doubt.SURFACE,
+            topic=Topic.SURFACE,
         )
     traction, lost = (
         float(direct[f"total_{name}"]) for name in ("friction", "friction_from_dissipation")
     )
     apart = abs(traction / lost - 1.0) if is_moving(data) and lost > 0.0 else 0.0
     if apart > LARGE_MISMATCH:
-        yield Notice(
-            "warning",
+        yield Finding(
+            Severity.WARNING,
             f"The two frictions of the direct contact, from traction and from losses, differ by "
             f"{percent(apart)}; the answer takes the one from losses.",
             friction=apart,
-            doubt=Doubt.SOLUTION,
+            topic=Topic.SOLUTION,
         )
 
 
@@ -98,15 +99,15 @@ def in_words(changed: dict[str, float]) -> str:
     return " and ".join(parts).replace(" by ", " changes by ", 1)
 
 
-def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Notice]:
+def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding]:
     """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
     parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
     said = "" if direct is None else str(direct.attrs.get(model.INPUT_DOUBTS, ""))
-    inputs = [notice for notice in record.warnings() if notice.text not in said]
+    inputs = [notice for notice in record.warnings() if notice.sentence not in said]
     return ranked([*(notice for part in parts for notice in part), *inputs])
 
 
-def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> Iterator[Notice]:
+def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> Iterator[Finding]:
     """Yield what the roughness adds that is shorter than the measurement resolves."""
     if not record.number("cut_off_beyond_measurement") > 0.0:
         return
@@ -115,8 +116,8 @@ def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> I
     if direct is not None and has_answer(direct):
         held = float(direct.cutoff_wavelength)
         if held > 1.01 * end and CONTINUED_TO not in direct:
-            yield Notice(
-                "warning",
+            yield Finding(
+                Severity.WARNING,
                 f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
                 f"shorter than {in_mm(held, 3)}, two of their steps: `gripscale cut-off`, or "
                 "down_to in [below_measurement], continues the roughness.",
@@ -129,34 +130,34 @@ def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> I
         changed = changes(direct, limit / end)
     lengths = (f"{number(length, MILLI)} mm" for length in (limit, end))
     text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
-    yield Notice(
-        "warning",
+    yield Finding(
+        Severity.WARNING,
         f"{text}: without it {in_words(changed)}." if changed else f"{text}.",
         changed.get("friction", math.nan),
         changed.get("contact_fraction", math.nan),
-        Doubt.SURFACE,
+        Topic.SURFACE,
     )
 
 
-def _misfits(record: InputRecord) -> Iterator[Notice]:
+def _misfits(record: InputRecord) -> Iterator[Finding]:
     """Yield by how much the rubber misses its loss factor, and the sine waves their heights."""
     loss = record.loss_factor_error
     if abs(loss) > LARGE_MISFIT:
-        yield Notice(
-            "warning",
+        yield Finding(
+            Severity.WARNING,
             f"At the frequencies of the waves the loss factor of the Prony series is "
             f"{percent(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
             "error of the friction is about as large.",
             loss,
-            doubt=Doubt.RUBBER,
+            topic=Topic.RUBBER,
         )
     residual = record.number("sines_residual_decades")
     height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
     if height > LARGE_RESIDUAL:
-        yield Notice(
-            "warning",
+        yield Finding(
+            Severity.WARNING,
             f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "
             f"{percent(height)} of their height. The friction of the chain has a similar error.",
             height,
-            doubt=Doubt.SURFACE,
+            topic=Topic.SURFACE,
         )

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import significant
 from gripscale.questions.answer.best_estimate import IsotropicSurface
@@ -31,7 +32,7 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import Card, Notice, Page, Section, percent
+from gripscale.report.elements import Card, Page, Section, percent
 
 
 def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
@@ -145,7 +146,7 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         yield f"an area term of {significant(term)} comes on top: μ = {both} with it"
 
 
-def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Notice]) -> Page:
+def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Finding]) -> Page:
     """Return the page of an answer: its numbers, the contact, and the inputs with their origin."""
     from gripscale.report import pages
 

@@ -13,8 +13,9 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.chain.chain import Chain
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.questions.answer.best_estimate import DIRECT
-from gripscale.report.elements import Doubt, Notice, percent
+from gripscale.report.elements import percent
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
 MOST_ON_GUESSES = 0.5
@@ -50,7 +51,7 @@ def no_answer(data: xr.Dataset | None) -> str:
     if not has_answer(data):
         words = f"The direct contact of the measured surface has no result: {_status(data)}."
         return " ".join(["none.", *doubts, words])
-    guessed = [share.text for share in guesses(data) if share.effect > MOST_ON_GUESSES]
+    guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
     reasons = [*doubts, *guessed, *_sampled_too_little(data)]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
@@ -62,20 +63,20 @@ def _status(data: xr.Dataset) -> str:
     return str(direct[name].item()) if name and not direct[name].ndim else ""
 
 
-def guesses(data: xr.Dataset) -> Iterator[Notice]:
+def guesses(data: xr.Dataset) -> Iterator[Finding]:
     """Yield the shares of an answer on frequencies and heights that were not measured."""
     beyond = model.extrapolation_of(direct_of(data))
     if friction_sentence(beyond):
-        yield Notice(
-            "warning",
+        yield Finding(
+            Severity.WARNING,
             f"{friction_sentence(beyond)} There the Prony series is an extrapolation.",
             friction=beyond.share,
-            doubt=Doubt.RUBBER,
+            topic=Topic.RUBBER,
         )
     missing = float(data.get("best_missing_share", math.nan))
     if missing > WORTH_NAMING:
         text = f"{percent(missing)} of the contact lies on filled gaps of the measurement."
-        yield Notice("warning", text, area=missing, doubt=Doubt.SURFACE)
+        yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
 
 
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:

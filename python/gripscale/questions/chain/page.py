@@ -205,7 +205,7 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
         notes.append(f"{STAR} {beyond}")
         marks = ["*" if flag else "" for flag in view.column("outside_band")]
         columns = [replace(c, marks=marks) if c.name == "loss_factor" else c for c in columns]
-    notes += [notice.text for notice in conditions_notices(view)]
+    notes += [notice.sentence for notice in conditions_notices(view)]
     return Table("waves", columns, title, notes, keys=2, bad=~view.converged)
 
 

@@ -132,7 +132,7 @@ def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
     axis = varied(comparison)
     if axis:
         yield from (axis_table(comparison, axis, name) for name in SYMBOLS)
-        yield from (f"* {notice.text}" for notice in comparison_notices(comparison))
+        yield from (f"* {notice.sentence}" for notice in comparison_notices(comparison))
         yield from temperature_only(comparison)
         return
     yield comparison_table(comparison)

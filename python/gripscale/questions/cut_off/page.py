@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import xarray as xr
 
+from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import MILLI, display_unit_of, in_mm
 from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS
@@ -21,7 +22,7 @@ from gripscale.questions.cut_off.curve import (
     at_cut_off,
 )
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import Card, Element, Notice, Page, Section, Text
+from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
 NAMES = {"friction": FRICTION, "contact_fraction": AREA}
@@ -160,10 +161,10 @@ def cut_off_elements(data: xr.Dataset | None) -> list[Element]:
     return [*map(Text, basis_lines(data)), *cut_off_charts(data), *cut_off_parts(data)]
 
 
-def cut_off_page(data: xr.Dataset, findings: Sequence[Notice]) -> Page:
+def cut_off_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
     """Return the page of contact and friction against the cut-off."""
     case = case_name(data.attrs) or "case.toml"
-    errors = [Notice("error", explained(failure)) for failure in failures(data)]
+    errors = [Finding(Severity.ERROR, explained(failure)) for failure in failures(data)]
     sections = [
         Section("cut-off", "Against the cut-off", cut_off_elements(data)),
         rerun_section(data.attrs),

@@ -14,6 +14,7 @@ import xarray as xr
 
 from gripscale.case import Case, in_si
 from gripscale.core import provenance
+from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Table
 from gripscale.questions.answer.findings import case_notices
@@ -23,7 +24,7 @@ from gripscale.questions.cut_off.curve import cut_off_curve
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.report.elements import Notice, Page
+from gripscale.report.elements import Page
 
 if TYPE_CHECKING:
     from gripscale.charts.chart import Sheet
@@ -40,7 +41,7 @@ class CutOff(Result):
         return tuple(page.answer_lines(self.data))
 
     @property
-    def findings(self) -> Sequence[Notice]:
+    def findings(self) -> Sequence[Finding]:
         """What may change the curves, the most important first."""
         return tuple(case_notices(None, InputRecord(self.inputs)))
 

@@ -23,7 +23,6 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.case_file import folder as folders
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
@@ -31,6 +30,7 @@ from gripscale.experiment.design import attributes
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
 from gripscale.io import netcdf
+from gripscale.io.folders import make_folder
 from gripscale.questions.design.compound_gain import gain, series_derivatives, series_error
 from gripscale.questions.design.compound_limits import CompoundLimits, changed, require_shift
 from gripscale.questions.design.compound_search import (
@@ -132,7 +132,7 @@ def design_compound(
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     key = _key(case, problem, wanted, rubbers or {})
     target = Path(folder) / RESULT
-    folders.make(target.parent)
+    make_folder(target.parent)
     stored, fruitless = _stored_points(target, key)
     reference = Reference.of(problem.friction)
     base = today(problem, reference.contacts, TOLERANCE).assign_attrs(

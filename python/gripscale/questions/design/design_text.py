@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case_file import folder as folders
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
+from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, write_csv
 from gripscale.questions.design.compound_limits import QUANTITIES, PointLimit, changed
 from gripscale.questions.design.goal_friction import CompoundGoal
@@ -132,7 +132,7 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
     Raises `FileError` if a file cannot be written.
     """
     target = Path(folder)
-    folders.make(target)
+    make_folder(target)
     paths = []
     for at in range(data.sizes["point"]):
         rubber, point = designed_rubber(data, at), data.isel(point=at)
@@ -155,5 +155,5 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
         )
         paths.append(write_csv(series, target / f"{rubber.name}_prony.csv"))
         text = json.dumps(rubber.to_dict(), indent=1)
-        paths.append(folders.write_text(target / f"{rubber.name}.json", text))
+        paths.append(write_text(target / f"{rubber.name}.json", text))
     return paths

@@ -11,9 +11,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io import netcdf
 from gripscale.io.table import significant
-from gripscale.report.elements import Doubt, Notice, number
+from gripscale.report.elements import number
 
 
 @dataclass(frozen=True)
@@ -100,21 +101,21 @@ class InputRecord:
         error = (series_loss / series_storage)[inside] / (loss / storage)[inside] - 1.0
         return float(error.mean()) if inside.any() else math.nan
 
-    def warnings(self) -> Iterator[Notice]:
+    def warnings(self) -> Iterator[Finding]:
         """Yield what is doubtful about load, conditions, rubber and surface."""
         for note in (*self.text("doubts").splitlines(), *self.text("load_notes").splitlines()):
-            yield Notice("warning", note, math.inf, math.inf)  # perhaps another road, or unit
-        sentences = [(Doubt.RUBBER, text) for text in self.text("conditions_notes").splitlines()]
-        sentences += [(Doubt.RUBBER, f"Rubber: {finding}.") for finding in self.findings]
+            yield Finding(Severity.DOUBT, note)  # perhaps another road, or unit
+        sentences = [(Topic.RUBBER, text) for text in self.text("conditions_notes").splitlines()]
+        sentences += [(Topic.RUBBER, f"Rubber: {finding}.") for finding in self.findings]
         notes = self.text("surface_notes").splitlines()
-        sentences += [(Doubt.SURFACE, f"Surface: {note.removesuffix('.')}.") for note in notes]
+        sentences += [(Topic.SURFACE, f"Surface: {note.removesuffix('.')}.") for note in notes]
         if self.has("no_self_affine"):
             why = f"The surface was not described as self-affine: {self.text('no_self_affine')}"
-            sentences.append((Doubt.SURFACE, why))
+            sentences.append((Topic.SURFACE, why))
         if self.is_empty:
             text = (
                 "The result holds no record of its inputs (a script or an older version wrote it): "
                 "profiles, fits, master curve and doubts about the inputs are missing here."
             )
-            sentences.append((Doubt.SOURCE, text))
-        yield from (Notice("warning", text, doubt=doubt) for doubt, text in sentences)
+            sentences.append((Topic.SOURCE, text))
+        yield from (Finding(Severity.WARNING, text, topic=doubt) for doubt, text in sentences)

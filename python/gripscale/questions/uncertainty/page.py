@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts.draw import image
+from gripscale.core.finding import Finding, Topic
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
 from gripscale.questions.answer.best_estimate import DIRECT
@@ -35,7 +36,7 @@ from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, ROAD, RUN
 from gripscale.questions.uncertainty.sources import LABELS, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
-from gripscale.report.elements import Card, Doubt, Element, Notice, Section, Text
+from gripscale.report.elements import Card, Element, Section, Text
 from gripscale.report.failures import Failure, explained
 
 HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
@@ -452,11 +453,11 @@ def subtitle(data: xr.Dataset) -> str:
     return f"{data.sizes['sample']} samples; {models}"
 
 
-def page_notices(data: xr.Dataset) -> list[Notice]:
+def page_notices(data: xr.Dataset) -> list[Finding]:
     """Return failures: an error where too many failed."""
     failed = failures(data)
     level = "error" if too_many_failed(data) else "warning"
-    return [Notice(level, f"{explained(failed)}.", doubt=Doubt.SOLUTION)] if failed else []
+    return [Finding(level, f"{explained(failed)}.", topic=Topic.SOLUTION)] if failed else []
 
 
 def page_cards(data: xr.Dataset) -> list[Card]:

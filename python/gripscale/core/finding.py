@@ -1,0 +1,86 @@
+"""A finding: something a reader must know about a result, from the room that sees it to the face.
+
+It is made where it is known, carried as data, ranked once and worded for a face by that face.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from enum import IntEnum, StrEnum
+from typing import ClassVar
+
+
+class Severity(StrEnum):
+    """How much a finding weighs."""
+
+    ERROR = "error"
+    """There are no numbers to be used."""
+    DOUBT = "doubt"
+    """The numbers may be those of another road, rubber or load."""
+    WARNING = "warning"
+    """The numbers may change."""
+    GOOD = "good"
+    """The numbers passed a check."""
+
+
+class Topic(IntEnum):
+    """What a finding is about; findings without a known effect stand in this order.
+
+    A part that was not solved well has no good number at all. Of the inputs the rubber makes the
+    friction, the surface how the load is shared. Where the result comes from changes no number.
+    """
+
+    SOLUTION = 0
+    RUBBER = 1
+    SURFACE = 2
+    SOURCE = 3
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that may change a result, or leaves none."""
+
+    severity: str
+    """One of `Severity`."""
+    sentence: str
+    friction: float = math.nan
+    """Relative change of the friction that it may cause [-]; NaN if that is not known."""
+    area: float = math.nan
+    """Relative change of the contact area that it may cause [-]."""
+    topic: Topic = Topic.SOLUTION
+    key: str = ""
+    """Key of a case that cures it, such as "rubber.reference_temperature"; empty if none does."""
+    kind: ClassVar[str] = "notice"
+    """Element of a page that shows it."""
+
+    @property
+    def effect(self) -> float:
+        """The larger of its relative changes [-]; infinite for a doubt, 0 if neither is known."""
+        if self.severity == Severity.DOUBT:
+            return math.inf
+        changes = (abs(change) for change in (self.friction, self.area) if not math.isnan(change))
+        return max(changes, default=0.0)
+
+
+def ranked(findings: Iterable[Finding]) -> list[Finding]:
+    """Return errors first, then findings by their effect, then those without a known effect."""
+    return sorted(findings, key=lambda f: (f.severity != Severity.ERROR, -f.effect, f.topic))
+
+
+def doubts(sentences: Iterable[str], topic: Topic = Topic.SOURCE) -> Iterator[Finding]:
+    """Yield a doubt for each sentence."""
+    yield from (Finding(Severity.DOUBT, text, topic=topic) for text in sentences)
+
+
+def to_json(findings: Iterable[Finding]) -> str:
+    """Return findings as the text of an attribute of a result."""
+    return json.dumps([asdict(finding) for finding in findings], ensure_ascii=False)
+
+
+def from_json(text: str) -> Sequence[Finding]:
+    """Return the findings of `to_json`; none of an empty text."""
+    entries = json.loads(text) if text else []
+    return [Finding(**{**entry, "topic": Topic(entry["topic"])}) for entry in entries]

@@ -1,0 +1,46 @@
+"""Folders of results: checked before the long work, and files written completely or not at all."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from gripscale.core.errors import FileError
+from gripscale.io.netcdf import write_whole
+
+
+def require_writable(folder: Path) -> None:
+    """Raise `FileError` unless `folder` could be made and written; touch nothing."""
+    parent = nearest_existing(folder)
+    if not parent.is_dir():
+        raise FileError(f"output folder {folder} cannot be made: {parent} is not a folder")
+    if not os.access(parent, os.W_OK | os.X_OK):
+        raise FileError(f"output folder {folder} cannot be written: no permission for {parent}")
+
+
+def nearest_existing(path: Path) -> Path:
+    """Return `path`, or the nearest of its parents that exists."""
+    return next((step for step in (path, *path.parents) if step.exists()), path)
+
+
+def make_folder(folder: Path) -> None:
+    """Make `folder`; raise `FileError` if that fails."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise unwritable(folder, error) from error
+
+
+def unwritable(folder: Path, error: OSError) -> FileError:
+    """Return the error that says why a folder cannot be written."""
+    return FileError(f"output folder {folder} cannot be written: {error.strerror or error}")
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write `text` as UTF-8 to `path`, completely or not at all."""
+    return write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, content: bytes) -> Path:
+    """Write `content` to `path`, completely or not at all."""
+    return write_whole(path, lambda part: part.write_bytes(content))

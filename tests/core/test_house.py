@@ -1,0 +1,100 @@
+"""The form of the package: what each room may use, and names that stand in one place."""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import gripscale
+
+PACKAGE = Path(gripscale.__file__).parent
+FACES = {"case_file", "cli", "app", "terminal"}
+"""Rooms that know a case file."""
+
+
+@cache
+def modules() -> dict[str, ast.Module]:
+    """Return the modules of the package by their dotted names."""
+    trees = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        parts = path.relative_to(PACKAGE).with_suffix("").parts
+        name = ".".join(("gripscale", *(part for part in parts if part != "__init__")))
+        trees[name] = ast.parse(path.read_text(encoding="utf-8"))
+    return trees
+
+
+def imported(name: str, tree: ast.Module) -> Iterator[str]:
+    """Yield modules that `name` imports as it is imported itself, not within a function."""
+    for node in top_level(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in modules())
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module in modules():
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in modules() else str(node.module)
+
+
+def top_level(tree: ast.Module) -> Iterator[ast.stmt]:
+    """Yield statements outside functions, but for those that only types need."""
+    pending = list(tree.body)
+    while pending:
+        node = pending.pop()
+        yield node
+        if isinstance(node, ast.If) and "TYPE_CHECKING" not in ast.unparse(node.test):
+            pending += node.body
+        elif isinstance(node, ast.ClassDef | ast.Try | ast.With):
+            pending += [part for part in node.body if isinstance(part, ast.stmt)]
+
+
+def public_names(tree: ast.Module) -> Iterator[str]:
+    """Yield the public functions, classes and constants that a module defines."""
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names = [node.name]
+        elif isinstance(node, ast.Assign):
+            names = [leaf.id for target in node.targets for leaf in leaves(target)]
+        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            names = [node.target.id]
+        else:
+            continue
+        yield from (name for name in names if not name.startswith("_"))
+
+
+def leaves(target: ast.expr) -> list[ast.Name]:
+    """Return the names that an assignment gives."""
+    return [node for node in ast.walk(target) if isinstance(node, ast.Name)]
+
+
+ROOM_FILES = {"KINDS", "COMMANDS", "FORMS"}
+"""Names by which every room of a question says what it holds."""
+
+
+def test_a_public_name_stands_in_one_module() -> None:
+    homes = defaultdict(list)
+    for module, tree in modules().items():
+        for name in set(public_names(tree)) - ROOM_FILES:
+            homes[name].append(module)
+    assert {name: at for name, at in homes.items() if len(at) > 1} == {}
+
+
+def test_only_the_faces_know_a_case_file() -> None:
+    uses = {
+        f"{module} -> {other}"
+        for module, tree in modules().items()
+        if module.split(".")[1:2] not in [[face] for face in FACES]
+        for other in imported(module, tree)
+        if other.split(".")[1:2] == ["case_file"]
+    }
+    assert uses == set()
+
+
+def test_no_module_imports_itself_through_others() -> None:
+    arrows = {name: set(imported(name, tree)) - {name} for name, tree in modules().items()}
+    free: set[str] = set()
+    while ready := {name for name, uses in arrows.items() if name not in free and uses <= free}:
+        free |= ready
+    circles = {name: sorted(uses - free) for name, uses in arrows.items() if name not in free}
+    assert circles == {}
