@@ -25,7 +25,7 @@ from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
 from gripscale.surface.periodic import one_period as one_period
 from gripscale.surface.profile import FEWEST_POINTS
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 
 LEAST_VALID = 0.5
 """Share of heights that a window must have."""
@@ -216,7 +216,7 @@ def random_phases(surface: Measurement, seed: int) -> Measurement:
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     surface_axes(surface)
     steps = surface.step if isinstance(surface, HeightMap) else ()
-    z = joined(filled(surface.z, steps))
+    z = joined(fill_gaps(surface.z, steps))
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface
     size = np.abs(spectrum)
     spectrum *= np.abs(scipy.fft.rfftn(z)) / np.where(size > 0.0, size, 1.0)

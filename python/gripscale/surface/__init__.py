@@ -3,11 +3,11 @@
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean, clean_map
 from gripscale.surface.cut_off import (
     ContactSlope,
-    CutOff,
     CutOffRule,
     PowerLaw,
     RmsSlope,
     SlopeByWavelength,
+    SurfaceCutOff,
     find_cut_off,
     slope_by_wavelength,
 )
@@ -38,7 +38,6 @@ __all__ = [
     "ArealSpectrum",
     "CleaningReport",
     "ContactSlope",
-    "CutOff",
     "CutOffRule",
     "HeightDifference",
     "HeightMap",
@@ -53,6 +52,7 @@ __all__ = [
     "SlopeByWavelength",
     "StepReport",
     "Surface",
+    "SurfaceCutOff",
     "SurfacePart",
     "areal_spectrum",
     "clean",

@@ -42,13 +42,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-BAND_LEVEL = 0.95
+_BAND_LEVEL = 0.95
 """Nominal confidence level of the band."""
 
-WIDEST_BAND = 20.0
+_WIDEST_BAND = 20.0
 """Half width in log C_z beyond which there is no band: too few blocks hold pairs."""
 
-FEWEST_PAIRS = 16
+_FEWEST_PAIRS = 16
 """Pairs a lag must have to be kept."""
 
 
@@ -183,14 +183,14 @@ def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
     mean = logs.sum(axis=0, where=usable) / np.maximum(n, 1)
     scatter = np.square(logs - mean).sum(axis=0, where=usable)
     deviation = np.sqrt((n - 1) / np.maximum(n, 1) * scatter)
-    quantile = stdtrit(np.maximum(n - 1, 1), 0.5 + BAND_LEVEL / 2.0)
+    quantile = stdtrit(np.maximum(n - 1, 1), 0.5 + _BAND_LEVEL / 2.0)
     spread = quantile * deviation
-    return np.where((n >= 2) & (spread < WIDEST_BAND), spread, np.nan)
+    return np.where((n >= 2) & (spread < _WIDEST_BAND), spread, np.nan)
 
 
 @dataclass(frozen=True, eq=False)
 class BlockSums:
-    """What each block of the profiles adds to C_z, from which blocks can be drawn anew."""
+    """Contribution of each block of the profiles to C_z, for resampling of blocks."""
 
     lag: Array
     """[m], shape (lags,)."""
@@ -202,9 +202,9 @@ class BlockSums:
     """Shortest wavelength that the measurement resolves [m]."""
 
     def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
-        """Return C_z of these blocks only, some perhaps several times, without a band."""
+        """Return C_z of a selection of blocks, with repetitions, without a band."""
         squares, pairs = self.squares[blocks].sum(axis=0), self.pairs[blocks].sum(axis=0)
-        kept = (pairs >= FEWEST_PAIRS) & (squares > 0.0)
+        kept = (pairs >= _FEWEST_PAIRS) & (squares > 0.0)
         return HeightDifference(
             self.lag[kept],
             squares[kept] / pairs[kept],
@@ -257,10 +257,10 @@ def block_sums(
     if len(profiles) > blocks:
         first = np.linspace(0, len(sums), blocks, endpoint=False).astype(int)
         sums, counts = (np.add.reduceat(values, first, axis=0) for values in (sums, counts))
-    keep = counts.sum(axis=0) >= FEWEST_PAIRS
+    keep = counts.sum(axis=0) >= _FEWEST_PAIRS
     if not keep.any():
         raise InputError(
-            f"profile must have a lag with at least {FEWEST_PAIRS} pairs of heights; got at most "
+            f"profile must have a lag with at least {_FEWEST_PAIRS} pairs of heights; got at most "
             f"{int(counts.sum(axis=0).max())}"
         )
     resolution_limit = max(p.resolution_limit for p in profiles)
@@ -287,10 +287,10 @@ def require_positive(hdc: HeightDifference) -> None:
         )
 
 
-REACHED = 0.9
+_REACHED = 0.9
 """Fraction of the mean over all larger lags at which the plateau begins."""
 
-SHORTEST_PLATEAU = 2.0
+_SHORTEST_PLATEAU = 2.0
 """Ratio of the largest lag to the plateau's first lag below which it is not called a plateau."""
 
 
@@ -311,8 +311,8 @@ def find_plateau(hdc: HeightDifference) -> Plateau | None:
     weight = log_weights(hdc.lag)
     tail_mean = np.cumsum((weight * hdc.value)[::-1])[::-1] / np.cumsum(weight[::-1])[::-1]
     # The last lag equals its own mean: the ratio below excludes a curve that rises to its end.
-    first = int(np.argmax(hdc.value >= REACHED * tail_mean))
-    if hdc.lag[-1] < SHORTEST_PLATEAU * hdc.lag[first]:
+    first = int(np.argmax(hdc.value >= _REACHED * tail_mean))
+    if hdc.lag[-1] < _SHORTEST_PLATEAU * hdc.lag[first]:
         return None
     order = np.argsort(hdc.value[first:])
     share = np.cumsum(weight[first:][order])
@@ -329,7 +329,7 @@ def log_weights(lag: Array) -> Array:
     return np.diff(edges)
 
 
-FEWEST_LAGS = 4
+_FEWEST_LAGS = 4
 """Lags a power law must cover."""
 
 
@@ -404,12 +404,12 @@ def fit_self_affine(
     ranges = [
         (i, j)
         for i in range(lag.size)
-        for j in range(i + FEWEST_LAGS, lag.size + 1)
+        for j in range(i + _FEWEST_LAGS, lag.size + 1)
         if np.log10(lag[j - 1] / lag[i]) >= shortest_range
     ]
     if not ranges:
         raise InputError(
-            f"the height difference correlation must have {FEWEST_LAGS} lags over "
+            f"the height difference correlation must have {_FEWEST_LAGS} lags over "
             f"{shortest_range:g} decades below its plateau; "
             f"got {lag.size} lags up to {lag[-1]:.4g} m"
         )

@@ -41,14 +41,14 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.errors import InputError
 from gripscale.surface.profile import FEWEST_POINTS, RESOLVED_STEPS, Profile
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 
-STEEPEST = 4.0
+_STEEPEST = 4.0
 """Slope that rubber is taken to follow: stretched to 4.1, near the elongation at break of tread."""
 
 
 def one_period(
-    line: Profile, smallest_wavelength: float | None = None, *, steepest: float = STEEPEST
+    line: Profile, smallest_wavelength: float | None = None, *, steepest: float = _STEEPEST
 ) -> Profile:
     """Return a periodic line, for any model with `periodic=True`.
 
@@ -63,7 +63,7 @@ def one_period(
     checks.instance("line", line, Profile)
     slope = checks.positive("steepest", steepest, infinite=True)
     step, period = line.step, len(line) * line.step
-    z = filled(line.z)
+    z = fill_gaps(line.z)
     z = z - np.linspace(0.0, z[-1] - z[0], z.size, endpoint=False)
     z -= z.mean()
     if smallest_wavelength is None:
@@ -106,11 +106,11 @@ def without_short_waves(line: Profile, smallest_wavelength: float) -> Profile:
     return Profile(x, z, line.name, source=line.source)
 
 
-MOST_ABOVE = 1.25
+_MOST_ABOVE = 1.25
 """Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6
 intermittent surfaces lose a tenth of their friction, with 2.5 surfaces with edges gain a third."""
 
-ROUNDING = 1e-9
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +132,8 @@ class PeriodicLine:
     def between(self, longest: float, shortest: float) -> ComplexArray:
         """Return the waves shorter than `longest` and not shorter than `shortest` [m]."""
         q = self.wavenumber
-        above = q > 2.0 * np.pi / longest * (1.0 + ROUNDING)
-        return np.where(above & (q <= 2.0 * np.pi / shortest * (1.0 + ROUNDING)), self.waves, 0.0)
+        above = q > 2.0 * np.pi / longest * (1.0 + _ROUNDING)
+        return np.where(above & (q <= 2.0 * np.pi / shortest * (1.0 + _ROUNDING)), self.waves, 0.0)
 
     def down_to(self, shortest: float) -> PeriodicLine:
         """Return the line without waves shorter than `shortest` [m]."""
@@ -209,7 +209,7 @@ class Intermittency:
         log = self.coupling * line.amplitude(2.0 * longest, longest)
         log += self.scatter * smooth_noise()
         log -= log.mean()
-        limit = MOST_ABOVE * log.std()
+        limit = _MOST_ABOVE * log.std()
         q = np.maximum(line.wavenumber, line.wavenumber[1])
         noise = line.with_waves(scipy.fft.rfft(random.standard_normal(line.points)) * q**-1.5)
         heights = scipy.fft.irfft(noise.between(longest, shortest), line.points)

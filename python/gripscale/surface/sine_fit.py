@@ -36,10 +36,10 @@ the same factors, count in the fit and are left out of the stack. Lags below cut
 decide, do not count. Where s_wavelength is given, whole waves end at cut_off or above it: the stack
 holds its own cut-off. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
 
-**Other stacks.** C_z is smooth and known within its band only, so stacks with other numbers of waves
-and other factors follow it as well. Their common properties are determined by the curve; where they
-differ, the stack is a choice. With r the rms difference from the curve in decades, b the rms half width of
-its band over the same lags, and r_0 the least r of all stacks tried, a stack is as good if
+**Other stacks.** C_z is smooth and known within its band only. Stacks with other numbers of waves
+and other factors follow it as well. The curve determines their common properties; where they
+differ, the stack is a choice. With r the rms difference from the curve in decades, b the rms half
+width of its band over the same lags, and r_0 the least r of all stacks tried, a stack is as good if
 
     r^2 <= r_0^2 + b^2.
 
@@ -65,30 +65,30 @@ from gripscale.surface.sines import (
     FACTOR_RANGE,
     FIRST_WAVELENGTH,
     S_WAVELENGTH,
+    ClosestWaves,
     SineStack,
-    Solution,
-    Target,
-    Trial,
+    TargetCurve,
+    WaveTrial,
     search,
 )
 
-MOST_WAVES = 24
+MOST_SINE_WAVES = 24
 """Waves beyond which a stack is refused."""
 
-NUMBERS = range(2, MOST_WAVES + 1)
+_NUMBERS = range(2, MOST_SINE_WAVES + 1)
 """Numbers of waves tried where none is stated."""
 
 
-CONSISTENT = 1.05
+_CONSISTENT = 1.05
 """C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little."""
 
-CUT_OFF_COUNTED = 0.25
+_CUT_OFF_COUNTED = 0.25
 """Smallest lag that counts by default, in wavelengths of the cut-off."""
 
-SHORTER_WAVES = 3
+_SHORTER_WAVES = 3
 """Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count."""
 
-AS_GOOD = 1.1
+_AS_GOOD = 1.1
 """Ratio of a residual to the least one up to which fewer waves are preferred."""
 
 
@@ -165,11 +165,11 @@ def fit_sines(
             f"against {np.exp(fixed[FIRST_WAVELENGTH]):g} m"
         )
     if smallest_lag is None:
-        smallest_lag = max(first_consistent_lag(hdc), CUT_OFF_COUNTED * (cut_off or 0.0))
-    target = Target.of(hdc, smallest_lag, largest_lag, int(np.isnan(fixed).sum()))
+        smallest_lag = max(first_consistent_lag(hdc), _CUT_OFF_COUNTED * (cut_off or 0.0))
+    target = TargetCurve.of(hdc, smallest_lag, largest_lag, int(np.isnan(fixed).sum()))
     if end is None:
-        waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
-        trial = Trial(fixed, waves, single_factor)
+        waves = checks.whole("scales", scales, least=1, most=MOST_SINE_WAVES)
+        trial = WaveTrial(fixed, waves, single_factor)
         solution = search(target, trial)
         limit = -np.inf if hdc.resolution_limit is None else float(np.log(hdc.resolution_limit))
         free = waves > 1 and np.isnan(fixed[S_WAVELENGTH])
@@ -181,15 +181,15 @@ def fit_sines(
             raise InputError(f"give two of scales, {end.name} and s_wavelength; got three")
         solution = _search_with_factor(target, fixed, single_factor, end)
     elif scales is not None:
-        waves = checks.whole("scales", scales, least=2, most=MOST_WAVES)
+        waves = checks.whole("scales", scales, least=2, most=MOST_SINE_WAVES)
         solution = search(target, end.trial(fixed, waves, single_factor))
     else:
         first, trials = float(fixed[FIRST_WAVELENGTH]), []
-        for waves in NUMBERS:
+        for waves in _NUMBERS:
             low, high = (end.spans(float(np.log(f)))[waves - 1][0] for f in FACTOR_RANGE)
             if np.isnan(first) or low <= first <= high:
                 trials.append(end.trial(fixed, waves, single_factor))
-        solution = _closest(target, trials, AS_GOOD)
+        solution = _closest(target, trials, _AS_GOOD)
     if solution is None:
         raise InputError(
             "no sine waves fit the given number, factors and wavelengths: s_wavelength must lie "
@@ -204,7 +204,7 @@ def as_fitted(sines: SineStack) -> SineStack:
     """Return the waves that count in a fit to C_z: with a cut-off these include shorter ones."""
     if sines.cut_off is None or sines.s_wavelength is None or sines.s_amplitude is None:
         return sines
-    order = np.arange(1, SHORTER_WAVES + 1)
+    order = np.arange(1, _SHORTER_WAVES + 1)
     return replace(
         sines,
         wavelength=np.append(sines.wavelength, sines.wavelength[-1] / sines.s_wavelength**order),
@@ -228,21 +228,21 @@ class _End:
     @property
     def shorter(self) -> int:
         """Waves that the measured curve holds beyond the end."""
-        return SHORTER_WAVES if self.beyond > 0.0 else 0
+        return _SHORTER_WAVES if self.beyond > 0.0 else 0
 
-    def trial(self, fixed: Array, waves: int, single_factor: bool) -> Trial:
+    def trial(self, fixed: Array, waves: int, single_factor: bool) -> WaveTrial:
         """Return the search for `waves` waves down to the end."""
-        return Trial(fixed, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
+        return WaveTrial(fixed, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
 
     def spans(self, factor: float) -> list[tuple[float, float]]:
         """Return logs of the first wavelength at which 1, 2, ... waves reach the end."""
-        number = np.arange(1, MOST_WAVES + 2)
+        number = np.arange(1, MOST_SINE_WAVES + 2)
         logs = self.log + (number - 1 + self.beyond) * factor
         return list(pairwise(logs))
 
 
 def _fixed_logs(values: dict[str, float | None], single_factor: bool) -> Array:
-    """Return logs of the stated ones of the four unknowns, NaN for the others."""
+    """Return logarithms of the stated unknowns, NaN for the others."""
     logs = np.full(4, np.nan)
     for at, (name, value) in enumerate(values.items()):
         if value is None:
@@ -269,33 +269,33 @@ def first_consistent_lag(hdc: HeightDifference) -> float:
     for lag, value in zip(hdc.lag, hdc.value, strict=True):
         ratio = hdc.lag / lag
         multiple = (ratio > 1.5) & (np.abs(ratio - np.rint(ratio)) < 1e-6 * ratio)
-        if (hdc.value[multiple] <= CONSISTENT * ratio[multiple] ** 2 * value).all():
+        if (hdc.value[multiple] <= _CONSISTENT * ratio[multiple] ** 2 * value).all():
             return float(lag)
     return float(hdc.lag[0])  # not reached: the last lag has no multiples
 
 
 def _search_with_factor(
-    target: Target, fixed: Array, single_factor: bool, end: _End
-) -> Solution | None:
+    target: TargetCurve, fixed: Array, single_factor: bool, end: _End
+) -> ClosestWaves | None:
     """Search with s_wavelength fixed: as many waves as fit above the end."""
     factor, first = float(fixed[S_WAVELENGTH]), float(fixed[FIRST_WAVELENGTH])
     if not np.isnan(first):
         waves = 1 + int((first - end.log) / factor - end.beyond + 1e-9)
-        if waves > MOST_WAVES:
+        if waves > MOST_SINE_WAVES:
             raise InputError(
-                f"{end.name} must need at most {MOST_WAVES} waves; "
+                f"{end.name} must need at most {MOST_SINE_WAVES} waves; "
                 f"{np.exp(end.log):g} m needs {waves}"
             )
-        return search(target, Trial(fixed, waves, single_factor, shorter=end.shorter))
+        return search(target, WaveTrial(fixed, waves, single_factor, shorter=end.shorter))
     trials = [
-        Trial(fixed, n, single_factor, first_range=span, shorter=end.shorter)
+        WaveTrial(fixed, n, single_factor, first_range=span, shorter=end.shorter)
         for n, span in enumerate(end.spans(factor), start=1)
     ]
     return _closest(target, trials, 1.0)
 
 
-def _closest(target: Target, trials: list[Trial], as_good: float) -> Solution | None:
-    """Return the closest of all trials; of those as good, that with the fewest waves."""
+def _closest(target: TargetCurve, trials: list[WaveTrial], as_good: float) -> ClosestWaves | None:
+    """Return the trial with the fewest waves among those as good as the best."""
     solved = [(search(target, trial, refined=2), trial) for trial in trials]
     residuals = [(s.residual, trial) for s, trial in solved if s is not None]
     if not residuals:
@@ -307,7 +307,7 @@ def _closest(target: Target, trials: list[Trial], as_good: float) -> Solution | 
 
 _AMBIGUITY_WAVES = range(2, 13)
 """Numbers of waves tried for the range of stacks."""
-FIRST_WAVELENGTHS = np.geomspace(0.5, 2.0, 9)
+_FIRST_WAVELENGTHS = np.geomspace(0.5, 2.0, 9)
 """First wavelengths tried, over the fitted one."""
 
 
@@ -382,7 +382,7 @@ def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
     residuals, stacks = [], []
     for waves in _AMBIGUITY_WAVES:
         steps = waves - 1 if sines.cut_off is None else waves - 0.5
-        for first in FIRST_WAVELENGTHS * float(sines.wavelength[0]):
+        for first in _FIRST_WAVELENGTHS * float(sines.wavelength[0]):
             if not FACTOR_RANGE[0] <= (first / end) ** (1.0 / steps) <= FACTOR_RANGE[1]:
                 continue
             stack = fit_sines(

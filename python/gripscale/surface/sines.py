@@ -34,7 +34,7 @@ from gripscale.surface.height_difference import (
     require_positive,
 )
 
-GEOMETRIC_TOLERANCE = 0.01
+_GEOMETRIC_TOLERANCE = 0.01
 """Largest departure of a ratio from the mean ratio for waves to count as geometric."""
 
 
@@ -123,12 +123,12 @@ def _factor(name: str, lengths: Array, argument: float | None) -> float | None:
     ratios = lengths[:-1] / lengths[1:]
     mean = float(np.exp(np.log(ratios).mean()))
     factor = argument or mean
-    if float(np.abs(ratios / factor - 1.0).max()) <= GEOMETRIC_TOLERANCE:
+    if float(np.abs(ratios / factor - 1.0).max()) <= _GEOMETRIC_TOLERANCE:
         return factor
     if argument is None:
         return None
     raise InputError(
-        f"{name} must be the ratio of neighbouring waves within {GEOMETRIC_TOLERANCE:g}; "
+        f"{name} must be the ratio of neighbouring waves within {_GEOMETRIC_TOLERANCE:g}; "
         f"got {argument:g} for a mean ratio of {mean:g}"
     )
 
@@ -141,12 +141,12 @@ FACTOR_RANGE = (1.5, 30.0)
 AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
 """Smallest and largest magnification of amplitude tried."""
 
-PLATEAU_COUNTED = 4.0
+_PLATEAU_COUNTED = 4.0
 """Largest lag that counts by default, in lags at which the plateau begins."""
 
 
 @dataclass(frozen=True, eq=False)
-class Target:
+class TargetCurve:
     """The curve to match: lags [m], C_z [m^2], and its plateau [m^2]."""
 
     lag: Array
@@ -156,12 +156,12 @@ class Target:
     @classmethod
     def of(
         cls, hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int
-    ) -> Target:
+    ) -> TargetCurve:
         """Return the part of a curve from the smallest to the largest lag [m] that counts."""
         require_positive(hdc)
         plateau = find_plateau(hdc)
         if largest is None:
-            largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
+            largest = float(hdc.lag[-1]) if plateau is None else _PLATEAU_COUNTED * plateau.lag
         low = checks.positive("smallest_lag", smallest, unit="m") * (1.0 - 1e-9)
         high = checks.positive("largest_lag", largest, unit="m") * (1.0 + 1e-9)
         used = (hdc.lag >= low) & (hdc.lag <= high)
@@ -188,14 +188,14 @@ class Target:
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
-    """The fixed ones of the four logarithms (NaN where free), and the ties of the others."""
+class WaveTrial:
+    """Fixed values of the four logarithms (NaN where free) and constraints on the others."""
 
     fixed: Array
     waves: int
     single_factor: bool = False
     last: float | None = None  # log of a wavelength at the end, which determines s_wavelength
-    beyond: float = 0.0  # how many factors s_wavelength it lies below the last wave
+    beyond: float = 0.0  # factors s_wavelength between the last wave and that wavelength
     shorter: int = 0  # waves below the last one that the curve holds and the stack leaves out
     first_range: tuple[float, float] | None = None  # limits of the first wavelength's log
 
@@ -224,7 +224,7 @@ class Trial:
             p[S_AMPLITUDE] = p[S_WAVELENGTH]
         return p
 
-    def bounds(self, target: Target) -> tuple[Array, Array]:
+    def bounds(self, target: TargetCurve) -> tuple[Array, Array]:
         """Return limits of the free logarithms."""
         limits = np.log(
             [
@@ -242,7 +242,7 @@ class Trial:
             limits[FIRST_WAVELENGTH] = max(low, spans[0]), min(high, spans[1])
         return limits[self.free, 0], limits[self.free, 1]
 
-    def starts(self, target: Target) -> list[Array]:
+    def starts(self, target: TargetCurve) -> list[Array]:
         """Return a grid of starts: first wavelengths, last wavelengths, and Hurst exponents."""
         starts = []
         for first, last, hurst in product((2.5, 4.0, 6.5, 10.0, 16.0), (1.0, 3.0, 9.0), (0.6, 0.9)):
@@ -263,7 +263,7 @@ class Trial:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class ClosestWaves:
     """The closest waves: their four logarithms, number, and rms residual in decades."""
 
     logs: Array
@@ -302,7 +302,7 @@ def fitted_curve(logs: Array, waves: int, lag: Array) -> Array:
     return np.asarray(2.0 * np.sin(np.pi * turns) ** 2 @ amplitude**2)
 
 
-def search(target: Target, trial: Trial, refined: int = 10) -> Solution | None:
+def search(target: TargetCurve, trial: WaveTrial, refined: int = 10) -> ClosestWaves | None:
     """Return the closest waves, refining the best `refined` starts; None if limits exclude all."""
     from scipy.optimize import least_squares
 
@@ -316,7 +316,7 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Solution | None:
         return float(np.linalg.norm(residuals(unknowns)))
 
     if not trial.free:
-        return Solution(trial.fill(np.zeros(0)), trial.waves, distance(np.zeros(0)))
+        return ClosestWaves(trial.fill(np.zeros(0)), trial.waves, distance(np.zeros(0)))
     low, high = trial.bounds(target)
     if (low >= high).any():
         return None
@@ -331,4 +331,4 @@ def search(target: Target, trial: Trial, refined: int = 10) -> Solution | None:
         for q in dict.fromkeys(tuple(q) for q in starts)  # fixed values make starts equal
     ]
     closest = min(fits, key=lambda fit: float(fit.cost))
-    return Solution(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))
+    return ClosestWaves(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))

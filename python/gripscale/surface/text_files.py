@@ -54,25 +54,25 @@ from gripscale.surface.resampling import printed_grid
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
-CODES = np.array([*_NINES, *_WORDS])
+_CODES = np.array([*_NINES, *_WORDS])
 """Codes in use, without sign: nines, and the limits of the whole numbers instruments store."""
 
-BEYOND = 1e30
+_BEYOND = 1e30
 """Height, in any unit of length, beyond which every number is a code."""
 
-ALONE = 10.0
+_ALONE = 10.0
 """Least distance of a code from all heights, in the largest difference of two of them."""
 
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:
     """Return heights as printed, NaN where one is a code, and the code if there is one."""
-    suspect = np.isin(np.abs(heights), CODES) | (np.abs(heights) >= BEYOND)
+    suspect = np.isin(np.abs(heights), _CODES) | (np.abs(heights) >= _BEYOND)
     codes = np.unique(heights[suspect])
     rest = heights[np.isfinite(heights) & ~suspect]
     if codes.size != 1 or rest.size == 0:
         return heights, None
     code = float(codes[0])
-    if np.abs(rest - code).min() <= ALONE * np.ptp(rest):
+    if np.abs(rest - code).min() <= _ALONE * np.ptp(rest):
         return heights, None
     return np.where(suspect, np.nan, heights), code
 
@@ -109,9 +109,9 @@ def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> 
     return length_unit(table.path, part, named, name, unit, remedy=remedy)
 
 
-DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
-ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
-HEIGHT_TITLE = re.compile(
+_DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
+_ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
+_HEIGHT_TITLE = re.compile(
     r"^\W*(z\b|z_|height|depth|tiefe|profondeur|elev|relative.height|profile)", re.IGNORECASE
 )
 
@@ -163,7 +163,7 @@ def read_text_profile(
             missing="step",
         )
     table, columns = _read_table(
-        path, lines, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE)
+        path, lines, "rows with two columns of numbers", (_DISTANCE_TITLE, _HEIGHT_TITLE)
     )
     if columns is None and len(table.columns) != 2:
         raise FileError(
@@ -194,7 +194,7 @@ def read_text_profile(
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
-DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
+_DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
 """What a title says of heights that may be counted downwards."""
 
 
@@ -210,7 +210,7 @@ def is_captif(lines: Sequence[Line]) -> bool:
 def depth_doubts(table: TextTable, column: int) -> tuple[str, ...]:
     """Return the doubt that a column of heights holds depths, if its title says so."""
     title = table.columns[column].name
-    if not DEPTH.search(title):
+    if not _DEPTH.search(title):
         return ()
     words = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up"
     return (f'{words}: z_axis = "down" turns it over, z_axis = "up" confirms it',)
@@ -247,7 +247,6 @@ def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]
 
 
 def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str | None) -> Profile:
-    """Return the profile of one column of heights at equal steps [m]."""
     if column is None:
         raise InputError(
             f"step must be left out; {path} has more than one column, and states where its points "
@@ -270,7 +269,7 @@ def read_text_map(
     Raises `FileError`, which names the line if possible, if the file cannot be read or understood,
     `InputError` if an argument is unknown or contradicts the file.
     """
-    titles = (DISTANCE_TITLE, ACROSS_TITLE, HEIGHT_TITLE)
+    titles = (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE)
     expected = "rows of heights, or of x, y and z"
     table, columns = _read_table(path, read_lines(path), expected, titles)
     count = len(table.columns)

@@ -47,10 +47,10 @@ from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.persson import (
     TheoryResult,
     Variable,
-    answered,
+    answer_of,
+    cleaned_profiles,
     divided,
-    measured_lines,
-    refined,
+    refine_intervals,
     running_integral,
 )
 from gripscale.wave.problem import Status
@@ -59,11 +59,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
-TOP_HEIGHT_FRACTION = 0.5
+_SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
+_TOP_HEIGHT_FRACTION = 0.5
 """Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
 
-TOLERANCE = 1e-6
+_TOLERANCE = 1e-6
 """Relative error of the integral below which a result is converged."""
 
 _NODES = 33
@@ -88,7 +88,7 @@ class KlueppelHeinrichResult(TheoryResult):
 
     name: ClassVar[str] = "klueppel_heinrich"
     title: ClassVar[str] = "Hysteresis friction of rubber on a self-affine surface"
-    source: ClassVar[str] = SOURCE
+    source: ClassVar[str] = _SOURCE
     variables: ClassVar[Sequence[Variable]] = _VARIABLES
 
     rubber: Rubber
@@ -110,8 +110,8 @@ class KlueppelHeinrichResult(TheoryResult):
 
     @property
     def status(self) -> Status:
-        """`converged` if doubling the resolution changed friction by less than `TOLERANCE`."""
-        met = self.friction_error <= TOLERANCE * self.friction
+        """`converged` if doubling the resolution changed friction by less than `_TOLERANCE`."""
+        met = self.friction_error <= _TOLERANCE * self.friction
         return Status.CONVERGED if met else Status.TOLERANCE_NOT_MET
 
 
@@ -136,7 +136,7 @@ def klueppel_heinrich(
     rubber : Rubber
         The sliding rubber.
     surface : SelfAffineFit, HeightDifference or Profile(s)
-        Of profiles only the upper part counts, `TOP_HEIGHT_FRACTION`; a correlation is taken
+        Of profiles only the upper part counts, `_TOP_HEIGHT_FRACTION`; a correlation is taken
         as it is.
     pressure, speed : float
         Nominal pressure [Pa], above zero, and sliding speed [m/s]; at zero there is no friction.
@@ -162,7 +162,7 @@ def klueppel_heinrich(
                 "surface must be a SelfAffineFit, a HeightDifference or profiles; "
                 f"got {checks.short_repr(surface)}"
             )
-        surface = height_difference(profiles, top_height_fraction=TOP_HEIGHT_FRACTION)
+        surface = height_difference(profiles, top_height_fraction=_TOP_HEIGHT_FRACTION)
     fit = surface if isinstance(surface, SelfAffineFit) else fit_self_affine(surface)
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)
@@ -184,7 +184,7 @@ def klueppel_heinrich(
         work = 0.5 * ratio * depth / load.pressure * q * loss * strain_spectrum(q, fit)
         return (running_integral(work * q, log_q)[::intervals],)
 
-    (friction,), (error,) = refined(at, _COARSEST, _FINEST, TOLERANCE)
+    (friction,), (error,) = refine_intervals(at, _COARSEST, _FINEST, _TOLERANCE)
     return KlueppelHeinrichResult(rubber, fit, load, ratio, depth, wavelength, friction, error)
 
 
@@ -218,11 +218,11 @@ class KlueppelHeinrich(Checked, Model):
         """
         result = klueppel_heinrich(
             rubber,
-            measured_lines(surface, self.name),
+            cleaned_profiles(surface, self.name),
             pressure=load.pressure,
             speed=load.speed,
             layer_ratio=self.layer_ratio,
             penetration_depth=self.penetration_depth,
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
         )
-        return answered(replace(result, load=load), on_progress)
+        return answer_of(replace(result, load=load), on_progress)

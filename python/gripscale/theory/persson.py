@@ -13,7 +13,7 @@ inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Mat
 Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
 contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from G = (M
 h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi). The running integrals use the trapezoidal rule on grids
-refined until a tolerance is met. `TheoryResult` is what the results of all theories share.
+refined until a tolerance is met. `TheoryResult` is the base of the results of all theories.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ Variable = tuple[str, Any, str, str]
 
 
 class TheoryResult:
-    """Friction down to each wavelength, and the Dataset of it: what all theories share."""
+    """Base of the results of theories: friction down to each wavelength and its Dataset."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -138,7 +138,7 @@ def running_integral(values: Array, x: Array) -> Array:
     return np.concatenate(([0.0], np.cumsum(steps)))
 
 
-def refined(
+def refine_intervals(
     at: Callable[[int], Values], first: int, most: int, tolerance: float
 ) -> tuple[Values, tuple[float, ...]]:
     """Return `at(intervals)` on a fine grid, and its change by the last doubling.
@@ -157,8 +157,8 @@ def refined(
         coarse = fine
 
 
-SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
-TOLERANCE = 1e-4
+_SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
+_TOLERANCE = 1e-4
 """Relative error of the integrals below which a result is converged."""
 
 _VARIABLES = (
@@ -173,7 +173,7 @@ _VARIABLES = (
 )
 """Variables of a result: name, dimension, unit, meaning."""
 
-COARSEST, FINEST = 4, 128
+_COARSEST, _FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
 
 _WIDEST = 0.25
@@ -192,7 +192,7 @@ class PerssonResult(TheoryResult):
 
     name: ClassVar[str] = "persson"
     title: ClassVar[str] = "Real contact area and friction of rubber on a randomly rough surface"
-    source: ClassVar[str] = SOURCE
+    source: ClassVar[str] = _SOURCE
     variables: ClassVar[Sequence[Variable]] = _VARIABLES
 
     rubber: Rubber
@@ -220,9 +220,9 @@ class PerssonResult(TheoryResult):
 
     @property
     def status(self) -> Status:
-        """`converged` if doubling the resolution changed both numbers by less than `TOLERANCE`."""
-        area = self.contact_fraction_error <= TOLERANCE * self.contact_fraction
-        friction = self.friction_error <= TOLERANCE * abs(self.friction)
+        """`converged` if doubling the resolution changed both numbers by less than `_TOLERANCE`."""
+        area = self.contact_fraction_error <= _TOLERANCE * self.contact_fraction
+        friction = self.friction_error <= _TOLERANCE * abs(self.friction)
         return Status.CONVERGED if area and friction else Status.TOLERANCE_NOT_MET
 
 
@@ -271,8 +271,8 @@ def persson(
     nodes = np.exp(filled_in(np.log(points), _WIDEST))
     load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
     integrals = _Integrals(rubber, spectrum, load, share, nodes)
-    (area, friction), (area_error, friction_error) = refined(
-        integrals.at_nodes, COARSEST, FINEST, TOLERANCE
+    (area, friction), (area_error, friction_error) = refine_intervals(
+        integrals.at_nodes, _COARSEST, _FINEST, _TOLERANCE
     )
     return PerssonResult(
         rubber=rubber,
@@ -352,23 +352,23 @@ class Persson(Checked, Model):
         """
         result = persson(
             rubber,
-            profile_spectrum(measured_lines(surface, self.name), window=self.window),
+            profile_spectrum(cleaned_profiles(surface, self.name), window=self.window),
             pressure=load.pressure,
             speed=load.speed,
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
             gamma=self.gamma,
         )
-        return answered(replace(result, load=load), on_progress)
+        return answer_of(replace(result, load=load), on_progress)
 
 
-def answered(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
-    """Return a result as a Dataset, after `on_progress` got it."""
+def answer_of(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
+    """Call `on_progress` with a result and return its Dataset."""
     if on_progress is not None:
         on_progress(result)
     return result.to_dataset()
 
 
-def measured_lines(surface: Surface, name: str) -> list[Profile]:
+def cleaned_profiles(surface: Surface, name: str) -> list[Profile]:
     """Return the cleaned profiles for a theory; `InputError` without any."""
     if surface.measured is None:
         raise InputError(
