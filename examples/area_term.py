@@ -58,7 +58,9 @@ def main(folder: str = "results/examples") -> None:
     target = Path(folder) / "area_term"
     target.mkdir(parents=True, exist_ok=True)
     fixed = {"reference_temperature": 293.15}
-    fit = calibrate_case(CASE, model="chain", fixed=fixed, hold_out="temperature", folder=target)
+    fit = calibrate_case(
+        read_case(CASE), model="chain", fixed=fixed, hold_out="temperature", folder=target
+    )
     for one in fit.estimates:
         true = getattr(TRUE, one.name)
         print(f"{one.name}: {one.value:.4g}, {one.low:.4g} to {one.high:.4g}; true {true:.4g}")
@@ -66,7 +68,7 @@ def main(folder: str = "results/examples") -> None:
         celsius = left_out.value - 273.15
         print(f"{celsius:.0f} C from the others: rms {left_out.rms_outside:.3f}")
     wrong = calibrate_case(
-        CASE, model="chain", law="constant", hold_out="temperature", folder=target
+        read_case(CASE), model="chain", law="constant", hold_out="temperature", folder=target
     )
     worst = max(one.rms_outside for one in wrong.held_out)
     print(f"with a constant stress: rms up to {worst:.3f}")

@@ -50,7 +50,7 @@ def main(folder: str = "results/examples") -> None:
     warm = predict(*inputs, **load, solver=COARSE, rubber_at=Warming())
     for cold, hot in zip(plain.scales, warm.scales, strict=True):
         print(f"{cold.wavelength * 1e3:.0f} mm: friction {cold.friction:.4f}, {hot.friction:.4f}")
-    study = Study(CASE, {"speed": [0.3, 3.0]}, model=Chain(COARSE, rubber_at=Warming()))
+    study = Study(read_case(CASE), {"speed": [0.3, 3.0]}, model=Chain(COARSE, rubber_at=Warming()))
     result = study.run(Path(folder) / "toy_condition")
     for speed, friction in zip(result.speed.values, result.total_friction.values, strict=True):
         print(f"{speed:g} m/s: friction {friction:.4f}")

@@ -22,6 +22,7 @@ import xarray as xr
 from rich.console import Console
 
 import gripscale as gs
+from gripscale.case_file import read_case
 from gripscale.model import Load, Model, answer
 from gripscale.questions import Study
 from gripscale.questions.vary.page import study_table
@@ -63,7 +64,7 @@ class Proportional(Model):
 def main(folder: str = "results/examples") -> None:
     """Vary speed and pressure of a case with it; print the table."""
     vary = {"speed": "0.01 m/s, 10 m/s", "pressure": "1 bar, 3 bar"}
-    result = Study(CASE, vary, model=Proportional()).run(Path(folder) / "toy_model")
+    result = Study(read_case(CASE), vary, model=Proportional()).run(Path(folder) / "toy_model")
     Console(width=100).print(study_table(result))
 
 

@@ -15,7 +15,7 @@ from gripscale.case_file import read_case_file, run_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.core.finding import Finding, Severity
-from gripscale.questions.compare.comparison import save_reference
+from gripscale.questions.answer.answer import answer
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.report import source
 from gripscale.report.elements import Element, Text
@@ -40,8 +40,8 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     (place / "friction.csv").write_text(MEASURED)
     text = CASE.replace("../elsewhere/", "") + '[measured]\nfriction = "friction.csv"\n'
     (place / "case.toml").write_text(text)
-    results = run_case(read_case_file(place / "case.toml"), output=place / "out")
-    save_reference(results, place / "out")
+    run = run_case(read_case_file(place / "case.toml"), output=place / "out")
+    answer(run.case).save(place / "out" / "answer.nc")
     return place / "out"
 
 

@@ -82,7 +82,7 @@ def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
     results = run_case(file, output=tmp_path / "results")
     load = results.load
     own = predict(
-        results.rubber.rubber,
+        results.rubber,
         results.surface.sines,
         pressure=load.pressure,
         speed=load.speed,
@@ -155,7 +155,7 @@ def test_sweeps_at_several_temperatures_make_the_rubber(tmp_path: Path) -> None:
     sweeps_file(tmp_path)
     text = BASE.replace(NAMED, 'file = "sweeps.csv"\nreference_temperature = "20 C"')
     results = read_case(written(tmp_path, text + TEMPERATURE))
-    rubber = results.rubber.rubber
+    rubber = results.rubber
     assert rubber.shift is not None
     assert float(rubber.shift.log_a(313.15, 293.15)) == pytest.approx(-8 * 20 / 140, abs=0.02)
     assert results.rubber.superposition is not None

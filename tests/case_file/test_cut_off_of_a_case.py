@@ -124,7 +124,7 @@ def test_fit_surface_takes_the_same_words(case: Path) -> None:
 
 
 def test_a_study_varies_lengths_and_rules_side_by_side(case: Path, tmp_path: Path) -> None:
-    study = Study(case, vary={"cut_off": "1 mm,instrument,rms_slope 0.4"}, model="chain")
+    study = Study(read_case(case), vary={"cut_off": "1 mm,instrument,rms_slope 0.4"}, model="chain")
     found = study.run(tmp_path / "study", workers=1)
     names = ["0.001 m", "instrument", "rms slope 0.4 of the surface"]
     assert found.cut_off.values.tolist() == names
@@ -148,8 +148,8 @@ def write(case: Path, end: str) -> Path:
 
 
 def test_numbers_are_still_an_axis_of_numbers(case: Path) -> None:
-    assert Study(case, vary={"cut_off": "0.5 mm:1 mm:log3"}).axes[0].numeric
+    assert Study(read_case(case), vary={"cut_off": "0.5 mm:1 mm:log3"}).axes[0].numeric
     with pytest.raises(gs.InputError, match="varies cut_off by numbers; got instrument"):
-        compare_over(case, {"cut_off": "instrument,1 mm"})
+        compare_over(read_case(case), {"cut_off": "instrument,1 mm"})
     with pytest.raises(gs.InputError, match="cut_off = 'dust': expected a length"):
-        Study(case, vary={"cut_off": "dust"})
+        Study(read_case(case), vary={"cut_off": "dust"})

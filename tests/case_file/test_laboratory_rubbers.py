@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import MeasuredRubber, RubberSource, prepare_rubber, validate
+from gripscale.case_file import RubberSource, prepare_rubber, validate
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import WLF
+from gripscale.rubber.measured_rubber import MeasuredRubber
 
 SHIFT = {"kind": "wlf", "c1": 8.86, "c2": "101.6 K"}
 SOLID = gs.Rubber(3e6, [2e6, 20e6, 200e6], [1e-1, 1e-3, 1e-5], reference_temperature=293.15,

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import prepare_surface, read_case_file
+from gripscale.case_file import prepare_surface, read_case, read_case_file
+from gripscale.case_file.named_inputs import read_surface
 from gripscale.chain import Chain
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.charts.write import surface_figures
@@ -17,7 +18,6 @@ from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact
 from gripscale.model import Load
 from gripscale.questions.inputs.page import surface_lines
-from gripscale.questions.vary.inputs import contents, surface_of
 from gripscale.theory import HalfPlane
 from tests.half_space.rough_cases import ZENER, isotropic_heights
 
@@ -114,15 +114,15 @@ def test_a_result_depends_on_the_map_and_on_nothing_else(case):
     ]
     assert keys[0] == keys[1] != keys[2]
     file = case()
-    before = contents(file)
+    before = read_case(file).key
     np.savetxt(file.resolve("road.txt"), 2e3 * road().T)
-    assert contents(file) != before
+    assert read_case(file).key != before
 
 
 def test_a_study_varies_the_map(case, tmp_path):
     file = case("form = 2")
     np.savetxt(tmp_path / "other.txt", 2e3 * road().T)
-    other = surface_of("other.txt", file).measured.map
+    other = read_surface("other.txt", file).measured.map
     own = prepared(file).measured.map
     assert np.nanstd(other.z) == pytest.approx(2.0 * np.nanstd(own.z), rel=0.02)
     assert other.step == own.step

@@ -39,9 +39,7 @@ def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFix
 def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None:
     case.write_text(case.read_text() + "[chain]\npressure_classes = 2\n")
     results = run_case(case)
-    alone = case_chain(read_case_file(case)).predict(
-        results.rubber.rubber, results.surface, results.load
-    )
+    alone = case_chain(read_case_file(case)).predict(results.rubber, results.surface, results.load)
     assert results.dynamic is not None
     assert results.dynamic.friction == alone.total_friction
     assert results.dynamic.to_dataset().sizes["pressure_class"] == 2
@@ -50,7 +48,7 @@ def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None
 def test_files_are_written_where_they_are_wanted(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gripscale.case_file.run.SAVE_EVERY", 0.0)
+    monkeypatch.setattr("gripscale.questions.chain.run.SAVE_EVERY", 0.0)
     target = tmp_path / "out"
     seen: list[tuple[str, int, int]] = []
 

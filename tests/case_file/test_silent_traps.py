@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 
 from gripscale.case_file import CaseFile, read_case_file
+from gripscale.case_file.named_inputs import read_named_inputs, read_rubber, read_surface
 from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
@@ -25,13 +26,12 @@ from gripscale.questions import (
     compare_over,
     compare_surfaces,
 )
+from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.answer.reliance import no_answer
-from gripscale.questions.compare.comparison import reference
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.questions.vary.inputs import rubber_notes, surface_note, surface_of
 from gripscale.report import write_report
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
@@ -251,7 +251,7 @@ def test_an_answer_on_plates_is_none_to_rely_on() -> None:
 
 
 def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path: Path) -> None:
-    direct = reference(read_case(write(tmp_path, dma=dma_text(60.0, "0.2"))))
+    direct = answer(read_case(write(tmp_path, dma=dma_text(60.0, "0.2")))).data
     assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
 
 
@@ -260,17 +260,22 @@ def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any
     misread = dma_text(60.0, "0.2")
     file = write(tmp_path, dma=misread if "speed" in vary else DMA)
     (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
-    study = Study(file, vary=vary, model="chain").run(tmp_path / "study", workers=1)
+    named = read_named_inputs(vary, file)
+    study = Study(read_case(file), named, model="chain").run(tmp_path / "study", workers=1)
     assert study.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
 
 
 def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
     misread = write(tmp_path, dma=dma_text(60.0, "0.2"))
-    ladder = compare_case(misread, rungs=["direct"]).data
-    roads = compare_surfaces(misread, {"a": "case", "b": "case"}, tmp_path / "roads", samples=None)
+    ladder = compare_case(read_case(misread), rungs=["direct"]).data
+    roads = compare_surfaces(
+        read_case(misread), {"a": "case", "b": "case"}, tmp_path / "roads", samples=None
+    )
     (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
     rubbers = {"right": "case", "misread": "other.txt"}
-    compounds = compare_compounds(write(tmp_path), rubbers, tmp_path / "rubbers", uncertainty=False)
+    compounds = compare_compounds(
+        read_case(write(tmp_path)), rubbers, tmp_path / "rubbers", uncertainty=False
+    )
     for data in (ladder, roads.data, compounds.data):
         assert data.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
 
@@ -293,12 +298,12 @@ def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
 def test_an_answer_under_an_impossible_load_is_none_to_rely_on(
     tmp_path: Path, stated: str, wrong: str, words: str
 ) -> None:
-    direct = reference(read_case(write(tmp_path, case=CASE.replace(stated, wrong))))
+    direct = answer(read_case(write(tmp_path, case=CASE.replace(stated, wrong)))).data
     assert no_answer(direct).startswith(f"none to rely on. {words}: is its unit right?")
 
 
 def test_the_answer_of_the_case_without_a_trap_stands(tmp_path: Path) -> None:
-    direct = reference(read_case(write(tmp_path)))
+    direct = answer(read_case(write(tmp_path))).data
     assert direct is not None
     assert INPUT_DOUBTS not in direct.attrs
 
@@ -355,9 +360,11 @@ def test_commands_and_their_pages_say_the_doubts_of_a_run(
 
 def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) -> None:
     file = write(tmp_path, case=f'{CASE}[solver]\nmodel = "half_plane"\npoints = 64\n')
-    study = Study(file, vary={"speed": "1,1e6"}, model="chain").run(tmp_path / "study", workers=1)
+    study = Study(read_case(file), vary={"speed": "1,1e6"}, model="chain").run(
+        tmp_path / "study", workers=1
+    )
     assert study.attrs[INPUT_DOUBTS].startswith("Speed = 1e+06 m/s is not between")
-    over = compare_over(file, {"speed": "1,1e6"}, rungs=["persson"]).data
+    over = compare_over(read_case(file), {"speed": "1,1e6"}, rungs=["persson"]).data
     assert over.attrs[INPUT_DOUBTS] == study.attrs[INPUT_DOUBTS]
 
 
@@ -366,11 +373,11 @@ def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:
     file = write(tmp_path, case=crop)
     (tmp_path / "other.txt").write_text(road_text(ROUGH.z[::-1]), encoding="utf-8")
     for name, length in (("road.txt", 0.1), ("other.txt", 0.2)):
-        measured = surface_of(name, file).measured
+        measured = read_surface(name, file).measured
         assert measured is not None
         assert measured.cleaned[0].length == pytest.approx(length, abs=1e-9)
-    assert surface_note("road.txt", file) == ""
-    assert surface_note("other.txt", file) == (
+    assert read_surface("road.txt", file).note == ""
+    assert read_surface("other.txt", file).note == (
         "other.txt: read with scales, smallest_wavelength, spike_slope of the case, but not crop, "
         "which belongs to the road of the case"
     )
@@ -379,7 +386,7 @@ def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path: Path) -> None:
 def test_an_answer_ends_where_the_heights_do_whatever_the_cut_off(tmp_path: Path) -> None:
     file = write(tmp_path, case=CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "0.02 mm"'))
     results = read_case(file)
-    direct = reference(results, tmp_path)
+    direct = answer(results, folder=tmp_path).data
     assert "roughness down to 0.2 mm" in " ".join(answer_lines(direct))  # two steps
     warnings = case_notices(direct, InputRecord(record.inputs(results)))
     assert warnings[0].text.startswith("The cut-off of the case is 0.02 mm, but the heights hold")
@@ -389,13 +396,15 @@ def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Pa
     file = write(tmp_path)
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
     (tmp_path / "warm.txt").write_text(f"T = 40 °C\n{DMA}", encoding="utf-8")
-    assert "its moduli are assumed to be those at 20 °C" in rubber_notes(["other.txt"], file)[0]
-    assert rubber_notes(["warm.txt"], file) == ()
+    assert "its moduli are assumed to be those at 20 °C" in read_rubber("other.txt", file).note
+    assert read_rubber("warm.txt", file).note == ""
 
 
 def test_a_sensitivity_doubts_a_foreign_rubber_without_a_temperature(tmp_path: Path) -> None:
     file = write(tmp_path)
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
-    case_sensitivity(file, folder=tmp_path, vary={"rubber": ["case", "other.txt"]}, model="chain")
+    case_sensitivity(
+        read_case(file), folder=tmp_path, vary={"rubber": ["case", "other.txt"]}, model="chain"
+    )
     warnings = case_notices(None, InputRecord.of_file(tmp_path / "sensitivity.nc"))
     assert warnings[0].text.startswith("other.txt: the file states no temperature")

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.case_file import prepare_conditions, read_case_file
+from gripscale.case_file import prepare_conditions, read_case, read_case_file
 from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
@@ -104,22 +104,22 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     assert isinstance(conditions.shear_stress, GaussianStress)
     assert vars(conditions.shear_stress) == pytest.approx(vars(fitted), rel=1e-5)
     # with its own area term in the case, the fit is the same
-    again = calibrate_case(written, model="chain", folder=target)
+    again = calibrate_case(read_case(written), model="chain", folder=target)
     assert again.law == fitted
 
 
 def test_the_surface_decides_what_predicts(case: Path, inputs: Path) -> None:
-    assert default_model(read_case_file(case)) == "chain"
+    assert default_model(read_case(case)) == "chain"
     measured = inputs / "of_a_profile.toml"
     measured.write_text('[surface]\nfiles = ["road.txt"]\nscales = 3\n', encoding="utf-8")
     text = case.read_text(encoding="utf-8")
     rest = text[text.index("[rubber]") :]
     measured.write_text(measured.read_text(encoding="utf-8") + rest, encoding="utf-8")
     file = read_case_file(measured)
-    assert default_model(file) == "direct"
-    assert default_model(file, {"speed": (0.1, 1.0), "surface": ("case",)}) == "direct"
-    assert default_model(file, {"surface": ("case", str(case))}) == "chain"
-    assert default_model(file, {"waves": (2, 3)}) == "chain"
+    assert default_model(read_case(file)) == "direct"
+    assert default_model(read_case(file), {"speed": (0.1, 1.0), "surface": ("case",)}) == "direct"
+    assert default_model(read_case(file), {"surface": ("case", str(case))}) == "chain"
+    assert default_model(read_case(file), {"waves": (2, 3)}) == "chain"
 
 
 def test_the_page_names_the_command_that_makes_it_again(
@@ -170,7 +170,7 @@ def test_what_needs_no_prediction_is_refused_before_any(case: Path, tmp_path: Pa
         ({"law": "constant", "hold_out": "temperature"}, "needs the temperature of every point"),
     ):
         with pytest.raises(InputError, match=sentence):
-            calibrate_case(short, model="chain", on_task=pytest.fail, **options)
+            calibrate_case(read_case(short), model="chain", on_task=pytest.fail, **options)
 
 
 def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:
@@ -181,7 +181,7 @@ def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:
     too_fast.write_text("speed,friction\n0.1,0.9\n1e9,0.9\n1,0.9\n")
     strict.write_text(text.replace("synthetic_friction.csv", str(too_fast)))
     with pytest.raises(ExtrapolationError):
-        calibrate_case(strict, model="chain", law="constant")
+        calibrate_case(read_case(strict), model="chain", law="constant")
 
 
 @pytest.mark.parametrize(

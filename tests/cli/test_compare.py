@@ -22,12 +22,17 @@ from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
-from gripscale.questions import compare_case, compare_over, solve_reference
+from gripscale.questions import compare_case, compare_over
+from gripscale.questions.answer.answer import FILE
+from gripscale.questions.answer.direct_contact import (
+    direct_contact_totals,
+    solve_direct_contact,
+)
 from gripscale.questions.answer.samples import curve_at
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import comparison_axis_figure, comparison_figure
 from gripscale.questions.compare.charts_of_ladder import rows_of
-from gripscale.questions.compare.comparison import FILE, VARIED, reference_totals
+from gripscale.questions.compare.comparison import VARIED
 from gripscale.questions.compare.page import comparison_table, judgement, remarks
 from gripscale.report.pages import page_of
 from gripscale.report.source import Compared
@@ -141,7 +146,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     load = {"pressure": 3e5, "speed": 0.3}
     smallest = float(results.surface.sines.wavelength[-1])
     alone = gs.solve_rough_contact(
-        results.rubber.rubber, measured.profiles[0][1], smallest_wavelength=smallest, **load
+        results.rubber, measured.profiles[0][1], smallest_wavelength=smallest, **load
     )
     direct = made.samples.sel(rung="direct").isel(sample=0)
     for name in (
@@ -157,7 +162,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     friction = curve_at("friction", octaves.wavelength.values, *curve)
     assert friction == pytest.approx(octaves.running_friction.values)
     chain = gs.predict(
-        results.rubber.rubber,
+        results.rubber,
         results.surface.sines,
         footprint=0.1,
         solver="half_plane",
@@ -165,7 +170,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
         **load,
     )
     assert means.sel(rung="chain_half_plane") == chain.friction
-    quick = solve_reference(results)
+    quick = solve_direct_contact(results)
     assert quick is not None
     # Estimated errors of 10 % and 2 %.
     assert float(quick.friction.mean()) == pytest.approx(float(means.sel(rung="direct")), rel=0.12)
@@ -183,19 +188,19 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
     assert measured is not None
     load = {"pressure": 3e5, "speed": 0.3}
     alone = gs.solve_rough_contact(
-        results.rubber.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
+        results.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
     )
     assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-9)
     upper = compare_case(results, rungs=["chain_upper"]).data.squeeze("rung")
     own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
-    chain = gs.predict(results.rubber.rubber, results.surface.sines, **load, **own)
+    chain = gs.predict(results.rubber, results.surface.sines, **load, **own)
     assert float(upper.total_friction) == pytest.approx(chain.friction, rel=1e-6)
     assert float(upper.total_contact_fraction) == pytest.approx(chain.contact_fraction, rel=1e-6)
     case.write_text(case.read_text() + "[chain]\npressure_classes = 4\n")
-    rungs = compare_case(case, rungs=["waves"]).data
+    rungs = compare_case(read_case(case), rungs=["waves"]).data
     assert rungs.rung.values.tolist() == ["chain_half_plane", "sines"]
     own |= {"points": 128, "pressure_classes": 4}
-    chain = gs.predict(results.rubber.rubber, results.surface.sines, **load, **own)
+    chain = gs.predict(results.rubber, results.surface.sines, **load, **own)
     assert rungs.total_friction.sel(rung="chain_half_plane") == chain.friction
 
 
@@ -215,7 +220,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     }
     data = netcdf.load(tmp_path / "out" / "over_speed.nc")
     assert data.total_friction.dims == ("speed", "rung")
-    alone = compare_case(inputs / "case.toml", rungs=["direct"]).data.isel(rung=0)
+    alone = compare_case(read_case(inputs / "case.toml"), rungs=["direct"]).data.isel(rung=0)
     assert data.total_friction.sel(speed=0.3, rung="direct") == alone.total_friction
     friction = comparison_axis_figure(data).axes[1]
     lines = [line.get_ydata() for line in friction.lines if len(line.get_ydata()) == 2]
@@ -262,14 +267,14 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     )
     case.write_text(case.read_text().replace("scales = 3", "scales = 6"))  # below the cut-off
     (case.parent / "mu.csv").write_text(MEASURED)
-    made = compare_case(case, rungs=["theory"])
+    made = compare_case(read_case(case), rungs=["theory"])
     assert made.measured is not None
     assert [rung.name for rung in made.rungs] == ["persson", "klueppel_heinrich"]
     theory = made.data.sel(rung="klueppel_heinrich")
     results = read_case(case)
     assert results.surface.measured is not None
     alone = gs.theory.klueppel_heinrich(
-        results.rubber.rubber,
+        results.rubber,
         results.surface.measured.cleaned,
         pressure=3e5,
         speed=0.3,
@@ -285,7 +290,7 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND)
     results = read_case(case)
-    assert solve_reference(results) is None
+    assert solve_direct_contact(results) is None
     rungs = compare_case(results, seeds=1).rungs
     assert [rung.name for rung in rungs] == ["chain_half_plane", "sines"]
 
@@ -293,7 +298,7 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
 def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND.replace("speed = 0.3", "speed = 0.0"))
-    data = compare_case(case, seeds=2).to_dataset()
+    data = compare_case(read_case(case), seeds=2).to_dataset()
     assert data.attrs["display_units"] == json.dumps(read_case_file(case).units)
     assert (data.total_friction == 0.0).all()
     assert np.isnan(data.friction_uncertainty).all()
@@ -313,7 +318,9 @@ def test_what_was_measured_is_refused_before_anything_is_solved(
     (tmp_path / "mu.csv").write_text("speed [m/s],friction\n0.1,none\n")
     options: dict[str, Any] = {"rungs": ["chain_half_plane"], "on_task": pytest.fail}
     with pytest.raises(FileError, match=r"mu\.csv"):
-        compare_case(case, **options) if vary is None else compare_over(case, vary, **options)
+        compare_case(read_case(case), **options) if vary is None else compare_over(
+            read_case(case), vary, **options
+        )
 
 
 def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) -> None:
@@ -324,7 +331,9 @@ def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) ->
 
 
 def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
-    made = compare_case(inputs / "case.toml", seeds=1, rungs=["chain_half_plane", "direct"])
+    made = compare_case(
+        read_case(inputs / "case.toml"), seeds=1, rungs=["chain_half_plane", "direct"]
+    )
     direct = made.rungs[1]
     second = made.samples.isel(sample=[0])
     second["prediction_status"] = second.prediction_status.where(False, "tolerance not met")
@@ -349,10 +358,10 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     result = shell("run", inputs / "case.toml", "--output", tmp_path)
     assert result.exit_code == 0, result.output
     results = read_case(inputs / "case.toml")
-    direct = solve_reference(results)
+    direct = solve_direct_contact(results)
     assert direct is not None
     chain = gs.predict(
-        results.rubber.rubber,
+        results.rubber,
         results.surface.sines,
         pressure=3e5,
         speed=0.3,
@@ -361,7 +370,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
         points=128,
     )
     stored = netcdf.load(tmp_path / FILE)
-    xr.testing.assert_identical(stored, reference_totals(direct, results, results.load))
+    xr.testing.assert_identical(stored, direct_contact_totals(direct, results, results.load))
     first, second = judgement(PredictionView(chain.to_dataset()), stored)
     words = " ".join(result.stdout.split())
     assert first in words

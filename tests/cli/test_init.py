@@ -56,7 +56,7 @@ def test_every_example_is_commented_has_its_sources_and_can_be_prepared(
     assert text.startswith("# ")
     results = read_case(written[0])
     assert results.doubts() == []  # else its answer is none to rely on
-    assert len(results.surface.sines) == results.file.case.surface.scales
+    assert len(results.surface.sines) == read_case_file(written[0]).case.surface.scales
     assert {"static", "keys`"} <= set(text.split())
 
 

@@ -161,7 +161,7 @@ def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
     save_every: float,
     on_disk: list[int],
 ) -> None:
-    monkeypatch.setattr("gripscale.case_file.run.SAVE_EVERY", save_every)
+    monkeypatch.setattr("gripscale.questions.chain.run.SAVE_EVERY", save_every)
     case = changed("static = true", "static = false")
     seen: list[int] = []
 

@@ -63,7 +63,7 @@ def test_effects_in_chain_and_direct_contact(case: Path) -> None:
     results = read_case(case)
     models = results.chain, DirectContact(tolerance=None, conditions=results.conditions)
     for model in models:
-        found = effects(model, results.rubber.rubber, results.surface, results.load)
+        found = effects(model, results.rubber, results.surface, results.load)
         assert found.effect.values.tolist()[1:-1] == ["no temperature", "no softening", "no heat"]
         assert (found.prediction_status == "converged").all()
         # each of the three softens this rubber: it touches more than without it

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 import xarray as xr
 
+from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
 from gripscale.experiment import Progress, solve
 from gripscale.questions import Study
@@ -38,7 +39,7 @@ def workers() -> Iterator[Any]:
 def test_worker_killed_on_the_way_changes_nothing(
     workers: Any, case: Path, tmp_path: Path, same_bytes: Compare
 ) -> None:
-    study = Study(case, {"speed": "0.003:3:log6"})
+    study = Study(read_case(case), {"speed": "0.003:3:log6"})
     told: list[Progress] = []
     with distributed.Client(workers) as client:
         before = set(client.run(os.getpid).values())
@@ -60,7 +61,7 @@ def test_worker_killed_on_the_way_changes_nothing(
 def test_scheduler_is_reached_by_its_address(
     workers: Any, case: Path, tmp_path: Path, same_bytes: Compare, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    study = Study(case, {"speed": [0.01, 1.0]})
+    study = Study(read_case(case), {"speed": [0.01, 1.0]})
     result = study.run(tmp_path / "cluster", client=workers.scheduler_address)
     same_bytes(result, study.run(tmp_path / "threads"))
     monkeypatch.setattr(solve, "software", lambda: "gripscale 0.1.0 other")
@@ -72,7 +73,7 @@ def test_no_scheduler_is_one_sentence_and_leaves_nothing_behind(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(solve, "CONNECT_SECONDS", 0.2)
-    study = Study(case, {"speed": [1.0]})
+    study = Study(read_case(case), {"speed": [1.0]})
     for address in ("tcp://127.0.0.1:9", "nonsense"):
         with pytest.raises(InputError, match=f"that answers, such as .* got '{address}'"):
             study.run(tmp_path, client=address)
@@ -87,4 +88,4 @@ def test_dask_missing_is_one_sentence(
 
     monkeypatch.setattr(solve.importlib, "import_module", missing)
     with pytest.raises(InputError, match=r"pip install gripscale\[cluster\]"):
-        Study(case, {"speed": [1.0]}).run(tmp_path, client="local")
+        Study(read_case(case), {"speed": [1.0]}).run(tmp_path, client="local")

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
+from gripscale.case_file.named_inputs import read_rubber, read_surface
 from gripscale.case_file.prepare import case_surface
 from gripscale.core.errors import FileError, InputError
-from gripscale.questions.vary.inputs import rubber_of, surface_of
+from gripscale.questions.vary.inputs import measured_rubber_of, surface_of
 from tests.samples import EXAMPLES, write_road
 
 EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"
@@ -89,7 +90,7 @@ def test_cut_off_and_top_height_fraction_are_fitted_anew(measured: Path) -> None
 
 
 def test_what_needs_a_measured_surface_says_so() -> None:
-    by_hand = surface_of(STACK, read_case_file(EXAMPLE))
+    by_hand = surface_of(STACK, read_case(EXAMPLE))
     with pytest.raises(InputError, match="cut_off varies waves that were fitted"):
         by_hand.varied(cut_off=1e-3)
     with pytest.raises(InputError, match=r"top_height_fraction varies a measured .*; got sine"):
@@ -100,34 +101,36 @@ def test_what_needs_a_measured_surface_says_so() -> None:
 
 def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
     file = read_case_file(measured)
-    own = surface_of("case", file)
-    beside = surface_of("other.txt", file)
-    other_case = surface_of(str(measured), file)
+    case = read_case(file)
+    own = surface_of("case", case)
+    beside = read_surface("other.txt", file)
+    other_case = read_surface(str(measured), file)
     for road in (beside, other_case):
         np.testing.assert_array_equal(road.sines.wavelength, own.sines.wavelength)
     assert beside.source.endswith("other.txt")
-    made = surface_of("synthetic_dense_asphalt", file)
+    made = surface_of("synthetic_dense_asphalt", case)
     assert "synthetic, self-affine, H = 0.8" in made.source
     assert made.sines.wavelength[-1] == pytest.approx(0.1e-3)
     assert len(made.varied(waves=4).sines) == 4
     with pytest.raises(FileError, match="nor one of case, synthetic_dense_asphalt"):
-        surface_of("synthetic_lawn", file)
+        read_surface("synthetic_lawn", file)
 
 
 def test_rubber_by_name_file_or_case(measured: Path) -> None:
     file = read_case_file(measured)
-    assert rubber_of("case", file).bulk_modulus == 1.5e9
-    assert rubber_of("styrene_butadiene", file) == rubber_of("case", file)
-    tread = rubber_of(str(EXAMPLE), file)
+    own = read_case(file).rubber
+    assert own.bulk_modulus == 1.5e9
+    assert read_rubber("styrene_butadiene", file).rubber == own
+    tread = read_rubber(str(EXAMPLE), file).rubber
     assert tread.bulk_modulus == 2e9
     dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
-    again = rubber_of(str(dma), file)
+    again = read_rubber(str(dma), file).rubber
     assert again.bulk_modulus == 1.5e9
     np.testing.assert_array_equal(again.relaxation_times, tread.relaxation_times)
 
 
 def test_waves_by_hand_are_cut_off() -> None:
-    road = surface_of(STACK, read_case_file(EXAMPLE))
+    road = surface_of(STACK, read_case(EXAMPLE))
     assert len(road.varied(waves=2).sines) == 2
     assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
     assert road.varied(factors=(3.0, 2.0)).sines.residual is None
@@ -139,7 +142,7 @@ def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path)
     file = read_case_file(measured)
     dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
     for value in ("case", "styrene_butadiene", str(dma)):
-        rubber = rubber_of(value, file)
+        rubber = measured_rubber_of(read_rubber(value, file), read_case(file)).rubber
         assert rubber.strain_energy == gs.rubber.Yeoh(-0.1, 0.02)
         assert rubber.bulk_modulus == 1.5e9
 
@@ -167,7 +170,8 @@ def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measure
     )
     measured.write_text(measured.read_text().replace('name = "styrene_butadiene"\n', stated))
     file = read_case_file(measured)
-    own, *others = (rubber_of(name, file) for name in ("case", "bare.txt", "told.txt", "tan.txt"))
+    own = read_case(file).rubber
+    others = [read_rubber(name, file).rubber for name in ("bare.txt", "told.txt", "tan.txt")]
     for other in others:
         at = [other.complex_modulus(w) / own.complex_modulus(w) for w in (1.0, 1e4)]
         np.testing.assert_allclose(at, 1.0, rtol=1e-6)

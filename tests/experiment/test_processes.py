@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 
 from gripscale import Rubber
+from gripscale.case_file import read_case
 from gripscale.core.errors import ConvergenceError
 from gripscale.experiment.solve import PROCESSES, solve_all
 from gripscale.experiment.task import Store, Task
@@ -24,7 +25,7 @@ Compare = Callable[[xr.Dataset, xr.Dataset], None]
 
 
 def test_processes_change_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
-    study = Study(case, {"speed": [0.01, 0.1, 1.0]})
+    study = Study(read_case(case), {"speed": [0.01, 0.1, 1.0]})
     result = study.run(tmp_path / "processes", client=PROCESSES, workers=2)
     same_bytes(result, study.run(tmp_path / "threads"))
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
+from gripscale.case_file import read_case
 from gripscale.core.parallel import Stopped
 from gripscale.experiment import Progress, Store
 from gripscale.questions import Study
@@ -50,7 +51,7 @@ def test_killed_study_resumes_to_the_same_bytes(
     assert not (tmp_path / "killed" / "study.nc").exists()
 
     told: list[Progress] = []
-    study = Study(case, VARY)
+    study = Study(read_case(case), VARY)
     resumed = study.run(tmp_path / "killed", on_task=told.append)
     assert sum(t.stored for t in told) == len(kept)
     assert sum(not t.stored for t in told) == 6 - len(kept)
@@ -65,7 +66,7 @@ def test_killed_study_resumes_to_the_same_bytes(
 def test_damaged_file_counts_as_not_there(
     case: Path, tmp_path: Path, same_bytes: Callable[[xr.Dataset, xr.Dataset], None]
 ) -> None:
-    study = Study(case, {"speed": [0.01, 1.0]})
+    study = Study(read_case(case), {"speed": [0.01, 1.0]})
     first = study.run(tmp_path)
     store = Store(tmp_path / "predictions")
     cut, foreign = (store.path(point.task.key) for point in study.points)
@@ -82,7 +83,7 @@ def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(
     def stop(progress: Progress) -> None:
         raise KeyboardInterrupt
 
-    study = Study(case, {"speed": "0.01:1:log8"})
+    study = Study(read_case(case), {"speed": "0.01:1:log8"})
     with pytest.raises(KeyboardInterrupt):
         study.run(tmp_path, workers=2, on_task=stop)
     assert not [t for t in threading.enumerate() if t.name.startswith("gripscale")]
@@ -92,7 +93,7 @@ def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(
 
 
 def test_chain_is_given_up_between_two_waves(case: Path) -> None:
-    task = Study(case, {"speed": [0.1]}).points[0].task
+    task = Study(read_case(case), {"speed": [0.1]}).points[0].task
     stop = threading.Event()
     assert task.solve(stop)[1].sizes["scale"] == 3
     stop.set()

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import FACES, fingerprint
@@ -49,7 +49,7 @@ WAVES = gs.SineStack(wavelength=[10e-3, 3e-3, 1e-3], amplitude=[0.8e-3, 0.25e-3,
 
 def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> None:
     told: list[Progress] = []
-    study = Study(case, {"speed": SPEEDS, "pressure": "1 bar, 3 bar"}, static=True)
+    study = Study(read_case(case), {"speed": SPEEDS, "pressure": "1 bar, 3 bar"}, static=True)
     result = study.run(tmp_path / "out", on_task=told.append)
     alone = gs.predict(
         gs.rubber.styrene_butadiene(),
@@ -73,7 +73,7 @@ def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> 
 
 
 def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:
-    result = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    result = Study(read_case(case), {"speed": SPEEDS}).run(tmp_path)
     kept = netcdf.load(tmp_path / "study.nc")
     assert kept.identical(result)
     assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
@@ -86,18 +86,18 @@ def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path:
 
 
 def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
-    result = Study(case, {"speed": [0.0, 0.3]}, static=True).run(tmp_path)
+    result = Study(read_case(case), {"speed": [0.0, 0.3]}, static=True).run(tmp_path)
     assert result.total_contact_fraction[0] == result.static_total_contact_fraction
     assert len(list((tmp_path / "predictions").iterdir())) == 2
 
 
 def test_number_of_workers_changes_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
-    study = Study(case, {"speed": "0.01:1:log4"})
+    study = Study(read_case(case), {"speed": "0.01:1:log4"})
     same_bytes(study.run(tmp_path / "one", workers=1), study.run(tmp_path / "three", workers=3))
 
 
 def test_factors_keep_the_first_wave_and_waves_are_counted(case: Path, tmp_path: Path) -> None:
-    study = Study(case, {"factors": "3/3.2,10/10", "rubber": ["styrene_butadiene"]})
+    study = Study(read_case(case), {"factors": "3/3.2,10/10", "rubber": ["styrene_butadiene"]})
     result = study.run(tmp_path)
     assert result.wavelength.dims == ("factors", "rubber", "scale")
     np.testing.assert_allclose(
@@ -111,7 +111,7 @@ def test_factors_keep_the_first_wave_and_waves_are_counted(case: Path, tmp_path:
 
 
 def test_pressure_classes_are_of_the_chain(case: Path, tmp_path: Path) -> None:
-    study = Study(case, {"pressure_classes": [1, 4]})
+    study = Study(read_case(case), {"pressure_classes": [1, 4]})
     result = study.run(tmp_path)
     assert isinstance(study.model, Chain)
     for count in (1, 4):
@@ -121,13 +121,13 @@ def test_pressure_classes_are_of_the_chain(case: Path, tmp_path: Path) -> None:
         assert result.total_friction.sel(pressure_classes=count) == alone.total_friction
     assert len(set(result.total_friction.values)) == 2
     with pytest.raises(InputError, match="belongs to the chain; got the model direct"):
-        Study(case, {"pressure_classes": [1, 4]}, model=DirectContact())
+        Study(read_case(case), {"pressure_classes": [1, 4]}, model=DirectContact())
 
 
 def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:
     elastic = gs.Rubber(equilibrium_modulus=5e6)
     study = Study(
-        case,
+        read_case(case),
         {"rubber": {"elastic": elastic, "lossy": "styrene_butadiene"}, "surface": {"hand": WAVES}},
     )
     result = study.run(tmp_path)
@@ -149,7 +149,7 @@ def test_what_is_not_there_is_one_sentence(
     case: Path, vary: dict[str, Any], error: type[Exception], words: str
 ) -> None:
     with pytest.raises(error, match=words):
-        _ = Study(case, vary).points
+        _ = Study(read_case(case), vary).points
 
 
 def test_failed_chain_is_a_status(
@@ -160,7 +160,7 @@ def test_failed_chain_is_a_status(
         Status.ITERATION_LIMIT,
         lambda problem: problem.load.speed >= 1.0 and problem.profile.wavelength <= 5e-3,
     )
-    result = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    result = Study(read_case(case), {"speed": SPEEDS}).run(tmp_path)
     assert result.prediction_status[0] == "converged"
     assert "wave 2 of 3" in str(result.prediction_status[1].item())
     assert "iteration limit" in str(result.prediction_status[1].item())
@@ -169,7 +169,7 @@ def test_failed_chain_is_a_status(
     assert np.isnan(result.running_friction[1]).values.tolist() == [False, True, True]
     assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]
     told: list[Progress] = []
-    Study(case, {"speed": SPEEDS}).run(tmp_path, on_task=told.append)
+    Study(read_case(case), {"speed": SPEEDS}).run(tmp_path, on_task=told.append)
     assert [t.stored for t in told] == [True, True]
 
 
@@ -244,42 +244,42 @@ def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_p
 def test_study_found_whole_is_not_prepared_again(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = Study(case, {"speed": SPEEDS}).run(tmp_path)
+    first = Study(read_case(case), {"speed": SPEEDS}).run(tmp_path)
     monkeypatch.setattr(
         study_module.inputs, "prepared_rubber_of", lambda *_: pytest.fail("fitted again")
     )
-    again = Study(case, {"speed": SPEEDS})
+    again = Study(read_case(case), {"speed": SPEEDS})
     assert again.run(tmp_path).identical(first)
     assert json.loads(first.attrs["description"])[1].endswith("2 different predictions")
     for other in (
-        Study(case, {"speed": [0.01, 2.0]}),
-        Study(case, {"speed": SPEEDS}, static=True),
-        Study(case, {"speed": SPEEDS}, model=Chain(HalfPlane())),
+        Study(read_case(case), {"speed": [0.01, 2.0]}),
+        Study(read_case(case), {"speed": SPEEDS}, static=True),
+        Study(read_case(case), {"speed": SPEEDS}, model=Chain(HalfPlane())),
     ):
         assert other.stored(tmp_path) is None
     case.write_text(case.read_text() + "# a word more\n")
-    assert Study(case, {"speed": SPEEDS}).stored(tmp_path) is None
+    assert Study(read_case(case), {"speed": SPEEDS}).stored(tmp_path) is None
 
 
 def test_study_is_not_the_same_with_another_file_behind_it(case: Path, tmp_path: Path) -> None:
     curve = tmp_path / "dma.txt"
     rows = [f"{10.0**n} {5 + n} {0.5 + 0.1 * n}" for n in range(6)]
     curve.write_text("\n".join(["f (Hz) E' (MPa) E'' (MPa)", *rows]) + "\n")
-    key = Study(case, {"rubber": str(curve)}).key
-    assert Study(case, {"rubber": str(curve)}).key == key
+    key = Study(read_case(case), {"rubber": str(curve)}).key
+    assert Study(read_case(case), {"rubber": str(curve)}).key == key
     curve.write_text(curve.read_text().replace("7 0.7", "7 0.8"))
-    assert Study(case, {"rubber": str(curve)}).key != key
+    assert Study(read_case(case), {"rubber": str(curve)}).key != key
 
 
 def test_changed_material_is_never_served_old_results(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    study = Study(case, {"speed": [1.0]})
+    study = Study(read_case(case), {"speed": [1.0]})
     study.run(tmp_path)
     for module in (task, study_module):
         monkeypatch.setattr(module, "software", lambda: "gripscale with another material.py")
     told: list[Progress] = []
-    Study(case, {"speed": [1.0]}).run(tmp_path, on_task=told.append)
+    Study(read_case(case), {"speed": [1.0]}).run(tmp_path, on_task=told.append)
     assert [t.stored for t in told] == [False]
 
 
@@ -287,7 +287,9 @@ def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path
     one = gs.Rubber(5e6, [5e6], [2e-3])
     two = gs.Rubber(5e6, [2.5e6, 2.5e6], [2e-3, 2e-3])
     far = gs.Rubber(5e6, [5e6, 1.0], [2e-3, 2e-1])
-    study = Study(case, {"rubber": {"one": one, "two": two, "far": far}, "speed": [0.01, 0.3]})
+    study = Study(
+        read_case(case), {"rubber": {"one": one, "two": two, "far": far}, "speed": [0.01, 0.3]}
+    )
     result = study.run(tmp_path)
     by_decade = result.friction_by_decade
     np.testing.assert_allclose(by_decade.decade, [1e-3, 1e-2, 1e-1])

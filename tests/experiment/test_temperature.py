@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
+from gripscale.case_file import read_case
 from gripscale.chain import Chain
 from gripscale.conditions import Conditions, ConstantStress
 from gripscale.core.errors import InputError
@@ -71,7 +72,7 @@ def direct(**conditions: Any) -> DirectContact:
 
 def over(case: Path, model: Any, temperatures: Any = COMMON, speeds: str = SPEEDS) -> xr.Dataset:
     vary = {"speed": speeds, "temperature": temperatures}
-    return Study(case, vary, model=model).run(case.parent / "study")
+    return Study(read_case(case), vary, model=model).run(case.parent / "study")
 
 
 @pytest.mark.parametrize("model", ["chain", direct()], ids=["chain", "direct"])
@@ -104,15 +105,15 @@ def test_heat_makes_them_several(case: Path, model: Any) -> None:
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
     """As a comparison does: a model that knows no conditions is given the shifted rubber."""
     case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
-    result = Study(case, {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
-    compared = compare_case(case, rungs=["persson"]).to_dataset()
+    result = Study(read_case(case), {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
+    compared = compare_case(read_case(case), rungs=["persson"]).to_dataset()
     friction = float(compared.total_friction.sel(rung="persson"))
     assert float(result.total_friction[0]) == pytest.approx(friction, rel=1e-12)
 
 
 def test_a_vertical_shift_makes_them_several(case: Path) -> None:
     """Moduli a tenth higher where it is warmer: another contact at the same a_T v."""
-    study = Study(case, {"speed": "0.1:10:log5", "temperature": COMMON[1:]})
+    study = Study(read_case(case), {"speed": "0.1:10:log5", "temperature": COMMON[1:]})
     table = ShiftTable(
         temperature=[COMMON[1], COMMON[2], 293.15],
         horizontal=[2.5, 2.0, 0.0],
@@ -138,7 +139,7 @@ def test_too_few_speeds_are_said_to_be_so(case: Path) -> None:
 
 
 def test_temperature_is_that_of_the_conditions(case: Path, tmp_path: Path) -> None:
-    study = Study(case, {"temperature": ["40 C"]}, model="chain")
+    study = Study(read_case(case), {"temperature": ["40 C"]}, model="chain")
     result = study.run(tmp_path / "out")
     task = study.points[0].task
     model = Chain(HalfPlane(points=256), conditions=Conditions(temperature=313.15))
@@ -161,7 +162,7 @@ def test_friction_by_decade_is_of_the_rubber_as_warm_as_it_is(case: Path) -> Non
 
 
 def test_temperatures_beyond_the_shift_are_flagged_and_said(case: Path, tmp_path: Path) -> None:
-    result = Study(case, {"temperature": "10 C, 60 C"}).run(tmp_path / "out")
+    result = Study(read_case(case), {"temperature": "10 C, 60 C"}).run(tmp_path / "out")
     assert result.rubber_temperature_extrapolated.values.tolist() == [False, True]
     assert shift_sentence(result).startswith("60 °C lies beyond the temperatures")
     text = as_text(study_table(result))
@@ -172,7 +173,7 @@ def test_temperatures_beyond_the_shift_are_flagged_and_said(case: Path, tmp_path
 def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
     conditions = Conditions(temperature=313.15, heat=HEAT, shear_stress=ConstantStress(2e6))
     model = Chain(HalfPlane(points=256), conditions=conditions)
-    study = Study(case, {"effects": "all, no_heat, no temperature, none"}, model=model)
+    study = Study(read_case(case), {"effects": "all, no_heat, no temperature, none"}, model=model)
     result = study.run(tmp_path / "out")
     task = study.points[0].task
     assert result.effects.values.tolist() == ["all", "no heat", "no temperature", "none"]
@@ -203,13 +204,13 @@ def test_what_cannot_be_varied_is_one_sentence(
     case: Path, vary: dict[str, Any], model: Any, words: str
 ) -> None:
     with pytest.raises(InputError, match=words) as caught:
-        _ = Study(case, vary, model=model).points
+        _ = Study(read_case(case), vary, model=model).points
     assert "\n" not in str(caught.value)
 
 
 def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -> None:
     case.write_text(case.read_text().replace("shift =", "# shift ="))
-    study = Study(case, {"temperature": "20 C, 40 C"})
+    study = Study(read_case(case), {"temperature": "20 C, 40 C"})
     with pytest.raises(InputError, match="time-temperature shift is missing"):
         study.run(case.parent / "out")
     assert not list((case.parent / "out").rglob("*.nc"))

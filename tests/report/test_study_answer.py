@@ -11,7 +11,7 @@ import xarray as xr
 from gripscale.case_file import read_case
 from gripscale.io.table import significant
 from gripscale.questions import Study, with_best_estimate
-from gripscale.questions.compare.comparison import reference
+from gripscale.questions.answer.answer import answer
 from gripscale.questions.vary.charts import totals_figure
 from gripscale.questions.vary.page import study_table
 from gripscale.questions.vary.page_of_answer import course, study_cards, study_lines
@@ -38,14 +38,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def solved(folder: Path) -> xr.Dataset:
     """Two speeds, one of them that of the case, and the rubber at rest."""
-    study = Study(folder / "case.toml", {"speed": [0.3, 3.0]}, static=True)
+    study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, static=True)
     assert study.model.name == "direct"
     return with_best_estimate(study.run(folder / "study"))
 
 
 def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
     """Number, factors and interval: the same model on the same surface."""
-    run = reference(read_case(folder / "case.toml"))
+    run = answer(read_case(folder / "case.toml")).data
     assert run is not None
     point = solved.isel(speed=0)
     for name in ("friction", "contact_fraction"):
@@ -106,13 +106,13 @@ def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) ->
 
 
 def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
-    study = Study(folder / "case.toml", {"speed": [0.3, 3.0]}, model="chain")
+    study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, model="chain")
     data = study.run(folder / "chain")
     assert with_best_estimate(data) is data
     answer, _, advice = study_lines(data)
     assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
     assert "`--model direct`" in advice
-    waves = Study(folder / "case.toml", {"waves": [2, 3]})
+    waves = Study(read_case(folder / "case.toml"), {"waves": [2, 3]})
     assert waves.model.name == "chain"
     *_, advice = study_lines(waves.run(folder / "waves"))
     assert "belongs to the chain only" in advice

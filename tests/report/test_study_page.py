@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from bokeh.models import ColumnDataSource
 
+from gripscale.case_file import read_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.io import netcdf
 from gripscale.questions import Study
@@ -102,7 +103,7 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("solved")
     case = EXAMPLES / "measured_friction" / "case.toml"
     vary = {"speed": "0.01:10:log7", "pressure": "1 bar,3 bar"}
-    return netcdf.save(Study(case, vary).run(folder), folder / "study.nc")
+    return netcdf.save(Study(read_case(case), vary).run(folder), folder / "study.nc")
 
 
 def test_axes_are_rounded(solved: Path, tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case
 from gripscale.questions.design.compound_design import TOLERANCE
 from gripscale.questions.design.compound_limits import changed
 from gripscale.questions.design.compound_search import best_change, design_problem, nearest_design
@@ -23,7 +23,7 @@ TRIED, SOLVED = 2000, 100
 
 @pytest.mark.verification
 def test_no_admissible_change_of_the_shipped_rubber_is_better():
-    problem = design_problem(read_case_file(EXAMPLES / "road_and_tread" / "case.toml"))
+    problem = design_problem(read_case(EXAMPLES / "road_and_tread" / "case.toml"))
     friction, limits = problem.friction, problem.admissible(1.0)
     today, slope_today = friction.log_friction(np.ones(1 + problem.rubber.moduli.size))
     optimum = best_change(friction, limits, np.ones(slope_today.size))
@@ -53,7 +53,7 @@ def test_no_admissible_change_of_the_shipped_rubber_is_better():
 
 @pytest.mark.verification
 def test_the_promised_friction_is_that_of_finer_contacts():
-    problem = design_problem(read_case_file(EXAMPLES / "road_and_tread" / "case.toml"))
+    problem = design_problem(read_case(EXAMPLES / "road_and_tread" / "case.toml"))
     friction, limits = problem.friction, problem.admissible(1.0)
     start = np.ones(1 + problem.rubber.moduli.size)
     design = nearest_design(friction, limits, best_change(friction, limits, start))

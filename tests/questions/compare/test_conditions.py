@@ -103,7 +103,10 @@ def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
 
 def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparison) -> None:
     over = compare_over(
-        made.file, {"temperature": "20 C,35 C"}, seeds=1, rungs=["chain_half_plane", "persson"]
+        read_case(made.file),
+        {"temperature": "20 C,35 C"},
+        seeds=1,
+        rungs=["chain_half_plane", "persson"],
     )
     data = over.to_dataset()
     warm = data.sel(temperature=308.15)

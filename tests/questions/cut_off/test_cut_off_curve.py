@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gripscale import surface as surfaces
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface, prepare_rubber
 from gripscale.core.errors import InputError
 from gripscale.half_space import HurstExponent, contact_by_cut_off
@@ -37,7 +37,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def data(folder):
-    return case_cut_off(folder / "below.toml", folder=folder / "result")
+    return case_cut_off(read_case(folder / "below.toml"), folder=folder / "result")
 
 
 def test_the_curves_are_those_of_the_lines(folder, data):
@@ -70,7 +70,7 @@ def test_rules_lie_on_the_curve(data):
 def test_a_second_call_solves_nothing(folder, data):
     stored = []
     again = case_cut_off(
-        folder / "below.toml",
+        read_case(folder / "below.toml"),
         folder=folder / "result",
         on_task=lambda progress: stored.append(progress.stored),
     )
@@ -160,5 +160,5 @@ def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
     finer = '\n[below_measurement]\ndown_to = "0.4 mm"\nfiner = { file = "road.txt" }\n'
     path.write_text((folder / "case.toml").read_text() + finer)
     assert ("below_measurement", "road.txt") in read_case_file(path).case.named_files()
-    result = case_cut_off(path, folder=folder / "finer", down_to=0.4e-3)
+    result = case_cut_off(read_case(path), folder=folder / "finer", down_to=0.4e-3)
     assert bool(result.curve_measured[-1])

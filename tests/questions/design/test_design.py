@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface
 from gripscale.charts.paper import png
 from gripscale.core.errors import InputError
@@ -63,7 +63,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def data(case):
-    return design_compound(case, case.parent / "stored", levels=LEVELS)
+    return design_compound(read_case(case), case.parent / "stored", levels=LEVELS)
 
 
 def test_the_page_begins_with_the_gain(case, data):
@@ -78,7 +78,7 @@ def test_the_page_begins_with_the_gain(case, data):
 
 def test_the_promised_friction_is_that_of_a_new_contact(case, data):
     """Solved by the model of every comparison, from nothing, for the rubber of the files."""
-    surface = compound_design.design_problem(read_case_file(case)).friction.parts[0].surface
+    surface = compound_design.design_problem(read_case(case)).friction.parts[0].surface
     for at in range(data.sizes["point"]):
         rubber = designed_rubber(data, at)
         contact = gs.solve_rough_contact(
@@ -112,7 +112,7 @@ def test_the_curve_rises_and_keeps_to_its_levels(data):
 
 
 def test_a_compound_has_no_gain_over_itself(case):
-    friction = design_problem(read_case_file(case)).friction
+    friction = design_problem(read_case(case)).friction
     same = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
     result = gain(friction, same, same)
     assert (result.log_ratio, result.sampling, result.grid) == (0.0, 0.0, 0.0)
@@ -121,7 +121,7 @@ def test_a_compound_has_no_gain_over_itself(case):
 
 def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
     """Less than those of both frictions, of which most cancels, and that of one against none."""
-    friction = design_problem(read_case_file(case)).friction
+    friction = design_problem(read_case(case)).friction
     ratio = np.linspace(1.3, 0.8, 1 + friction.rubber.moduli.size)
     before = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
     after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05, warm=False)
@@ -140,12 +140,12 @@ def test_stored_points_are_not_solved_again(case, data, monkeypatch):
         raise AssertionError("solved again")
 
     monkeypatch.setattr(compound_design, "best_change", refuse)
-    again = design_compound(case, case.parent / "stored", levels=LEVELS)
+    again = design_compound(read_case(case), case.parent / "stored", levels=LEVELS)
     np.testing.assert_array_equal(again.modulus_ratio.values, data.modulus_ratio.values)
     np.testing.assert_array_equal(again.gain.values, data.gain.values)
     wider = CompoundLimits(largest_factor=3.0)
     with pytest.raises(AssertionError, match="solved again"):
-        design_compound(case, case.parent / "stored", levels=LEVELS, limits=wider)
+        design_compound(read_case(case), case.parent / "stored", levels=LEVELS, limits=wider)
 
 
 def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
@@ -159,7 +159,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
         return replace(design, ratio=0.9 + 0.1 * design.ratio)
 
     monkeypatch.setattr(compound_design, "nearest_design", worse)
-    worst = design_compound(case, tmp_path, levels=LEVELS)
+    worst = design_compound(read_case(case), tmp_path, levels=LEVELS)
     assert worst.rolling_level.values.tolist() == [0.8]
     assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
     lines = list(design_lines(worst))
@@ -167,7 +167,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
     assert "still with friction" not in lines[0]  # the only point is not said twice
     assert "more rolling resistance than -20 % gives no more friction" in lines[1]
     monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
-    again = design_compound(case, tmp_path, levels=LEVELS)
+    again = design_compound(read_case(case), tmp_path, levels=LEVELS)
     np.testing.assert_array_equal(again.gain.values, worst.gain.values)
 
 
@@ -194,7 +194,9 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
 
     short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
     others = {"short": replace(SHIFTED_RUBBER, shift=short)}
-    data = design_compound(tmp_path / "case.toml", tmp_path, levels=[1.0], rubbers=others)
+    data = design_compound(
+        read_case(tmp_path / "case.toml"), tmp_path, levels=[1.0], rubbers=others
+    )
     assert np.isfinite(data.compound_gain).all()
     assert np.isnan(data.compound_rolling_ratio).all()
     assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
@@ -210,7 +212,7 @@ def test_wider_limits_are_worth_what_is_said(case, data, tmp_path, which):
         CompoundLimits(factor, 1.1 * per_decade),
         CompoundLimits(factor, per_decade, (replace(stiff, low=0.9 / 1.1, high=1.21),)),
     ][which]
-    more = design_compound(case, tmp_path, levels=[1.0], limits=wider)
+    more = design_compound(read_case(case), tmp_path, levels=[1.0], limits=wider)
     gained = np.log1p(float(more.gain_optimum[0])) - np.log1p(float(point.gain_optimum))
     # second order in a tenth; the contacts of the search start elsewhere
     assert float(point.limit_worth[which]) == pytest.approx(gained, rel=0.2, abs=1e-3)
@@ -264,16 +266,16 @@ def test_frequencies_on_the_figure_keep_apart(data):
 
 def test_no_level_within_the_limits_is_refused(case, tmp_path):
     with pytest.raises(InputError, match="levels must include one above"):
-        design_compound(case, tmp_path, levels=[0.01])
+        design_compound(read_case(case), tmp_path, levels=[0.01])
     stiff = CompoundLimits(points=[PointLimit("storage_modulus", 3.0, 4.0)])
     with pytest.raises(InputError, match="limits must leave an admissible change"):
-        design_compound(case, tmp_path, limits=stiff)
+        design_compound(read_case(case), tmp_path, limits=stiff)
 
 
 def test_limits_that_today_does_not_keep(case, tmp_path):
     """A stiffer rubber is asked for: the search starts outside and ends inside."""
     stiff = CompoundLimits(points=[PointLimit("storage_modulus", 1.2, 1.5)])
-    data = design_compound(case, tmp_path, levels=[1.0], limits=stiff)
+    data = design_compound(read_case(case), tmp_path, levels=[1.0], limits=stiff)
     assert float(data.limited_ratio[0, 0]) == pytest.approx(1.2, abs=1e-4)
 
 
@@ -284,7 +286,7 @@ def test_a_goal_on_another_road(case, tmp_path):
     smooth = str(tmp_path / "smooth.txt")
     goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road=smooth)]
     free = CompoundLimits(points=[])
-    data = design_compound(case, tmp_path, goals=goals, levels=[1.0], limits=free)
+    data = design_compound(read_case(case), tmp_path, goals=goals, levels=[1.0], limits=free)
     assert data.sizes["limit"] == 0
     rough, mild = data.today_friction.values
     assert mild < 0.8 * rough

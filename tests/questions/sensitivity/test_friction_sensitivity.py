@@ -132,7 +132,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def data(folder: Path) -> xr.Dataset:
     """Derivatives at three temperatures."""
     return case_sensitivity(
-        folder / "case.toml", folder=folder / "result", vary={"temperature": "0 C,20 C,60 C"}
+        read_case(folder / "case.toml"),
+        folder=folder / "result",
+        vary={"temperature": "0 C,20 C,60 C"},
     )
 
 
@@ -159,7 +161,7 @@ def test_rules_of_thumb_are_shifted_to_the_master_curve(data):
 def test_a_second_run_solves_nothing(folder, data):
     solved = []
     again = case_sensitivity(
-        folder / "case.toml",
+        read_case(folder / "case.toml"),
         folder=folder / "result",
         vary={"temperature": "0 C,20 C,60 C"},
         on_task=lambda progress: solved.append(progress.stored),
@@ -190,22 +192,24 @@ def test_the_chain_answers_the_same_command(folder, shell: Shell):
     )
     data = netcdf.load(out / FILE)
     case = read_case(folder / "case.toml")
-    solved = case.chain.solve(case.rubber.rubber, case.surface.sines, case.load)
+    solved = case.chain.solve(case.rubber, case.surface.sines, case.load)
     expected = gs.sensitivity(solved, bands_per_decade=4, reference_temperature=293.15)
     for name in (LOSS, STORAGE, "d_ln_contact_fraction_d_ln_pressure"):
         assert data[name].values.ravel() == pytest.approx(expected[name].values.ravel(), abs=1e-12)
     assert CARRIED.format("friction") not in data
     with pytest.raises(InputError, match="with_feedback must be False for the chain"):
         case_sensitivity(
-            folder / "case.toml", folder=out / "other", model="chain", with_feedback=True
+            read_case(folder / "case.toml"), folder=out / "other", model="chain", with_feedback=True
         )
 
 
 def test_refuses_rest_and_other_inputs(folder, tmp_path):
     with pytest.raises(InputError, match="speed must be above zero"):
-        case_sensitivity(folder / "case.toml", folder=tmp_path, vary={"speed": [0.0, 1.0]})
+        case_sensitivity(
+            read_case(folder / "case.toml"), folder=tmp_path, vary={"speed": [0.0, 1.0]}
+        )
     with pytest.raises(InputError, match="vary must be"):
-        case_sensitivity(folder / "case.toml", folder=tmp_path, vary={"waves": [2, 3]})
+        case_sensitivity(read_case(folder / "case.toml"), folder=tmp_path, vary={"waves": [2, 3]})
 
 
 def test_says_why_there_is_no_answer(data):

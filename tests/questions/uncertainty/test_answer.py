@@ -12,7 +12,7 @@ from scipy import stats
 
 from gripscale.case_file import read_case
 from gripscale.questions import Uncertainty, propagate
-from gripscale.questions.compare.comparison import reference
+from gripscale.questions.answer.answer import answer
 from gripscale.questions.uncertainty.page import answer_parts, part_tables
 from gripscale.questions.uncertainty.sampled_answer import REST, RUN, sampled_error
 from gripscale.questions.uncertainty.sources import SOURCES
@@ -30,7 +30,7 @@ def only(*sources: str, **ranges: object) -> Uncertainty:
 @pytest.fixture(scope="module")
 def of_run(folder: Path) -> xr.Dataset:
     """Return the answer of `gripscale run`."""
-    data = reference(read_case(folder / "case.toml"))
+    data = answer(read_case(folder / "case.toml")).data
     assert data is not None
     return data
 
@@ -43,7 +43,7 @@ def sigma(data: xr.Dataset, name: str, label: str) -> float:
 @pytest.fixture(scope="module")
 def certain(folder: Path) -> xr.Dataset:
     """Return an uncertainty whose one source has one value, that of the case."""
-    return propagate(folder / "case.toml", only(bulk_modulus="2 GPa"), samples=10)
+    return propagate(read_case(folder / "case.toml"), only(bulk_modulus="2 GPa"), samples=10)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
@@ -63,7 +63,9 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
 def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> None:
     """With what it rests on, which comes from the waves and not from the measurement."""
     choice = only(bulk_modulus="2 GPa")
-    data = propagate(folder / "case.toml", choice, samples=10, client="processes", workers=2)
+    data = propagate(
+        read_case(folder / "case.toml"), choice, samples=10, client="processes", workers=2
+    )
     assert float(certain.best_steep_share) >= 0.0
     for name in map(str, certain.data_vars):
         if name.startswith("best_"):
@@ -73,7 +75,7 @@ def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> No
 @pytest.fixture(scope="module")
 def blocks(folder: Path) -> xr.Dataset:
     """Return an uncertainty of the stretch of road alone."""
-    return propagate(folder / "case.toml", only("profile"), samples=40)
+    return propagate(read_case(folder / "case.toml"), only("profile"), samples=40)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
@@ -104,7 +106,7 @@ def drawn_labels(data: xr.Dataset) -> list[str]:
 
 def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: xr.Dataset) -> None:
     """A cut-off known to an octave about the case: the mean square of ln y about the case."""
-    data = propagate(folder / "case.toml", only("cut_off"), samples=20)
+    data = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=20)
     friction = data.friction_from_dissipation.values[0]
     case = float(data.friction_from_dissipation_case[0])
     square = float(np.mean(np.log(friction / case) ** 2))
@@ -124,7 +126,7 @@ def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: x
 def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
     folder: Path, certain: xr.Dataset
 ) -> None:
-    data = propagate(folder / "case.toml", only("grid"), samples=20)
+    data = propagate(read_case(folder / "case.toml"), only("grid"), samples=20)
     error = data.friction_grid_error.values[0]
     assert np.ptp(error) == pytest.approx(0.0, abs=1e-12), "one contact, solved once"
     solved = float(data.friction_case[0])
@@ -142,9 +144,11 @@ def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
 
 
 def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
-    data = propagate(folder / "case.toml", only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]})
+    data = propagate(
+        read_case(folder / "case.toml"), only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]}
+    )
     assert data.best_friction.dims == ("speed",)
-    single = propagate(folder / "case.toml", only("cut_off"), samples=10)
+    single = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
     for name in ("best_friction", "best_contact_fraction_half_width"):
         assert float(data[name].sel(speed=0.3)) == pytest.approx(float(single[name]))
     first = next(iter(answer_parts(data)))
@@ -155,7 +159,7 @@ def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
 def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
     folder: Path, of_run: xr.Dataset
 ) -> None:
-    data = propagate(folder / "case.toml", only("cut_off"), samples=10, models=["chain"])
+    data = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10, models=["chain"])
     for name in QUANTITIES:
         width = float(of_run[f"best_{name}_half_width"])
         assert float(data[f"best_{name}_half_width"]) == pytest.approx(width, rel=1e-9)
@@ -167,7 +171,7 @@ def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
     case.write_text(
         case_text("", solver='model = "half_plane"').replace("[surface]\n\n", THREE_WAVES)
     )
-    data = propagate(case, samples=12)
+    data = propagate(read_case(case), samples=12)
     assert data.model.values.tolist() == ["chain"]
     assert float(data.best_friction) == float(data.friction_from_dissipation_case[0])
     logs = np.log(data.friction_from_dissipation.values[0] / float(data.best_friction))
@@ -202,7 +206,7 @@ def test_parts_add_up_and_have_their_freedom() -> None:
 def test_derivatives_stand_beside_samples(folder: Path) -> None:
     """A cut-off within a few per cent is a small change: both give the same error."""
     ends = "0.98 mm:1.02 mm"
-    data = propagate(folder / "case.toml", only(cut_off=ends), samples=40)
+    data = propagate(read_case(folder / "case.toml"), only(cut_off=ends), samples=40)
     label = SOURCES["cut_off"].label
     carried = float(data.friction_first_order.sel(source="cut_off"))
     assert carried > 0.0

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gripscale.case_file.results import CaseResults
 
+from gripscale.case import Case
 from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
 from gripscale.questions import Uncertainty, first_order
@@ -34,13 +34,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def results(folder: Path) -> CaseResults:
+def results(folder: Path) -> Case:
     """The case, prepared."""
     return read_case(folder / "case.toml")
 
 
 @pytest.fixture(scope="module")
-def tangent(results: CaseResults) -> Tangent:
+def tangent(results: Case) -> Tangent:
     """Its direct contact with the derivatives."""
     return Tangent.of(results)
 

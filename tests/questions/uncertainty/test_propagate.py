@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from gripscale.case_file import read_case
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.core.units import display_unit_of
@@ -32,7 +33,7 @@ def run(folder, tmp_path_factory):
     target = tmp_path_factory.mktemp("run")
     told: dict[bool, int] = {}
     data = propagate(
-        folder / "case.toml",
+        read_case(folder / "case.toml"),
         QUICK,
         samples=12,
         models=["chain"],
@@ -65,7 +66,7 @@ def test_a_second_run_solves_nothing(folder, run):
     data, target, _ = run
     told: dict[bool, int] = {}
     again = propagate(
-        folder / "case.toml",
+        read_case(folder / "case.toml"),
         QUICK,
         samples=12,
         models=["chain"],
@@ -84,7 +85,7 @@ def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
     sorted((tmp_path / "predictions").iterdir())[3].unlink()
     told: dict[bool, int] = {}
     again = propagate(
-        folder / "case.toml",
+        read_case(folder / "case.toml"),
         QUICK,
         samples=12,
         models=["chain"],
@@ -107,7 +108,9 @@ def half_failing(folder, tmp_path_factory):
     """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
     target = tmp_path_factory.mktemp("half")
     choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
-    data = propagate(folder / "case.toml", choice, samples=10, models=["chain"], folder=target)
+    data = propagate(
+        read_case(folder / "case.toml"), choice, samples=10, models=["chain"], folder=target
+    )
     return data, target
 
 
@@ -143,7 +146,7 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     text = (folder / "case.toml").read_text()
     case.write_text(text.replace("static = false", 'static = false\nload_time = "infinite"'))
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
-    data = propagate(case, choice, samples=10, models=["chain"])
+    data = propagate(read_case(case), choice, samples=10, models=["chain"])
     assert int(data.failed.sum()) == 5
     assert "equilibrium_modulus [Pa] must be" in str(failures(data))
     assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
@@ -155,7 +158,12 @@ def over_speed(folder, tmp_path_factory):
     target = tmp_path_factory.mktemp("over_speed")
     speeds = {"speed": [0.1, 0.3]}
     data = propagate(
-        folder / "case.toml", QUICK, samples=12, models=["chain"], vary=speeds, folder=target
+        read_case(folder / "case.toml"),
+        QUICK,
+        samples=12,
+        models=["chain"],
+        vary=speeds,
+        folder=target,
     )
     return data, target
 
@@ -169,7 +177,9 @@ def test_the_same_samples_at_each_speed(run, over_speed):
 
 def test_both_models_have_the_same_draws(folder):
     choice = Uncertainty(without=["waves", "load_time", "cleaning"])
-    data = propagate(folder / "case.toml", choice, samples=10, models=["chain", "direct"])
+    data = propagate(
+        read_case(folder / "case.toml"), choice, samples=10, models=["chain", "direct"]
+    )
     assert list(data.model.values) == ["chain", "direct"]
     assert int(data.failed.sum()) == 0
     assert data.sizes["sample"] == 10
@@ -187,7 +197,7 @@ def test_both_models_have_the_same_draws(folder):
 )
 def test_what_cannot_be_asked_for(folder, wrong, said):
     with pytest.raises(InputError, match=said):
-        propagate(folder / "case.toml", QUICK, **wrong)
+        propagate(read_case(folder / "case.toml"), QUICK, **wrong)
 
 
 def called(*arguments):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.tables import RangesTable, SourceName
 from gripscale.cli import app
 from gripscale.core.errors import InputError
@@ -71,7 +71,9 @@ def test_a_standard_error_reaches_both_models(folder) -> None:
     """Contact grows nearly in proportion to the load, of waves and of the whole profile."""
     others = [name for name in SOURCES if name != "pressure"]
     choice = Uncertainty(others, {"pressure": "10 %"})
-    data = propagate(folder / "case.toml", choice, samples=10, models=["chain", "direct"])
+    data = propagate(
+        read_case(folder / "case.toml"), choice, samples=10, models=["chain", "direct"]
+    )
     for model in data.model.values:
         part = data.sel(model=model)
         logs = np.log(part.contact_fraction / part.contact_fraction_case)
@@ -96,11 +98,12 @@ def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, folder) -> None
     choice = Uncertainty(
         ["waves", "modulus"], {"cut_off": "0.9 mm:1.2 mm", "load_time": "0.5,1,2"}, 0.06
     )
-    asked = propagate(folder / "case.toml", choice, samples=12, seed=3, models=["chain"])
-    stated = propagate(case(STATED))
+    asked = propagate(read_case(folder / "case.toml"), choice, samples=12, seed=3, models=["chain"])
+    stated = propagate(read_case(case(STATED)))
     assert stated.friction.values.tolist() == asked.friction.values.tolist()
     assert (
-        propagate(case(STATED), seed=4).friction.values.tolist() != asked.friction.values.tolist()
+        propagate(read_case(case(STATED)), seed=4).friction.values.tolist()
+        != asked.friction.values.tolist()
     )
 
 

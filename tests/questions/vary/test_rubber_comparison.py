@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import significant
@@ -80,7 +81,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Compounds:
         "twin": measured(1.0, 0.02),
         "lossy": measured(3.0, 0.02),
     }
-    return compare_compounds(folder / "case.toml", compounds, folder / "out")
+    return compare_compounds(read_case(folder / "case.toml"), compounds, folder / "out")
 
 
 def test_differences_add_up(made: Compounds) -> None:
@@ -146,7 +147,7 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     text = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
     (tmp_path / "case.toml").write_text(case_text(text, solver=HALF_PLANE))
     compounds = {"one": measured(1.0, 0.02), "lossy": measured(3.0, 0.02)}
-    data = compare_compounds(tmp_path / "case.toml", compounds, tmp_path / "out").data
+    data = compare_compounds(read_case(tmp_path / "case.toml"), compounds, tmp_path / "out").data
     np.testing.assert_allclose(
         data.friction_ratio, data.best_friction / data.best_friction.values[0], rtol=1e-12
     )
@@ -174,4 +175,4 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
 
 def test_two_to_six_compounds(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="rubbers must be 2 to 6 compounds to be compared; got 1"):
-        compare_compounds(tmp_path / "case.toml", {"one": "case"}, tmp_path)
+        compare_compounds(read_case(tmp_path / "case.toml"), {"one": "case"}, tmp_path)

@@ -10,7 +10,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale.case_file import read_case_file
+from gripscale.case_file import read_case, read_case_file
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import JUDGED_TO, DirectContact
@@ -67,7 +67,7 @@ def solves() -> list[str]:
 def made(folder: Path, solves: list[str]) -> Roads:
     surfaces = {name: str(folder / f"{name}.txt") for name in ("road", "twin", "rough")}
     return compare_surfaces(
-        folder / "case.toml",
+        read_case(folder / "case.toml"),
         surfaces,
         folder / "out",
         samples=10,
@@ -179,11 +179,11 @@ def test_the_answer_is_the_ratio_of_best_estimates_as_uncertain_as_both(made: Ro
 def test_ranges_are_of_the_drawn_blocks(folder: Path, made: Roads) -> None:
     """With half-planes as its solver the chain's range is that of its uncertainty by profiles."""
     sources = ["cleaning", "modulus", "bulk_modulus", "load_time", "cut_off", "waves"]
-    choice = gs.analysis.Uncertainty(sources)
+    choice = gs.questions.Uncertainty(sources)
     case = folder / "case.toml"
     case_of = case.with_name("fine.toml")
     case_of.write_text(case.read_text().replace("points = 64", "points = 128"))
-    told = gs.analysis.propagate(case_of, choice, samples=10, models=["chain"])
+    told = gs.questions.propagate(read_case(case_of), choice, samples=10, models=["chain"])
     ratio = told.friction_quantile.values[0, [0, -1]] / float(told.friction_case[0])
     one = made.data.sel(surface="road", model="chain")
     assert float(one.total_friction_low / one.total_friction) == pytest.approx(ratio[0])
@@ -236,7 +236,7 @@ def test_octaves_of_profiles_count_by_their_length() -> None:
 @pytest.mark.usefixtures("made")
 def test_waves_by_hand_have_no_direct_contact_and_no_range(folder: Path) -> None:
     stated = {"road": "case", "waves": gs.SineStack([5e-3, 1e-3], [2e-4, 4e-5])}
-    made = compare_surfaces(folder / "case.toml", stated, folder / "out", samples=10)
+    made = compare_surfaces(read_case(folder / "case.toml"), stated, folder / "out", samples=10)
     assert made.notes == (
         "waves, chain: no range; no profile was measured",
         "waves was not measured: no direct contact",
@@ -276,6 +276,8 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
 
 def test_two_to_six_roads(folder: Path, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="surfaces must be 2 to 6 roads to be compared; got 1"):
-        compare_surfaces(folder / "case.toml", {"one": "case"}, tmp_path)
+        compare_surfaces(read_case(folder / "case.toml"), {"one": "case"}, tmp_path)
     with pytest.raises(InputError, match="samples"):
-        compare_surfaces(folder / "case.toml", {"a": "case", "b": "case"}, tmp_path, samples=3)
+        compare_surfaces(
+            read_case(folder / "case.toml"), {"a": "case", "b": "case"}, tmp_path, samples=3
+        )
