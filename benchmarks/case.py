@@ -41,7 +41,7 @@ class Chain:
     """One chain of the case and the same waves, with the same inputs, on the fine mesh."""
 
     name: str
-    default: gs.Prediction
+    default: gs.ChainResult
     fine: list[gs.ScaleResult]
     seconds: list[float]
 
@@ -84,7 +84,7 @@ def _chains() -> list[Chain]:
     chains = []
     for title, speed in case.planned():
         marks = [time.perf_counter()]
-        default = gs.predict(
+        default = gs.solve_chain(
             case.rubber.rubber,
             case.surface.sines,
             pressure=load.pressure,

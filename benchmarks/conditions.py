@@ -53,8 +53,8 @@ def run(console: Console) -> None:
     load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
     line = road(POINTS)
 
-    def chain(conditions: Conditions | None) -> gs.Prediction:
-        return gs.predict(rubber, case.surface.sines, conditions=conditions, **load)
+    def chain(conditions: Conditions | None) -> gs.ChainResult:
+        return gs.solve_chain(rubber, case.surface.sines, conditions=conditions, **load)
 
     def direct(conditions: Conditions | None) -> Any:
         return gs.solve_rough_contact(rubber, line, conditions=conditions, **load)
@@ -106,7 +106,7 @@ def _timed(solve: Solve, conditions: Conditions | None) -> tuple[Any, float]:
 
 def _passes(found: Any) -> tuple[int, int]:
     """Return the passes on the mesh or grid asked for, and on the coarse one."""
-    if isinstance(found, gs.Prediction):
+    if isinstance(found, gs.ChainResult):
         details = found.scales[0].details
         return details.get("passes", 1), details.get("coarse_passes", 0)
     return found.passes, found.coarse_passes

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.wave import FiniteStrainBlock, Mesh, WaveResult
+from gripscale.wave import FiniteStrainBlock, Mesh, ScaleResult
 from tests.verification.families import Family
 
 
@@ -33,7 +33,7 @@ class Cost:
 HEADINGS = ["CPU s", "peak MB", "Newton"]
 
 
-def solve_all(family: Family, mesh: Mesh) -> tuple[list[WaveResult], Cost]:
+def solve_all(family: Family, mesh: Mesh) -> tuple[list[ScaleResult], Cost]:
     """Solve every wave of a family; all must converge."""
     results, seconds = [], []
     reset_peak()

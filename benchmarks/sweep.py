@@ -42,7 +42,7 @@ def _case() -> tuple[gs.Rubber, gs.SineStack, dict[str, object]]:
 def _one_wave(console: Console) -> None:
     """Every wave of the case: cold, and warm from the same wave at a speed 10 % lower."""
     rubber, sines, loads = _case()
-    here = gs.predict(rubber, sines, speed=0.3, **loads)
+    here = gs.solve_chain(rubber, sines, speed=0.3, **loads)
     rows = []
     for title, options in (
         (f"tolerance {TOLERANCE:g}", {"tolerance": TOLERANCE}),
@@ -123,8 +123,8 @@ def _chain_and_sweep(console: Console) -> None:
         (f"tolerance {TOLERANCE:g}", {"tolerance": TOLERANCE}),
     ):
 
-        def chain(speed: float, options: dict[str, float] = options) -> gs.Prediction:
-            return gs.predict(rubber, sines, speed=speed, **loads, **options)
+        def chain(speed: float, options: dict[str, float] = options) -> gs.ChainResult:
+            return gs.solve_chain(rubber, sines, speed=speed, **loads, **options)
 
         for label, speeds, aim in (
             ("eight waves, 0.3 m/s", [0.3], CHAIN_AIM),

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.chain import Chain, Prediction, predict
+from gripscale.chain import Chain, ChainResult, solve_chain
 from gripscale.questions import Study
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine
 
@@ -34,7 +34,7 @@ class Warming:
     per_decade: float = 20.0
     """Kelvin that make all relaxation times ten times shorter."""
 
-    def __call__(self, wave: Sine, so_far: Prediction) -> gs.Rubber:
+    def __call__(self, wave: Sine, so_far: ChainResult) -> gs.Rubber:
         """Return the rubber as it is on `wave`."""
         warmer = self.kelvin * (so_far.friction if so_far.scales else 0.0)
         times = so_far.rubber.relaxation_times * 10.0 ** (-warmer / self.per_decade)
@@ -46,8 +46,8 @@ def main(folder: str = "results/examples") -> None:
     case = read_case(CASE)
     inputs = case.rubber.rubber, case.surface.sines
     load = {"pressure": 3e5, "speed": 3.0, "footprint": 0.1}  # [Pa], [m/s], [m]
-    plain = predict(*inputs, **load, solver=COARSE)
-    warm = predict(*inputs, **load, solver=COARSE, rubber_at=Warming())
+    plain = solve_chain(*inputs, **load, solver=COARSE)
+    warm = solve_chain(*inputs, **load, solver=COARSE, rubber_at=Warming())
     for cold, hot in zip(plain.scales, warm.scales, strict=True):
         print(f"{cold.wavelength * 1e3:.0f} mm: friction {cold.friction:.4f}, {hot.friction:.4f}")
     study = Study(read_case(CASE), {"speed": [0.3, 3.0]}, model=Chain(COARSE, rubber_at=Warming()))

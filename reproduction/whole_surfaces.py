@@ -184,7 +184,7 @@ class Cases:
         solver: str = "half_plane",
     ) -> Pair:
         """Return contact fraction and friction of the waves one after the other."""
-        found = gs.predict(
+        found = gs.solve_chain(
             self.inputs.rubbers[rubber],
             sines,
             pressure=PRESSURE,

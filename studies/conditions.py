@@ -59,8 +59,8 @@ def main() -> None:
     """Print the tables."""
     rubber, sines, line = shifted_tread(), road_waves(), line_of_road(LINE)
 
-    def chain(speed: float, conditions: Conditions | None) -> gs.Prediction:
-        return gs.predict(rubber, sines, speed=speed, conditions=conditions, **LOAD)
+    def chain(speed: float, conditions: Conditions | None) -> gs.ChainResult:
+        return gs.solve_chain(rubber, sines, speed=speed, conditions=conditions, **LOAD)
 
     def direct(speed: float, conditions: Conditions | None) -> Any:
         return gs.solve_rough_contact(rubber, line, speed=speed, conditions=conditions, **LOAD)
@@ -108,7 +108,7 @@ def norm_rows(chain: Any) -> Iterator[str]:
             )
 
 
-def depth_rows(found: gs.Prediction) -> Iterator[str]:
+def depth_rows(found: gs.ChainResult) -> Iterator[str]:
     """Return the table of how deep energy is lost, in the block and by the half-plane's formula."""
     yield "| wavelength mm | mean depth of the loss / wavelength | half-plane | ratio |"
     yield "|---|---|---|---|"

@@ -26,7 +26,7 @@ from gripscale.rubber import Rubber
 from gripscale.surface import Profile
 from gripscale.wave.problem import SampledProfile
 from gripscale.wave.profile import solve_profile
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +52,7 @@ class Pair:
     """One line in the block and in the half-space."""
 
     line: Profile
-    block: WaveResult
+    block: ScaleResult
     half_space: RoughContact
 
     @property
@@ -78,7 +78,7 @@ class Pair:
         period = len(self.line) * self.line.step
         profile = SampledProfile(period, self.line.z)
         out = np.zeros((len(MODELS), len(CARRIED), lower.size))
-        models: tuple[WaveResult | RoughContact, ...] = (self.block, self.half_space)
+        models: tuple[ScaleResult | RoughContact, ...] = (self.block, self.half_space)
         for model, carried in zip(models, out, strict=True):
             inside = model.pressure > 0.0
             around = np.concatenate([model.x[-1:] - period, model.x, model.x[:1] + period])

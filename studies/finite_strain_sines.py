@@ -65,7 +65,7 @@ def main() -> None:
             pairs.correction(name) for name in ("contact_fraction", "friction_from_dissipation")
         ]
         chains = [
-            gs.predict(
+            gs.solve_chain(
                 rubber, stack, pressure=PRESSURE, speed=SPEED, footprint=FOOTPRINT, solver=solver
             )
             for solver in (gs.solve_scale, solve_half_plane)

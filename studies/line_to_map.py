@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 import gripscale as gs
+from gripscale.core.status import Status
 from gripscale.half_space.line_to_map import (
     FREEDOM,
     RatioLaw,
@@ -40,7 +41,6 @@ from gripscale.half_space.line_to_map import (
     upper_height,
 )
 from gripscale.surface import HeightMap
-from gripscale.wave import Status
 from studies.shipped import tread
 from studies.surface_families import FAMILIES, LARGEST, family_map
 

@@ -16,11 +16,12 @@ from typer.testing import Result
 
 from gripscale import Profile, Rubber, SineStack
 from gripscale.conditions import ThermalProperties
+from gripscale.core.status import Status
 from gripscale.model import Load
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import self_affine_profile
-from gripscale.wave import FiniteStrainBlock, Status, WaveProblem, WaveResult
+from gripscale.wave import FiniteStrainBlock, ScaleResult, WaveProblem
 
 ROOT = Path(__file__).parents[1]
 DOCS, EXAMPLES = ROOT / "docs", ROOT / "examples"
@@ -109,8 +110,8 @@ def fail_waves(
     solve = FiniteStrainBlock.solve
 
     def failing(
-        self: FiniteStrainBlock, problem: WaveProblem, start: WaveResult | None = None
-    ) -> WaveResult:
+        self: FiniteStrainBlock, problem: WaveProblem, start: ScaleResult | None = None
+    ) -> ScaleResult:
         result = solve(self, problem, start)
         return replace(result, status=status) if fails(problem) else result
 

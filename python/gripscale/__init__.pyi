@@ -9,8 +9,8 @@ from . import wave as wave
 from .case import BelowMeasurement as BelowMeasurement
 from .case import Case as Case
 from .case_file.prepare import read_case as read_case
-from .chain.chain import predict as predict
-from .chain.prediction import Prediction as Prediction
+from .chain.chain import solve_chain as solve_chain
+from .chain.prediction import ChainResult as ChainResult
 from .chain.sensitivity import sensitivity as sensitivity
 from .core.errors import ConvergenceError as ConvergenceError
 from .core.errors import ExtrapolationError as ExtrapolationError

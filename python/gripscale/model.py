@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.core.units import display_unit
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
-from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr

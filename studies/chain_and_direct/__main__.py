@@ -95,11 +95,11 @@ def main() -> None:
 
 def small_strain_chain(
     rubber: gs.Rubber, stack: gs.SineStack, speed: float, classes: int
-) -> gs.Prediction:
+) -> gs.ChainResult:
     """Return the chain of half-plane waves at 3 bar and a speed [m/s]."""
 
-    def solved(solver: HalfPlane) -> gs.Prediction:
-        return gs.predict(
+    def solved(solver: HalfPlane) -> gs.ChainResult:
+        return gs.solve_chain(
             rubber,
             stack,
             pressure=PRESSURE,

@@ -15,7 +15,7 @@ from gripscale.case_file import (
     read_case_file,
 )
 from gripscale.case_file.run import run_case
-from gripscale.chain import predict
+from gripscale.chain import solve_chain
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
@@ -81,7 +81,7 @@ def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
     file = read_case_file(written(tmp_path, ALL))
     results = run_case(file, output=tmp_path / "results")
     load = results.load
-    own = predict(
+    own = solve_chain(
         results.rubber,
         results.surface.sines,
         pressure=load.pressure,

@@ -13,7 +13,7 @@ from gripscale.case_file import run_case
 from gripscale.io import netcdf
 from gripscale.questions.chain.events import Event, ResultsReplaced, WaveSolved
 from gripscale.theory import HalfPlane
-from gripscale.wave import FiniteStrainBlock, WaveProblem, WaveResult
+from gripscale.wave import FiniteStrainBlock, ScaleResult, WaveProblem
 from tests.samples import HALF_PLANE, THREE_WAVES, case_text
 
 Count = Callable[[int | None], list[int]]
@@ -49,9 +49,9 @@ def solved(monkeypatch: pytest.MonkeyPatch) -> Count:
             def look(
                 self: FiniteStrainBlock,
                 problem: WaveProblem,
-                start: WaveResult | None = None,
-                solve: Callable[..., WaveResult] = solve,
-            ) -> WaveResult:
+                start: ScaleResult | None = None,
+                solve: Callable[..., ScaleResult] = solve,
+            ) -> ScaleResult:
                 if len(seen) == last:
                     raise KeyboardInterrupt
                 seen.append(len(seen))

@@ -9,15 +9,15 @@ import pytest
 import gripscale as gs
 from gripscale.case_file import case_chain, read_case, read_case_file, run_case
 from gripscale.core.errors import ExtrapolationError
+from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions.chain.events import Event, WaveSolved
-from gripscale.wave import Status
 from tests.samples import fail_waves
 
 
 def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results = run_case(case)
-    alone = gs.predict(
+    alone = gs.solve_chain(
         gs.rubber.styrene_butadiene(),
         gs.SineStack([10e-3, 3e-3], [0.8e-3, 0.25e-3]),
         pressure=3e5,
@@ -62,7 +62,7 @@ def test_files_are_written_where_they_are_wanted(
     assert seen == [("dynamic", 1, 1), ("dynamic", 2, 2), ("static", 1, 1), ("static", 2, 2)]
     tree = netcdf.load_tree(target / "dynamic.nc")
     assert set(tree.children) == {"inputs"}
-    again = gs.Prediction.from_dataset(tree.to_dataset())
+    again = gs.ChainResult.from_dataset(tree.to_dataset())
     assert results.dynamic is not None
     assert again.friction == results.dynamic.friction
     assert (target / "case.toml").read_text() == case.read_text()

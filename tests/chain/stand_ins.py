@@ -7,8 +7,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from gripscale.core.status import Status
 from gripscale.rubber import Rubber
-from gripscale.wave import Status, WaveProblem, WaveResult
+from gripscale.wave import ScaleResult, WaveProblem
 
 
 class Spring(Rubber):
@@ -31,15 +32,15 @@ class Scripted:
     frictions: list[float] = field(default_factory=lambda: [0.125, 0.25, 0.5])
     statuses: list[str] = field(default_factory=lambda: ["converged"] * 3)
     asked: list[WaveProblem] = field(default_factory=list)
-    starts: list[WaveResult | None] = field(default_factory=list)
+    starts: list[ScaleResult | None] = field(default_factory=list)
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         i = len(self.asked)
         self.asked.append(problem)
         self.starts.append(start)
         nodes = 4 + 2 * i
         wavelength, load = problem.profile.wavelength, problem.load
-        return WaveResult(
+        return ScaleResult(
             wavelength=wavelength,
             amplitude=problem.profile.amplitude,
             pressure_received=load.pressure,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.chain import ChainError, Prediction, predict
+from gripscale.chain import ChainError, ChainResult, solve_chain
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
@@ -22,7 +22,7 @@ LOAD = {"pressure": 2.0**18, "speed": 0.25, "footprint": 0.125}
 
 def test_pressure_area_and_friction_follow_equations_1_to_3() -> None:
     solver = Scripted([0.5, 0.25, 0.125])
-    result = predict(Spring(), THREE, solver=solver, **LOAD)
+    result = solve_chain(Spring(), THREE, solver=solver, **LOAD)
     assert [s.pressure_received for s in result.scales] == [2.0**18, 2.0**19, 2.0**21]
     assert result.running_contact_fraction.tolist() == [2.0**-1, 2.0**-3, 2.0**-6]
     assert result.contact_fraction == 2.0**-6
@@ -32,20 +32,20 @@ def test_pressure_area_and_friction_follow_equations_1_to_3() -> None:
 
 
 def test_pressure_times_running_area_is_the_nominal_pressure() -> None:
-    result = predict(Spring(), THREE, solver=Scripted([0.3, 0.7, 0.9]), **LOAD)
+    result = solve_chain(Spring(), THREE, solver=Scripted([0.3, 0.7, 0.9]), **LOAD)
     received = np.array([s.pressure_received for s in result.scales])
     above = np.concatenate([[1.0], result.running_contact_fraction[:-1]])
     np.testing.assert_allclose(received * above, LOAD["pressure"], rtol=1e-14)
 
 
 def test_full_contact_passes_the_pressure_on_unchanged() -> None:
-    result = predict(Spring(), THREE, solver=Scripted([1.0, 1.0, 0.5]), **LOAD)
+    result = solve_chain(Spring(), THREE, solver=Scripted([1.0, 1.0, 0.5]), **LOAD)
     assert [s.pressure_received for s in result.scales] == [LOAD["pressure"]] * 3
 
 
 def test_load_time_is_the_passage_of_the_contact_above() -> None:
     solver = Scripted([0.5, 0.25, 0.125])
-    predict(Spring(), THREE, solver=solver, **LOAD)
+    solve_chain(Spring(), THREE, solver=solver, **LOAD)
     assert [problem.load.load_time for problem in solver.asked] == [
         0.125 / 0.25,
         16e-3 * 0.5 / 0.25,
@@ -56,32 +56,32 @@ def test_load_time_is_the_passage_of_the_contact_above() -> None:
 @pytest.mark.parametrize(("stated", "used"), [(math.inf, math.inf), (2.0, 2.0)])
 def test_stated_load_time_holds_for_every_wave(stated: float, used: float) -> None:
     solver = Scripted([0.5, 0.5, 0.5])
-    predict(Spring(), THREE, solver=solver, load_time=stated, **LOAD)
+    solve_chain(Spring(), THREE, solver=solver, load_time=stated, **LOAD)
     assert [problem.load.load_time for problem in solver.asked] == [used] * 3
 
 
 @pytest.mark.parametrize("stated", ["passage", 2.0])
 def test_at_rest_the_load_lasts_for_ever(stated: float | str) -> None:
     solver = Scripted([0.5, 0.5, 0.5])
-    predict(Spring(), THREE, solver=solver, load_time=stated, **{**LOAD, "speed": 0.0})
+    solve_chain(Spring(), THREE, solver=solver, load_time=stated, **{**LOAD, "speed": 0.0})
     assert [problem.load.load_time for problem in solver.asked] == [math.inf] * 3
 
 
 def test_solver_gets_the_rubber() -> None:
     solver, rubber = Scripted([0.5, 0.5, 0.5]), Spring()
-    predict(rubber, THREE, solver=solver, **LOAD)
+    solve_chain(rubber, THREE, solver=solver, **LOAD)
     assert all(problem.rubber is rubber for problem in solver.asked)
 
 
 def test_solver_by_name_or_by_its_face_gets_the_options() -> None:
     rubber, load = Rubber(5e6, [1e6], [1e-3]), {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
     one = SineStack([10e-3], [0.8e-3])
-    block = predict(rubber, one, columns=32, rows=8, depth=2.0, **load).scales[0]
+    block = solve_chain(rubber, one, columns=32, rows=8, depth=2.0, **load).scales[0]
     assert (block.details["columns"], block.details["depth"]) == (32, 2.0)
     for solver in ("half_plane", solve_half_plane):
-        plane = predict(rubber, one, solver=solver, points=64, **load).scales[0]
+        plane = solve_chain(rubber, one, solver=solver, points=64, **load).scales[0]
         assert (plane.model, len(plane.x)) == ("half_plane", 64)
-    by_object = predict(rubber, one, solver=HalfPlane(points=64), **load)
+    by_object = solve_chain(rubber, one, solver=HalfPlane(points=64), **load)
     assert by_object.friction == plane.friction
 
 
@@ -96,32 +96,32 @@ def test_solver_by_name_or_by_its_face_gets_the_options() -> None:
 )
 def test_solver_or_option_that_is_none_is_refused(given: dict[str, object], words: str) -> None:
     with pytest.raises(InputError) as caught:
-        predict(Rubber(5e6), SineStack([10e-3], [0.8e-3]), **{**LOAD, **given})
+        solve_chain(Rubber(5e6), SineStack([10e-3], [0.8e-3]), **{**LOAD, **given})
     assert words in str(caught.value)
 
 
 def test_start_shorter_than_the_stack_starts_only_its_own_waves() -> None:
-    first = predict(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), max_scales=1, **LOAD)
+    first = solve_chain(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), max_scales=1, **LOAD)
     solver = Scripted([0.5, 0.5, 0.5])
-    predict(Spring(), THREE, solver=solver, start=first, **LOAD)
+    solve_chain(Spring(), THREE, solver=solver, start=first, **LOAD)
     assert solver.starts == [first.scales[0], None, None]
 
 
 def test_half_plane_neither_gives_nor_takes_a_start() -> None:
     rubber, one = Rubber(5e6, [1e6], [1e-3]), SineStack([10e-3], [0.8e-3])
-    plane = predict(rubber, one, solver=solve_half_plane, **LOAD)
+    plane = solve_chain(rubber, one, solver=solve_half_plane, **LOAD)
     with pytest.raises(InputError, match="start must be None: the half-plane model"):
-        predict(rubber, one, solver=solve_half_plane, start=plane, **LOAD)
+        solve_chain(rubber, one, solver=solve_half_plane, start=plane, **LOAD)
     with pytest.raises(InputError, match=r"a result of the finite-strain block .* half_plane"):
-        predict(rubber, one, start=plane, **LOAD)
+        solve_chain(rubber, one, start=plane, **LOAD)
 
 
 def test_rubber_of_a_wave_may_depend_on_what_was_solved() -> None:
-    def softer(wave: Sine, so_far: Prediction) -> Rubber:
+    def softer(wave: Sine, so_far: ChainResult) -> Rubber:
         return Rubber(4e6 / (1 + len(so_far.scales)), name=f"{wave.wavelength:g}")
 
     solver = Scripted([0.5, 0.5, 0.5])
-    result = predict(Rubber(4e6), THREE, solver=solver, rubber_at=softer, **LOAD)
+    result = solve_chain(Rubber(4e6), THREE, solver=solver, rubber_at=softer, **LOAD)
     assert [problem.rubber.name for problem in solver.asked] == ["0.016", "0.004", "0.001"]
     np.testing.assert_allclose([wave.modulus for wave in result.scales], [4e6, 2e6, 4e6 / 3])
     assert result.rubber == Rubber(4e6)
@@ -139,13 +139,13 @@ def test_rubber_of_a_wave_may_depend_on_what_was_solved() -> None:
     ],
 )
 def test_chain_stops_at_the_cut_off(limits: dict[str, float], count: int) -> None:
-    result = predict(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **limits, **LOAD)
+    result = solve_chain(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **limits, **LOAD)
     assert len(result.scales) == count
 
 
 def test_every_wave_is_reported_as_it_comes() -> None:
     seen: list[int] = []
-    predict(
+    solve_chain(
         Spring(),
         THREE,
         solver=Scripted([0.5, 0.5, 0.5]),
@@ -160,7 +160,7 @@ def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency() -> Non
         def complex_modulus(self, omega: np.ndarray) -> np.ndarray:
             return 4.0 + 1j * np.asarray(omega)
 
-    result = predict(Dashpot(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **LOAD)
+    result = solve_chain(Dashpot(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **LOAD)
     omega = 2 * math.pi * 0.25 / np.array(THREE.wavelength)
     np.testing.assert_allclose([s.angular_frequency for s in result.scales], omega, rtol=1e-15)
     np.testing.assert_allclose([s.modulus for s in result.scales], np.hypot(4.0, omega), rtol=1e-15)
@@ -171,7 +171,7 @@ def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
     solver = Scripted([0.5, 0.25, 0.5], statuses=["converged", "iteration limit", "converged"])
     seen: list[str] = []
     with pytest.raises(ConvergenceError, match=r"wave 2 of 3.*4 mm.*iteration limit") as caught:
-        predict(
+        solve_chain(
             Spring(),
             THREE,
             solver=solver,
@@ -193,7 +193,7 @@ def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
 @pytest.mark.parametrize("fraction", [0.0, -0.1, 1.1, math.nan])
 def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
     with pytest.raises(ChainError, match=r"wave 1 of 3.*contact fraction"):
-        predict(Spring(), THREE, solver=Scripted([fraction, 0.5, 0.5]), **LOAD)
+        solve_chain(Spring(), THREE, solver=Scripted([fraction, 0.5, 0.5]), **LOAD)
 
 
 @pytest.mark.parametrize(
@@ -218,6 +218,6 @@ def test_bad_input_is_refused_before_any_wave_is_solved(
 ) -> None:
     solver = Scripted([0.5, 0.5, 0.5])
     with pytest.raises(InputError) as caught:
-        predict(Spring(), THREE, solver=solver, **{**LOAD, **change})
+        solve_chain(Spring(), THREE, solver=solver, **{**LOAD, **change})
     assert words in str(caught.value)
     assert solver.asked == []

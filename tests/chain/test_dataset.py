@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.chain import Prediction, predict
+from gripscale.chain import ChainResult, solve_chain
 from gripscale.core.errors import FileError, InputError
 from gripscale.io import netcdf
 from gripscale.rubber import Rubber, Yeoh
@@ -20,12 +20,12 @@ from .stand_ins import Scripted, Spring
 
 
 @pytest.fixture
-def prediction() -> Prediction:
+def prediction() -> ChainResult:
     solver = Scripted([0.5, 0.25, 0.125])
-    return predict(Spring(), THREE, solver=solver, pressure=3e5, speed=0.25, footprint=0.1)
+    return solve_chain(Spring(), THREE, solver=solver, pressure=3e5, speed=0.25, footprint=0.1)
 
 
-def test_values_are_those_of_the_prediction(prediction: Prediction) -> None:
+def test_values_are_those_of_the_prediction(prediction: ChainResult) -> None:
     data = prediction.to_dataset()
     assert data.sizes == {"scale": 3, "surface_node": 8, "wave": 3}
     assert data.wavelength.values.tolist() == THREE.wavelength.tolist()
@@ -42,20 +42,20 @@ def test_values_are_those_of_the_prediction(prediction: Prediction) -> None:
     assert data.prediction_status == "converged"
 
 
-def test_shorter_waves_are_padded_not_invented(prediction: Prediction) -> None:
+def test_shorter_waves_are_padded_not_invented(prediction: ChainResult) -> None:
     data = prediction.to_dataset()
     counts = data.surface_pressure.notnull().sum("surface_node").values.tolist()
     assert counts == [4, 6, 8]
     assert data.surface_x.notnull().sum().item() == 18
 
 
-def test_every_variable_says_unit_name_and_source(prediction: Prediction) -> None:
+def test_every_variable_says_unit_name_and_source(prediction: ChainResult) -> None:
     data = prediction.to_dataset()
     for name, variable in data.variables.items():
         assert {"units", "long_name", "source"} <= set(variable.attrs), name
 
 
-def test_netcdf_brings_everything_back(prediction: Prediction, tmp_path: Path) -> None:
+def test_netcdf_brings_everything_back(prediction: ChainResult, tmp_path: Path) -> None:
     data = prediction.to_dataset().assign_attrs(case='[load]\npressure = "3 bar"\n')
     path = netcdf.save(data, tmp_path / "result.nc")
     again = netcdf.load(path)
@@ -68,9 +68,9 @@ def test_dataset_brings_the_prediction_back(tmp_path: Path) -> None:
     sines = SineStack([10e-3, 3e-3], [0.8e-3, 0.2e-3])
     load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1, "load_time": math.inf}
     for solver in ("finite_strain", "half_plane"):
-        made = predict(rubber, sines, solver=solver, **load)
+        made = solve_chain(rubber, sines, solver=solver, **load)
         path = netcdf.save(made.to_dataset(), tmp_path / "result.nc")
-        again = Prediction.from_dataset(netcdf.load(path))
+        again = ChainResult.from_dataset(netcdf.load(path))
         assert (again.rubber, again.load, again.planned) == (made.rubber, made.load, made.planned)
         assert again.friction == made.friction
         xr.testing.assert_identical(again.to_dataset(), made.to_dataset())
@@ -95,12 +95,12 @@ def test_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path: Path) -> None
     assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
 
 
-def test_missing_folder_is_named(prediction: Prediction, tmp_path: Path) -> None:
+def test_missing_folder_is_named(prediction: ChainResult, tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"nowhere/result\.nc cannot be written"):
         netcdf.save(prediction.to_dataset(), tmp_path / "nowhere" / "result.nc")
 
 
-def test_folder_in_the_way_is_named(prediction: Prediction, tmp_path: Path) -> None:
+def test_folder_in_the_way_is_named(prediction: ChainResult, tmp_path: Path) -> None:
     (tmp_path / "result.nc").mkdir()
     with pytest.raises(FileError, match=r"cannot be written: it is a folder"):
         netcdf.save(prediction.to_dataset(), tmp_path / "result.nc")
@@ -132,7 +132,7 @@ def test_a_whole_file_appears_at_once(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("model", ["direct", ""])
-def test_a_foreign_dataset_is_refused_in_one_sentence(prediction: Prediction, model: str) -> None:
+def test_a_foreign_dataset_is_refused_in_one_sentence(prediction: ChainResult, model: str) -> None:
     """Of another model, without waves, of nothing of ours: never a KeyError."""
     whole = prediction.to_dataset()
     strange = [
@@ -144,9 +144,9 @@ def test_a_foreign_dataset_is_refused_in_one_sentence(prediction: Prediction, mo
     words = f"prediction of the chain returns; got a Dataset of {model or 'another kind'}$"
     for data in strange:
         with pytest.raises(InputError, match=words):
-            Prediction.from_dataset(data)
+            ChainResult.from_dataset(data)
     with pytest.raises(InputError, match="data must be"):
-        Prediction.from_dataset(None)  # type: ignore[arg-type]
+        ChainResult.from_dataset(None)  # type: ignore[arg-type]
 
 
 def test_old_names_of_variables_are_read_as_the_new_ones(tmp_path: Path) -> None:
@@ -160,7 +160,7 @@ def test_old_names_of_variables_are_read_as_the_new_ones(tmp_path: Path) -> None
         }
 
 
-def test_plots_are_the_figures_of_the_charts(prediction: Prediction) -> None:
+def test_plots_are_the_figures_of_the_charts(prediction: ChainResult) -> None:
     """Both panels of the prediction have a line for the chain; a wave has its pressure."""
     area, friction = prediction.plot().axes[:2]
     assert area.lines

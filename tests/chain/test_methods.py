@@ -50,7 +50,7 @@ def test_a_direct_contact_is_drawn():
 
 
 def test_a_prediction_writes_its_page(tmp_path: Path):
-    prediction = gs.predict(
+    prediction = gs.solve_chain(
         SHIFTED_RUBBER,
         SHIFTED_SINES,
         pressure=SHIFTED_LOAD.pressure,

@@ -9,14 +9,15 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.chain import Chain, ChainError, Prediction, predict
+from gripscale.chain import Chain, ChainError, ChainResult, solve_chain
 from gripscale.chain.prediction import PressureClasses
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane
-from gripscale.wave import Status, WaveProblem, WaveResult
+from gripscale.wave import ScaleResult, WaveProblem
 from tests.samples import THREE_SINES as THREE
 
 from .stand_ins import Scripted, Spring
@@ -37,12 +38,12 @@ class Hertzian:
     """Pressure of full contact [Pa]."""
     fails_above: float = np.inf
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         wavelength, pressure = problem.profile.wavelength, problem.load.pressure
         half = 0.5 * (pressure / self.closed) ** 0.5
         x = wavelength * ((np.arange(4096) + 0.5) / 4096 - 0.5)
         ellipse = np.sqrt(np.maximum(1.0 - (x / (half * wavelength)) ** 2, 0.0))
-        return WaveResult(
+        return ScaleResult(
             wavelength=wavelength,
             amplitude=problem.profile.amplitude,
             pressure_received=pressure,
@@ -68,22 +69,24 @@ def test_second_wave_sees_half_an_ellipse_of_pressure() -> None:
     #   mean of (1 - x^2)^(1/4) = 0.8740, mean of (1 - x^2)^(3/4) = 0.7189 over -1 < x < 1
     two = SineStack([8e-3, 1e-3], [1e-3, 1e-4])
     solver, load = Hertzian(1e8), {"pressure": 1e5, "speed": 1.0, "footprint": 0.1}
-    mean = predict(RUBBER, two, solver=solver, **load).scales[1]
-    many = predict(RUBBER, two, solver=solver, pressure_classes=64, **load).scales[1]
+    mean = solve_chain(RUBBER, two, solver=solver, **load).scales[1]
+    many = solve_chain(RUBBER, two, solver=solver, pressure_classes=64, **load).scales[1]
     root = np.sqrt(4.0 / np.pi)
     assert many.contact_fraction / mean.contact_fraction == pytest.approx(root * 0.87402, rel=1e-3)
     assert many.friction / mean.friction == pytest.approx(root**3 * 0.71888, rel=1e-3)
 
 
 def test_one_class_hands_down_the_mean() -> None:
-    one = predict(Spring(), THREE, solver=Scripted([0.5, 0.25, 0.125]), pressure_classes=1, **LOAD)
+    one = solve_chain(
+        Spring(), THREE, solver=Scripted([0.5, 0.25, 0.125]), pressure_classes=1, **LOAD
+    )
     assert [s.pressure_received for s in one.scales] == [3e5, 6e5, 24e5]
     assert all("class_pressures" not in s.details for s in one.scales)
 
 
 @pytest.mark.parametrize("count", [2, 5, 8])
 def test_load_and_area_are_kept(count: int) -> None:
-    result = predict(RUBBER, SINES, solver=SOLVER, pressure_classes=count, **LOAD)
+    result = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=count, **LOAD)
     above = np.concatenate([[1.0], result.running_contact_fraction[:-1]])
     received = np.array([s.pressure_received for s in result.scales])
     np.testing.assert_allclose(received * above, LOAD["pressure"], rtol=1e-9)
@@ -97,7 +100,7 @@ def test_load_and_area_are_kept(count: int) -> None:
 
 def test_eight_classes_are_enough() -> None:
     found = {
-        n: predict(RUBBER, SINES, solver=SOLVER, pressure_classes=n, **LOAD) for n in (1, 8, 32)
+        n: solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=n, **LOAD) for n in (1, 8, 32)
     }
     area = {
         n: np.log(one.contact_fraction / found[32].contact_fraction) for n, one in found.items()
@@ -109,7 +112,7 @@ def test_eight_classes_are_enough() -> None:
 
 
 def test_friction_is_the_energy_lost() -> None:
-    result = predict(RUBBER, SINES, solver=SOLVER, pressure_classes=8, **LOAD)
+    result = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=8, **LOAD)
     assert result.friction == pytest.approx(result.friction_from_dissipation, rel=5e-3)
 
 
@@ -126,17 +129,17 @@ def test_uniform_full_contact_stays_uniform() -> None:
 def test_class_that_fails_is_named_and_ends_the_chain() -> None:
     two, solver = SineStack([8e-3, 1e-3], [1e-3, 1e-4]), Hertzian(1e8, fails_above=4e6)
     with pytest.raises(ChainError, match=r"wave 2 of 2.*fold in the load path") as caught:
-        predict(RUBBER, two, solver=solver, pressure_classes=8, **LOAD)
+        solve_chain(RUBBER, two, solver=solver, pressure_classes=8, **LOAD)
     failed = caught.value.partial.scales[-1]
     assert failed.pressure_received > 4e6
     assert np.isnan(caught.value.partial.friction)
 
 
 def test_dataset_brings_the_classes_back(tmp_path) -> None:
-    made = predict(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
+    made = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
     data = made.to_dataset()
     assert data.class_pressures.sizes == {"scale": 3, "pressure_class": 4}
-    again = Prediction.from_dataset(netcdf.load(netcdf.save(data, tmp_path / "result.nc")))
+    again = ChainResult.from_dataset(netcdf.load(netcdf.save(data, tmp_path / "result.nc")))
     xr.testing.assert_identical(again.to_dataset(), data)
 
 
@@ -146,7 +149,7 @@ def test_the_model_takes_the_classes() -> None:
 
     surface, load = Surface(SINES, source=""), Load(3e5, 0.3, 0.1)
     data = Chain(SOLVER, pressure_classes=4).predict(RUBBER, surface, load)
-    direct = predict(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
+    direct = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
     assert float(data.total_friction) == direct.friction
 
 
@@ -154,7 +157,7 @@ def test_the_model_takes_the_classes() -> None:
 def test_bad_number_of_classes_is_refused(count: float) -> None:
     words = "pressure_classes must be a whole number from 1 to 64"
     with pytest.raises(InputError, match=words):
-        predict(RUBBER, SINES, pressure_classes=count, **LOAD)  # type: ignore[arg-type]
+        solve_chain(RUBBER, SINES, pressure_classes=count, **LOAD)  # type: ignore[arg-type]
     with pytest.raises(InputError, match=words):
         Chain(pressure_classes=count)  # type: ignore[arg-type]
 
@@ -163,7 +166,7 @@ def test_solver_without_pressures_cannot_hand_down_classes() -> None:
     solver = Scripted([0.5, 0.5, 0.5])
     silent = Silent(solver)
     with pytest.raises(InputError, match="gives no pressure along the wave"):
-        predict(Spring(), THREE, solver=silent, pressure_classes=2, **LOAD)
+        solve_chain(Spring(), THREE, solver=silent, pressure_classes=2, **LOAD)
 
 
 @dataclass
@@ -173,7 +176,7 @@ class Silent:
     inner: Scripted
     name: ClassVar[str] = "silent"
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         solved = self.inner.solve(problem, start)
         return replace(solved, pressure=np.zeros_like(solved.pressure))
 

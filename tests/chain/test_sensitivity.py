@@ -186,15 +186,17 @@ def test_chain_as_chains_solved_from_nothing(classes):
     """The load time of each wave and the pressure on it follow the wave before."""
     options = {"columns": 128, "pressure_classes": classes}
     sines = gs.SineStack(THREE_SINES.wavelength[1:], 0.3 * THREE_SINES.amplitude[1:])
-    data = gs.sensitivity(gs.predict(FAST_RUBBER, sines, **CHAIN, **options))
+    data = gs.sensitivity(gs.solve_chain(FAST_RUBBER, sines, **CHAIN, **options))
     for name in ("speed", "pressure"):
         low, high = (
-            gs.predict(FAST_RUBBER, sines, **CHAIN | {name: CHAIN[name] * np.exp(by)}, **options)
+            gs.solve_chain(
+                FAST_RUBBER, sines, **CHAIN | {name: CHAIN[name] * np.exp(by)}, **options
+            )
             for by in (-STEP, STEP)
         )
         judged(data, f"ln_{name}", difference(low, high, STEP))
     low, high = (
-        gs.predict(stiffer(FAST_RUBBER, np.exp(by)), sines, **CHAIN, **options)
+        gs.solve_chain(stiffer(FAST_RUBBER, np.exp(by)), sines, **CHAIN, **options)
         for by in (-STEP, STEP)
     )
     together = data.d_ln_friction_d_ln_storage.sum() + data.d_ln_friction_d_ln_loss.sum()
@@ -206,7 +208,7 @@ def test_settled_rubber_and_its_frequencies():
     """Waves keep the rubber that heat has made; frequencies are those of the master curve."""
     conditions = Conditions(temperature=313.15, heat=THERMAL)
     options = {"solver": "half_plane", "points": 64, "conditions": conditions}
-    chain = gs.predict(SHIFTED_RUBBER, SHIFTED_SINES, **SHIFTED_VALUES, **options)
+    chain = gs.solve_chain(SHIFTED_RUBBER, SHIFTED_SINES, **SHIFTED_VALUES, **options)
     data, cold = (gs.sensitivity(chain, reference_temperature=t) for t in (None, 293.15))
     assert data.attrs["settled"] == 1
     shift = float(SHIFTED_RUBBER.shift.a(313.15, 293.15))
@@ -219,7 +221,7 @@ def test_settled_rubber_and_its_frequencies():
         [w.rubber.at(w.rubber.reference_temperature + t) for w in chain.scales] for t in (-2, 2)
     ]
     low, high = (
-        gs.predict(
+        gs.solve_chain(
             SHIFTED_RUBBER,
             SHIFTED_SINES,
             **SHIFTED_VALUES,
@@ -242,7 +244,7 @@ def test_banded_rubber_changes_the_moduli_of_its_band():
 
 
 def test_refuses_what_has_no_derivatives(wave):
-    with pytest.raises(InputError, match="RoughContact, ScaleResult or Prediction; got 'wave'"):
+    with pytest.raises(InputError, match="RoughContact, ScaleResult or ChainResult; got 'wave'"):
         gs.sensitivity("wave")
     at_rest = gs.solve_scale(FAST_RUBBER, **WAVE | {"speed": 0.0}, **MESH)
     with pytest.raises(InputError, match="got speed 0 m/s"):

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.chain import Prediction
+from gripscale.chain import ChainResult
+from gripscale.core.status import Status
 from gripscale.model import TOTALS, Load, answer
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
-from gripscale.wave import WaveResult
-from gripscale.wave.problem import Status
+from gripscale.wave import ScaleResult
 from gripscale.wave.result import waves_to_dataset
 
 RUBBER = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=(1e-2, 1e6))
@@ -21,7 +21,7 @@ RUBBER = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=(1e-2, 1e6))
 
 def wave(
     wavelength: float, status: str = "converged", *, mesh: bool = True, lifted: float = 0.0
-) -> WaveResult:
+) -> ScaleResult:
     """Return a wave of 0.1 wavelengths amplitude with half of it in contact."""
     amplitude, columns = 0.1 * wavelength, 32
     edge = np.linspace(-0.5, 0.5, columns + 1) * wavelength
@@ -29,7 +29,7 @@ def wave(
     x = edge + 0.0 * depth
     z = amplitude + depth + 0.0 * edge + lifted
     pressure = np.maximum(np.cos(2 * np.pi * edge[:-1] / wavelength), 0.0) * 1e6
-    return WaveResult(
+    return ScaleResult(
         wavelength=wavelength,
         amplitude=amplitude,
         pressure_received=3e5,
@@ -64,7 +64,7 @@ def make_prediction() -> Callable[..., xr.Dataset]:
         statuses = ["converged"] * (count - 1) + [status]
         waves = [wave(length, s) for length, s in zip(lengths, statuses, strict=True)]
         load = Load(3e5, speed, 0.1)
-        return Prediction(RUBBER, sines, load, waves, count).to_dataset()
+        return ChainResult(RUBBER, sines, load, waves, count).to_dataset()
 
     return make
 

@@ -30,7 +30,7 @@ def waves(x: np.ndarray) -> np.ndarray:
 def chain() -> xr.Dataset:
     sines = gs.SineStack([4e-3, 1e-3], [2e-4, 6e-5])
     options = {"solver": "half_plane", "points": 128, "conditions": HEAT}
-    return gs.predict(RUBBER, sines, **LOAD, **options).to_dataset()
+    return gs.solve_chain(RUBBER, sines, **LOAD, **options).to_dataset()
 
 
 def contact(surface: gs.Profile | HeightMap, conditions: Conditions | None = HEAT):

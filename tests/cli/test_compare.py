@@ -161,7 +161,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     curve = direct.curve_wavelength.values, direct.curve_friction.values
     friction = curve_at("friction", octaves.wavelength.values, *curve)
     assert friction == pytest.approx(octaves.running_friction.values)
-    chain = gs.predict(
+    chain = gs.solve_chain(
         results.rubber,
         results.surface.sines,
         footprint=0.1,
@@ -193,14 +193,14 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
     assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-9)
     upper = compare_case(results, rungs=["chain_upper"]).data.squeeze("rung")
     own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
-    chain = gs.predict(results.rubber, results.surface.sines, **load, **own)
+    chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
     assert float(upper.total_friction) == pytest.approx(chain.friction, rel=1e-6)
     assert float(upper.total_contact_fraction) == pytest.approx(chain.contact_fraction, rel=1e-6)
     case.write_text(case.read_text() + "[chain]\npressure_classes = 4\n")
     rungs = compare_case(read_case(case), rungs=["waves"]).data
     assert rungs.rung.values.tolist() == ["chain_half_plane", "sines"]
     own |= {"points": 128, "pressure_classes": 4}
-    chain = gs.predict(results.rubber, results.surface.sines, **load, **own)
+    chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
     assert rungs.total_friction.sel(rung="chain_half_plane") == chain.friction
 
 
@@ -360,7 +360,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     results = read_case(inputs / "case.toml")
     direct = solve_direct_contact(results)
     assert direct is not None
-    chain = gs.predict(
+    chain = gs.solve_chain(
         results.rubber,
         results.surface.sines,
         pressure=3e5,

@@ -7,8 +7,8 @@ import re
 import pytest
 
 from gripscale.cli.docs import anchors, pages
+from gripscale.core.status import Status
 from gripscale.report.failures import chapter_words
-from gripscale.wave import Status
 from tests.samples import DOCS, ROOT, Shell
 
 POINTER = re.compile(r"docs/([\w-]+)\.md(?:#([\w-]+))?")

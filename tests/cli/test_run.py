@@ -15,12 +15,13 @@ from typer.testing import CliRunner, Result
 from gripscale.case_file.folder import AT_TIMES, NOTE, RESULTS
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.cli import app
+from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.terminal import time_left
 from gripscale.theory import HalfPlane
-from gripscale.wave import Status, WaveProblem, WaveResult
+from gripscale.wave import ScaleResult, WaveProblem
 from tests.samples import Shell
 
 
@@ -124,7 +125,9 @@ def lame(wave: int) -> Any:
     """Return the half-plane's `solve`, whose given wave (counted from 1) does not converge."""
     count, solve = 0, HalfPlane.solve
 
-    def lamed(self: HalfPlane, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def lamed(
+        self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
+    ) -> ScaleResult:
         nonlocal count
         count += 1
         good = solve(self, problem, start)
@@ -168,8 +171,8 @@ def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
     solve = HalfPlane.solve
 
     def looking(
-        self: HalfPlane, problem: WaveProblem, start: WaveResult | None = None
-    ) -> WaveResult:
+        self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
+    ) -> ScaleResult:
         path = case.parent / "results" / "dynamic.nc"
         seen.append(netcdf.load(path).sizes["scale"] if path.exists() else 0)
         if len(seen) == 3:

@@ -26,8 +26,8 @@ EVERYTHING = Conditions(
 
 
 def test_the_chain_shears_its_real_area_and_keeps_its_hysteresis():
-    plain = gs.predict(RUBBER, SINES, solver="half_plane", **LOAD)
-    both = gs.predict(
+    plain = gs.solve_chain(RUBBER, SINES, solver="half_plane", **LOAD)
+    both = gs.solve_chain(
         RUBBER,
         SINES,
         solver="half_plane",
@@ -58,7 +58,7 @@ def test_the_direct_contact_shears_its_real_area():
 
 
 def test_the_stress_is_that_at_the_temperature_in_the_contact():
-    found = gs.predict(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
+    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
     kelvin = found.scales[-1].details["contact_temperature"]
     assert kelvin > 301.0
     stress = float(EVERYTHING.shear_stress.stress(1.0, kelvin))
@@ -67,7 +67,7 @@ def test_the_stress_is_that_at_the_temperature_in_the_contact():
 
 def test_the_heat_that_the_area_term_lacks_is_stated():
     """The ratio of two friction powers mu p v on one area is that of the frictions."""
-    chain = gs.predict(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
+    chain = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
     line = gs.solve_rough_contact(
         RUBBER, LINE, pressure=3e5, speed=1.0, periodic=True, footprint=0.05, conditions=EVERYTHING
     )
@@ -84,7 +84,7 @@ def test_the_heat_that_the_area_term_lacks_is_stated():
 @pytest.mark.parametrize("without", ["heat", "shear_stress"])
 def test_without_heat_or_area_term_none_is_lacking(without):
     some = replace(EVERYTHING, **{without: None})
-    chain = gs.predict(RUBBER, SINES, solver="half_plane", conditions=some, **LOAD)
+    chain = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=some, **LOAD)
     notes = conditions_notices(PredictionView(chain.to_dataset()))
     assert not any("area term" in notice.text for notice in notes)
 
@@ -92,8 +92,8 @@ def test_without_heat_or_area_term_none_is_lacking(without):
 def test_conditions_and_what_they_did_survive_a_file(tmp_path):
     from gripscale.io import netcdf
 
-    found = gs.predict(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
-    again = gs.Prediction.from_dataset(
+    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
+    again = gs.ChainResult.from_dataset(
         netcdf.load(netcdf.save(found.to_dataset(), tmp_path / "all.nc"))
     )
     assert again.conditions == EVERYTHING
@@ -111,5 +111,5 @@ def test_conditions_survive_their_dict(conditions):
 def test_at_rest_there_is_no_area_term():
     at_rest = LOAD | {"speed": 0.0}
     shear = Conditions(shear_stress=ConstantStress(2e6))
-    found = gs.predict(RUBBER, SINES, solver="half_plane", conditions=shear, **at_rest)
+    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=shear, **at_rest)
     assert math.isnan(found.adhesive_friction)

@@ -29,7 +29,7 @@ DIRECT = {"periodic": True, "tolerance": None, **LOAD}
 @pytest.mark.parametrize(("solver", "options"), SOLVERS)
 def test_a_settled_chain_is_its_own_rubber(solver, options):
     """Solved again with the rubber that its own strains and heat make, nothing moves by 1e-3."""
-    found = gs.predict(RUBBER, SINES, solver=solver, conditions=BOTH, **options, **LOAD)
+    found = gs.solve_chain(RUBBER, SINES, solver=solver, conditions=BOTH, **options, **LOAD)
     assert found.converged
     assert found.scales[0].details["passes"] <= 8
     heats = [WaveHeat.of(wave, wave.rubber) for wave in found.scales]
@@ -44,7 +44,7 @@ def test_a_settled_chain_is_its_own_rubber(solver, options):
         )
         return state.rubber
 
-    repeated = gs.predict(RUBBER, SINES, solver=solver, rubber_at=again, **options, **LOAD)
+    repeated = gs.solve_chain(RUBBER, SINES, solver=solver, rubber_at=again, **options, **LOAD)
     assert repeated.friction == pytest.approx(found.friction, rel=1e-3)
     assert repeated.contact_fraction == pytest.approx(found.contact_fraction, rel=1e-3)
     told = found.scales[-1].details
@@ -54,7 +54,7 @@ def test_a_settled_chain_is_its_own_rubber(solver, options):
 
 def test_heat_and_softening_widen_the_contact():
     plain, hot, soft = (
-        gs.predict(RUBBER, SINES, solver="half_plane", conditions=conditions, **LOAD)
+        gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=conditions, **LOAD)
         for conditions in (None, Conditions(heat=THERMAL), Conditions(softening=KRAUS))
     )
     assert abs(hot.friction / plain.friction - 1.0) > 0.01
@@ -64,7 +64,7 @@ def test_heat_and_softening_widen_the_contact():
 
 def test_the_heat_of_a_chain_is_the_friction_work():
     """Uniform heat and a time too short to spread: rho c T averaged over depth is the work."""
-    plain = gs.predict(RUBBER, SINES, solver="half_plane", **LOAD)
+    plain = gs.solve_chain(RUBBER, SINES, solver="half_plane", **LOAD)
     heats = [WaveHeat.of(wave, RUBBER) for wave in plain.scales]
     assert sum(heat.friction for heat in heats) == pytest.approx(plain.friction, rel=1e-12)
     for heat in heats:
@@ -76,7 +76,7 @@ def test_the_heat_of_a_chain_is_the_friction_work():
 def test_without_slopes_softening_does_nothing():
     flat = gs.SineStack([4e-3, 1e-3], [2e-8, 6e-9])
     plain, soft = (
-        gs.predict(RUBBER, flat, solver="half_plane", conditions=conditions, **LOAD)
+        gs.solve_chain(RUBBER, flat, solver="half_plane", conditions=conditions, **LOAD)
         for conditions in (None, Conditions(softening=KRAUS))
     )
     assert soft.friction == plain.friction
@@ -86,7 +86,7 @@ def test_without_slopes_softening_does_nothing():
 def test_at_rest_nothing_is_heated():
     at_rest = LOAD | {"speed": 0.0}
     plain, hot = (
-        gs.predict(RUBBER, SINES, solver="half_plane", conditions=conditions, **at_rest)
+        gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=conditions, **at_rest)
         for conditions in (None, Conditions(heat=THERMAL))
     )
     assert hot.contact_fraction == plain.contact_fraction
@@ -98,7 +98,7 @@ def test_at_rest_nothing_is_heated():
 def test_stretches_give_another_strain():
     options = {"columns": 64, "rows": 12, "solver": "finite_strain"}
     slope, stretch = (
-        gs.predict(
+        gs.solve_chain(
             RUBBER,
             SINES,
             conditions=Conditions(softening=KRAUS, strain_norm=norm),
@@ -110,7 +110,7 @@ def test_stretches_give_another_strain():
     assert stretch.scales[0].details["strain"] != slope.scales[0].details["strain"]
     assert stretch.friction != pytest.approx(slope.friction, rel=1e-3)
     with pytest.raises(gs.InputError, match="strain_norm"):
-        gs.predict(
+        gs.solve_chain(
             RUBBER,
             SINES,
             solver="half_plane",
@@ -158,4 +158,4 @@ def test_heat_needs_the_length_of_the_footprint_in_the_direct_contact():
 def test_heat_needs_a_shift():
     plain = gs.Rubber(5e6, [1e7], [1e-3])
     with pytest.raises(gs.InputError, match="shift"):
-        gs.predict(plain, SINES, conditions=Conditions(heat=THERMAL), **LOAD)
+        gs.solve_chain(plain, SINES, conditions=Conditions(heat=THERMAL), **LOAD)

@@ -25,12 +25,12 @@ MESH = {"columns": 64, "rows": 12}
 
 
 def chain(conditions, **options):
-    return gs.predict(RUBBER, SINES, conditions=conditions, **MESH, **options, **LOAD)
+    return gs.solve_chain(RUBBER, SINES, conditions=conditions, **MESH, **options, **LOAD)
 
 
 def half_plane(conditions):
     options = {"solver": "half_plane", "points": 256}
-    return gs.predict(RUBBER, SINES, conditions=conditions, **options, **LOAD)
+    return gs.solve_chain(RUBBER, SINES, conditions=conditions, **options, **LOAD)
 
 
 def direct(conditions):
@@ -129,4 +129,6 @@ def test_a_slow_chain_is_warmed_by_what_lasts():
 
 def half_plane_at(speed):
     load = LOAD | {"speed": speed}
-    return gs.predict(RUBBER, SINES, conditions=EFFECTS[1], solver="half_plane", points=256, **load)
+    return gs.solve_chain(
+        RUBBER, SINES, conditions=EFFECTS[1], solver="half_plane", points=256, **load
+    )

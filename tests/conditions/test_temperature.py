@@ -27,9 +27,11 @@ def test_the_chain_collapses_on_a_t_times_speed(solver, speed):
     """The bulk modulus does not relax and nothing else has a time: to the solver's residual."""
     options = {"columns": 48, "rows": 10} if solver == "finite_strain" else {"points": 256}
     at = Conditions(temperature=WARM)
-    warm = gs.predict(RUBBER, SINES, speed=speed, conditions=at, solver=solver, **LOAD, **options)
-    master = gs.predict(RUBBER, SINES, speed=SHIFT * speed, solver=solver, **LOAD, **options)
-    cold = gs.predict(RUBBER, SINES, speed=speed, solver=solver, **LOAD, **options)
+    warm = gs.solve_chain(
+        RUBBER, SINES, speed=speed, conditions=at, solver=solver, **LOAD, **options
+    )
+    master = gs.solve_chain(RUBBER, SINES, speed=SHIFT * speed, solver=solver, **LOAD, **options)
+    cold = gs.solve_chain(RUBBER, SINES, speed=speed, solver=solver, **LOAD, **options)
     assert warm.friction == pytest.approx(master.friction, rel=1e-6)
     assert warm.contact_fraction == pytest.approx(master.contact_fraction, rel=1e-6)
     assert abs(warm.friction / cold.friction - 1.0) > 0.05
@@ -46,7 +48,7 @@ def test_the_direct_contact_collapses_on_a_t_times_speed():
 
 
 def test_at_the_reference_temperature_nothing_changes():
-    same = gs.predict(
+    same = gs.solve_chain(
         RUBBER,
         SINES,
         speed=0.1,
@@ -54,7 +56,7 @@ def test_at_the_reference_temperature_nothing_changes():
         conditions=Conditions(temperature=293.15),
         **LOAD,
     )
-    plain = gs.predict(RUBBER, SINES, speed=0.1, solver="half_plane", **LOAD)
+    plain = gs.solve_chain(RUBBER, SINES, speed=0.1, solver="half_plane", **LOAD)
     assert same.friction == plain.friction
 
 
@@ -103,4 +105,4 @@ def test_wrong_conditions_are_one_sentence(values, word):
 def test_a_rubber_without_shift_has_no_other_temperature():
     plain = gs.Rubber(5e6, [1e7], [1e-3])
     with pytest.raises(gs.InputError, match="shift"):
-        gs.predict(plain, SINES, speed=0.1, conditions=Conditions(temperature=310.0), **LOAD)
+        gs.solve_chain(plain, SINES, speed=0.1, conditions=Conditions(temperature=310.0), **LOAD)

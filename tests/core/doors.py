@@ -67,7 +67,7 @@ def doors() -> Iterator[Door]:
     yield from _calibration()
     chain = {"solver": "half_plane", "footprint": 0.1, "points": 64, "pressure_classes": 1}
     more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
-    yield Door(gs.predict, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more})
+    yield Door(gs.solve_chain, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more})
     load = {**PRESSED, "footprint": 0.1, "load_time": "passage"}
     yield Door(Load, load)
 

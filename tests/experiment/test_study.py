@@ -18,6 +18,7 @@ from gripscale.case_file import read_case, read_case_file
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import FACES, fingerprint
+from gripscale.core.status import Status
 from gripscale.core.units import display_unit_of
 from gripscale.experiment import Progress, Task, task
 from gripscale.half_space.model import DirectContact
@@ -27,7 +28,7 @@ from gripscale.questions import Study
 from gripscale.questions.vary import study as study_module
 from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
-from gripscale.wave import FiniteStrainBlock, Mesh, Sine, Status
+from gripscale.wave import FiniteStrainBlock, Mesh, Sine
 from tests.samples import fail_waves
 
 Compare = Callable[[xr.Dataset, xr.Dataset], None]
@@ -40,7 +41,7 @@ class Warmer:
 
     temperature: float
 
-    def __call__(self, wave: Sine, so_far: gs.Prediction) -> gs.Rubber:
+    def __call__(self, wave: Sine, so_far: gs.ChainResult) -> gs.Rubber:
         return so_far.rubber
 
 
@@ -51,7 +52,7 @@ def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> 
     told: list[Progress] = []
     study = Study(read_case(case), {"speed": SPEEDS, "pressure": "1 bar, 3 bar"}, static=True)
     result = study.run(tmp_path / "out", on_task=told.append)
-    alone = gs.predict(
+    alone = gs.solve_chain(
         gs.rubber.styrene_butadiene(),
         WAVES,
         pressure=3e5,

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from gripscale.core.status import Status
 from gripscale.io import netcdf
-from gripscale.wave import Status
 from tests.samples import Shell, fail_waves
 
 

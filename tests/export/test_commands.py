@@ -110,7 +110,7 @@ def test_what_cannot_be_a_rubber_is_one_sentence(inputs, tmp_path, source, optio
 @pytest.fixture(scope="module")
 def result(tmp_path_factory) -> Path:
     """The file of a prediction of two waves by the block."""
-    prediction = gs.predict(
+    prediction = gs.solve_chain(
         Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4]),
         SineStack([1e-2, 2e-3], [1e-3, 1e-4]),
         pressure=3e5,

@@ -9,9 +9,9 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.status import Status
 from gripscale.export import block_stress, wave_of, write_mesh
 from gripscale.rubber import Isihara, MooneyRivlin, NeoHookean, Yeoh
-from gripscale.wave import Status
 from gripscale.wave.result import waves_to_dataset
 
 LAW = {"wavelength": 1e-2, "amplitude": 1e-3, "pressure": 1e6, "rows": 6, "columns": 32}
@@ -182,7 +182,7 @@ def test_what_has_no_mesh_is_refused(waves, tmp_path):
     other = replace(waves[1], details={**waves[1].details, "rows": 7})
     with pytest.raises(InputError, match=r"deformed_mesh must be of \(8, 33\) nodes"):
         write_mesh(other, tmp_path / "a.vtu")
-    with pytest.raises(InputError, match="result must be a WaveResult; got int"):
+    with pytest.raises(InputError, match="result must be a ScaleResult; got int"):
         write_mesh(3, tmp_path / "a.vtu")
     with pytest.raises(InputError, match="prediction with meshes"):
         wave_of(waves_to_dataset([bare]), 1)

@@ -117,7 +117,9 @@ def test_texts_and_attributes_come_back(prediction, tmp_path, format):
 def test_other_results_become_tables(tmp_path):
     rubber = gs.Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4])
     surface = SineStack([1e-2, 2e-3], [1e-3, 1e-4])
-    chain = gs.predict(rubber, surface, pressure=3e5, speed=0.3, footprint=0.1, solver="half_plane")
+    chain = gs.solve_chain(
+        rubber, surface, pressure=3e5, speed=0.3, footprint=0.1, solver="half_plane"
+    )
     profile = self_affine_profile(0.8, 3e-3, 8e-4, length=0.02, step=1e-4, seed=1)
     direct = gs.solve_rough_contact(rubber, profile, pressure=3e5, speed=0.3)
     assert isinstance(direct, RoughContact)

@@ -20,8 +20,8 @@ import typer
 import gripscale
 from gripscale.case_file.keys import sections
 from gripscale.cli import app
+from gripscale.core.status import Status
 from gripscale.questions.compare.ladder import LADDER
-from gripscale.wave import Status
 
 from .experiment_numbers import datasets, result_files
 from .experiments import COMMANDS, Experiments, run_experiments

@@ -51,11 +51,11 @@ def all_numbers(folder: Path) -> Numbers:
         "rubber/equilibrium_modulus": np.array(rubber.equilibrium_modulus),
     }
     load = {"pressure": 3e5, "footprint": 0.1}
-    dynamic = gs.predict(rubber, sines, speed=0.3, **load)
+    dynamic = gs.solve_chain(rubber, sines, speed=0.3, **load)
     out |= _chain("dynamic", dynamic)
-    out |= _chain("static", gs.predict(rubber, sines, speed=0.0, **load))
-    out |= _chain("tolerance", gs.predict(rubber, sines, speed=0.3, tolerance=0.01, **load))
-    half_plane = gs.predict(rubber, sines, speed=0.3, solver=gs.theory.solve_half_plane, **load)
+    out |= _chain("static", gs.solve_chain(rubber, sines, speed=0.0, **load))
+    out |= _chain("tolerance", gs.solve_chain(rubber, sines, speed=0.3, tolerance=0.01, **load))
+    half_plane = gs.solve_chain(rubber, sines, speed=0.3, solver=gs.theory.solve_half_plane, **load)
     out |= _chain("half_plane", half_plane)
     out |= _transient(rubber, sines)
     vary = {"speed": "0.003:30:log5"}
@@ -82,7 +82,7 @@ def _inputs() -> tuple[gs.SineStack, gs.Rubber]:
     return sines, gs.fit_prony(master)
 
 
-def _chain(name: str, prediction: gs.Prediction) -> Numbers:
+def _chain(name: str, prediction: gs.ChainResult) -> Numbers:
     out: Numbers = {
         f"{name}/total_contact_fraction": np.array(prediction.contact_fraction),
         f"{name}/total_friction": np.array(prediction.friction),

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.core.status import Status
 from gripscale.half_space import BlockOnProfile
 from gripscale.half_space import model as half_space_model
 from gripscale.model import Load, Model
 from gripscale.surface import Measured, Profile, SineStack, Surface
-from gripscale.wave import Status
 from tests.samples import ZENER as RUBBER
 
 LOAD = Load(5e4, 0.1, 0.1)

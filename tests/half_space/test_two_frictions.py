@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from gripscale.core.status import Status
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.surface import Measured, Surface
-from gripscale.wave.problem import Status
 
 from .rough_cases import isotropic_map, random_case, solve
 

@@ -9,9 +9,9 @@ import xarray as xr
 
 from gripscale.cli.docs import anchors
 from gripscale.core.errors import ExtrapolationError, InputError
+from gripscale.core.status import Status
 from gripscale.model import status_words
 from gripscale.report.failures import Failure, chapter_words, explained
-from gripscale.wave import Status
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -12,6 +12,7 @@ from bokeh.models import ColumnDataSource
 
 from gripscale.case_file import read_case
 from gripscale.charts.bokeh_parts import model
+from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions import Study
 from gripscale.questions.inputs.page import input_sections
@@ -19,7 +20,6 @@ from gripscale.questions.vary.charts import study_charts
 from gripscale.report import source as results
 from gripscale.report import write_report
 from gripscale.report.elements import Facts
-from gripscale.wave.problem import Status
 from tests.samples import EXAMPLES
 
 from .reading import Page

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.chain import Prediction
+from gripscale.chain import ChainResult
+from gripscale.core.status import Status
 from gripscale.io.table import as_text, significant
 from gripscale.model import TOTALS, Load, answer
 from gripscale.questions.chain.page import prediction_table, totals
 from gripscale.questions.chain.view import PredictionView
 from gripscale.rubber import Rubber
-from gripscale.wave import WaveResult
-from gripscale.wave.problem import Status
+from gripscale.wave import ScaleResult
 from tests.samples import THREE_SINES as SINES
 
 
@@ -31,10 +31,10 @@ class Spring(Rubber):
 RUBBER = Spring(5e6, [1e6], [1.0], valid_band=(1.0, 2 * np.pi * 100.0))
 
 
-def wave(i: int, speed: float, status: str = "converged") -> WaveResult:
+def wave(i: int, speed: float, status: str = "converged") -> ScaleResult:
     """Return one of three waves with powers of two in contact and friction."""
     friction = 0.125 * 2**i if speed > 0.0 else 0.0
-    return WaveResult(
+    return ScaleResult(
         wavelength=SINES.wavelength[i],
         amplitude=SINES.amplitude[i],
         pressure_received=[3e5, 6e5, 2.4e6][i],
@@ -56,7 +56,7 @@ def wave(i: int, speed: float, status: str = "converged") -> WaveResult:
 
 def solved(speed: float = 0.25, statuses: tuple[str, ...] = ("converged",) * 3) -> xr.Dataset:
     waves = [wave(i, speed, status) for i, status in enumerate(statuses)]
-    return Prediction(RUBBER, SINES, Load(3e5, speed, 0.1), waves, 3).to_dataset()
+    return ChainResult(RUBBER, SINES, Load(3e5, speed, 0.1), waves, 3).to_dataset()
 
 
 def row(text: str, wave: int) -> list[str]:

@@ -116,7 +116,7 @@ def test_a_melt_is_told_before_any_solve():
     with pytest.raises(
         InputError, match=r"equilibrium_modulus \[Pa\] must be at least 1/10 .*3e.04"
     ):
-        gs.predict(rubber, SINES, speed=0.0, **load)
+        gs.solve_chain(rubber, SINES, speed=0.0, **load)
     wave = {"wavelength": 1e-2, "amplitude": 1e-3, "pressure": 3e5, "speed": 0.0}
     x = np.linspace(0.0, 1e-2, 65)
     line = gs.Profile(x, 1e-3 * np.cos(2e2 * np.pi * x))
@@ -130,7 +130,7 @@ def test_a_melt_is_told_before_any_solve():
         with pytest.raises(InputError, match=r"a melt at rest, .* leave out the static contact"):
             solve()
     with pytest.raises(InputError, match=r"the relaxation modulus after 100 s .* at least 1/10"):
-        gs.predict(rubber, SINES, speed=1e-3, **load)
+        gs.solve_chain(rubber, SINES, speed=1e-3, **load)
     # a footprint of 0.1 m passes in 0.1 s, a tenth of the relaxation time: exp(-0.1) MPa are left
     require_load_bearing(rubber, 3e5, 0.1)
 

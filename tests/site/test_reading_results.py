@@ -8,9 +8,9 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.cli import app
+from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions.chain import page as waves
-from gripscale.wave import Status
 from tests.samples import ROOT, case_text, write_short_road
 
 PAGE = (ROOT / "docs" / "reading-results.md").read_text(encoding="utf-8")

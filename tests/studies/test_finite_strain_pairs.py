@@ -9,9 +9,9 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.half_space import surface_of_sines
 from gripscale.surface import SineStack
-from gripscale.wave import Status
 from studies.finite_strain_pairs import solve_both_ways
 from tests.half_space.rough_cases import ZENER
 from tests.samples import GENTLE_SINES as GENTLE

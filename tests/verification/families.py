@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale import theory
-from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem, WaveResult
+from gripscale.wave import FiniteStrainBlock, Mesh, ScaleResult, Sine, WaveLoad, WaveProblem
 from tests.samples import ROOT
 
 WAVELENGTH = 1e-3
@@ -36,7 +36,7 @@ class Family:
     """None where nothing slides."""
     depth: float = Mesh.depth
 
-    def solve(self, mesh: Mesh, tolerance: float | None = None) -> list[WaveResult]:
+    def solve(self, mesh: Mesh, tolerance: float | None = None) -> list[ScaleResult]:
         """Solve all waves; none may fail."""
         block = FiniteStrainBlock(replace(mesh, depth=self.depth), tolerance)
         results = [block.solve(problem) for problem in self.problems]
@@ -44,12 +44,12 @@ class Family:
         assert not failed, f"{self.name}: {failed[0]}"
         return results
 
-    def area_errors(self, results: Sequence[WaveResult]) -> NDArray[np.float64]:
+    def area_errors(self, results: Sequence[ScaleResult]) -> NDArray[np.float64]:
         """Return errors of the contact fraction."""
         return np.array([result.contact_fraction for result in results]) - self.contact_fraction
 
     def friction_errors(
-        self, results: Sequence[WaveResult], measure: str = "friction"
+        self, results: Sequence[ScaleResult], measure: str = "friction"
     ) -> NDArray[np.float64]:
         """Return relative errors of the friction coefficient."""
         assert self.friction is not None
@@ -179,7 +179,7 @@ def _wave(
 
 
 def _against(
-    name: str, problems: tuple[WaveProblem, ...], *results: Sequence[WaveResult]
+    name: str, problems: tuple[WaveProblem, ...], *results: Sequence[ScaleResult]
 ) -> Family:
     assert all(result.converged for many in results for result in many)
     fractions = np.array([[result.contact_fraction for result in many] for many in results])

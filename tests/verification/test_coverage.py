@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gripscale.wave import FiniteStrainBlock, Mesh, WaveResult
+from gripscale.wave import FiniteStrainBlock, Mesh, ScaleResult
 from tests.verification.coverage_cases import KINDS, CoverageCase, cases, closed_form
 
 FINEST = 512
@@ -37,7 +37,7 @@ class Judged:
 def judged(case: CoverageCase, finest: int = FINEST) -> Iterator[Judged]:
     """Solve a case to each tolerance, the default and the finest mesh, each from the one before."""
     settings = {"finest_columns": float(finest)}
-    results: list[WaveResult] = []
+    results: list[ScaleResult] = []
     for tolerance in TOLERANCES:
         block = FiniteStrainBlock(Mesh(), tolerance, settings)
         results.append(block.solve(case.problem, results[-1] if results else None))
@@ -57,7 +57,7 @@ def judged(case: CoverageCase, finest: int = FINEST) -> Iterator[Judged]:
             )
 
 
-def reference(case: CoverageCase, start: WaveResult, finest: int) -> tuple[float, float]:
+def reference(case: CoverageCase, start: ScaleResult, finest: int) -> tuple[float, float]:
     """Return contact fraction and friction by the closed form, or on the finest mesh."""
     if case.closed_form:
         return closed_form(case.problem)

@@ -6,11 +6,11 @@ import pytest
 
 import gripscale as gs
 from gripscale import _kernel
+from gripscale.core.status import Status
 from gripscale.wave import (
     FiniteStrainBlock,
     Mesh,
     Sine,
-    Status,
     WaveLoad,
     WaveProblem,
     WaveSolver,

@@ -23,7 +23,7 @@ LATE = 1.0
 work, on a machine with other work."""
 
 
-def long_solve(columns: int) -> gs.WaveResult:
+def long_solve(columns: int) -> gs.ScaleResult:
     """Solve on a mesh that takes seconds: 2048 columns some five of processor time."""
     return gs.solve_scale(RUBBER, **LOAD, columns=columns, rows=128)
 

@@ -29,9 +29,9 @@ def test_a_warm_start_finds_the_same_solution_sooner(varied):
 def test_a_chain_starts_from_its_neighbour_along_a_sweep():
     sines = gs.SineStack(wavelength=[1e-2, 2e-3], amplitude=[1e-3, 2e-4])
     load = {"pressure": 3e5, "footprint": 0.1, "columns": 64, "rows": 12}
-    first = gs.predict(RUBBER, sines, speed=1.0, **load)
-    cold = gs.predict(RUBBER, sines, speed=1.2, **load)
-    warm = gs.predict(RUBBER, sines, speed=1.2, **load, start=first)
+    first = gs.solve_chain(RUBBER, sines, speed=1.0, **load)
+    cold = gs.solve_chain(RUBBER, sines, speed=1.2, **load)
+    warm = gs.solve_chain(RUBBER, sines, speed=1.2, **load, start=first)
     assert warm.friction == pytest.approx(cold.friction, rel=1e-6)
     assert warm.contact_fraction == pytest.approx(cold.contact_fraction, rel=1e-6)
     steps = [sum(s.details["load_steps"] for s in p.scales) for p in (warm, cold)]

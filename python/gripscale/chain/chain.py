@@ -20,7 +20,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
-from gripscale.chain.prediction import ChainError, ChainSolve, Prediction, RubberAt
+from gripscale.chain.prediction import ChainError, ChainResult, ChainSolve, RubberAt
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.checks import Checked, checked
@@ -34,12 +34,12 @@ from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.kernel import WaveSolver, solver_of
 from gripscale.wave.problem import Sine
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
-WaveSolverLike = WaveSolver | str | Callable[..., WaveResult]
+WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
 
 
 def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolver:
@@ -66,7 +66,7 @@ def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolve
     return solver
 
 
-def predict(
+def solve_chain(
     rubber: Rubber,
     sines: SineStack,
     *,
@@ -78,13 +78,13 @@ def predict(
     max_scales: int | None = None,
     pressure_classes: int = 1,
     load_time: LoadTime = "passage",
-    on_scale: Callable[[Prediction], None] | None = None,
-    start: Prediction | None = None,
+    on_scale: Callable[[ChainResult], None] | None = None,
+    start: ChainResult | None = None,
     rubber_at: RubberAt | None = None,
     conditions: Conditions | None = None,
     extrapolate: str = "warn",
     **options: Any,
-) -> Prediction:
+) -> ChainResult:
     """Predict contact and friction by the chain over the waves of `sines`, largest first.
 
     Parameters
@@ -134,8 +134,8 @@ def predict(
 
     Returns
     -------
-    Prediction
-        One `WaveResult` per wave, with running area and friction.
+    ChainResult
+        One `ScaleResult` per wave, with running area and friction.
 
     Raises
     ------
@@ -191,7 +191,7 @@ class Chain(Checked, model.Model):
     Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or `extrapolate`
     another word.
 
-    The other fields are arguments of `predict`.
+    The other fields are arguments of `solve_chain`.
 
     Parameters
     ----------
@@ -230,10 +230,10 @@ class Chain(Checked, model.Model):
         *,
         smallest_wavelength: float | None = None,
         max_scales: int | None = None,
-        on_scale: Callable[[Prediction], None] | None = None,
-        start: Prediction | None = None,
-    ) -> Prediction:
-        """Return the prediction; arguments and errors as for `predict`."""
+        on_scale: Callable[[ChainResult], None] | None = None,
+        start: ChainResult | None = None,
+    ) -> ChainResult:
+        """Return the prediction; arguments and errors as for `solve_chain`."""
         checks.instance("sines", sines, SineStack)
         waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
         conditions = self.conditions
@@ -241,7 +241,7 @@ class Chain(Checked, model.Model):
         require_load_bearing(before, load.pressure, load.time_under(load.footprint))
         if self.extrapolate == "refuse":
             require_measured(before, [wave.wavelength for wave in waves], load.speed)
-        empty = Prediction(rubber, sines, load, [], len(waves), conditions)
+        empty = ChainResult(rubber, sines, load, [], len(waves), conditions)
         chain = ChainSolve(empty, waves, self.solver, self.pressure_classes, on_scale)
         if conditions is None:
             return chain(self.rubber_at, start)
@@ -257,7 +257,7 @@ class Chain(Checked, model.Model):
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
-        """Return the prediction as a Dataset; `on_progress` gets the `Prediction` so far.
+        """Return the prediction as a Dataset; `on_progress` gets the `ChainResult` so far.
 
         A wave that does not converge ends the chain and is its last one. Without permission to
         extrapolate there may be no wave. `prediction_status` holds the reason.

@@ -14,15 +14,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from gripscale.chain.heat import Warming, WaveHeat, strains, warming
-from gripscale.chain.prediction import ChainSolve, Prediction
+from gripscale.chain.prediction import ChainResult, ChainSolve
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.core.arrays import Array
+from gripscale.core.status import Status
 from gripscale.rubber import Rubber
-from gripscale.wave.problem import Sine, Status
+from gripscale.wave.problem import Sine
 
 
-def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditions) -> Prediction:
+def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditions) -> ChainResult:
     """Return the prediction whose strains and temperatures are those of its rubber.
 
     The details of each wave hold its strain, temperature and modulus ratios; the Newton iterations
@@ -59,7 +60,7 @@ def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditio
     return replace(solved, scales=scales)
 
 
-def mark_unsettled(so_far: Prediction) -> Prediction:
+def mark_unsettled(so_far: ChainResult) -> ChainResult:
     """Return a prediction on the way to the fixed point with a status that says so."""
     *others, last = so_far.scales
     if not last.converged:
@@ -86,7 +87,7 @@ class WaveStates:
             omega=omega,
         )
 
-    def __call__(self, wave: Sine, so_far: Prediction) -> Rubber:
+    def __call__(self, wave: Sine, so_far: ChainResult) -> Rubber:
         """Return the rubber on `wave`, next after those of `so_far`."""
         omega = 2.0 * math.pi * so_far.load.speed / wave.wavelength
         return self.at(len(so_far.scales), omega).rubber
@@ -127,7 +128,7 @@ class _ChainEvaluation:
     """Of each wave in all evaluations, on the coarse mesh too."""
     load_steps: Counter[int] = field(default_factory=Counter)
 
-    def __call__(self, x: Array | None, last: Prediction | None) -> Iteration[Prediction]:
+    def __call__(self, x: Array | None, last: ChainResult | None) -> Iteration[ChainResult]:
         """Return the evaluation of `x`; without it the rubber is as before the contact."""
         start = last if self.solver.warm else None
         if x is None:
@@ -148,7 +149,7 @@ class _ChainEvaluation:
         return Iteration(solved, x, pack_state(rise, strain), [solved.contact_fraction, *friction])
 
 
-def chain_warming(conditions: Conditions, solved: Prediction) -> list[Warming]:
+def chain_warming(conditions: Conditions, solved: ChainResult) -> list[Warming]:
     """Return the temperature rise of the rubber on each wave of a solved chain."""
     assert conditions.heat is not None
     heats = [WaveHeat.of(wave, wave.rubber or solved.rubber) for wave in solved.scales]

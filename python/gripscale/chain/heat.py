@@ -34,7 +34,7 @@ from gripscale.conditions.flash_temperature import (
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 POINTS = 256
 
@@ -60,7 +60,7 @@ class WaveHeat:
         return np.asarray(2.0 * math.pi / self.wavelength * np.arange(1.0, POINTS // 2))
 
     @classmethod
-    def of(cls, wave: WaveResult, rubber: Rubber) -> WaveHeat:
+    def of(cls, wave: ScaleResult, rubber: Rubber) -> WaveHeat:
         """Return the heat of a solved wave of `rubber`.
 
         Along the wave, harmonic n of the pressure loses |p_n|^2 Im M / |M|^2 at n times the
@@ -158,7 +158,7 @@ def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:
     return float(2.0 * (temperature * weight.conj()).real.sum())
 
 
-def strains(waves: Sequence[WaveResult], norm: StrainNorm) -> list[float]:
+def strains(waves: Sequence[ScaleResult], norm: StrainNorm) -> list[float]:
     """Return the strain amplitude [-] on each wave, largest wave first.
 
     Raises `InputError` for the norm "stretch" if the solver has no stretches.
@@ -176,7 +176,7 @@ def strains(waves: Sequence[WaveResult], norm: StrainNorm) -> list[float]:
     return out
 
 
-def contact_slope(wave: WaveResult) -> float:
+def contact_slope(wave: ScaleResult) -> float:
     """Return the rms slope of a solved wave in its contact [-]."""
     k = 2.0 * math.pi / wave.wavelength
     edges = np.asarray(wave.details["contact_edges"], dtype=float)

@@ -1,4 +1,4 @@
-"""Prediction of the chain: the solved waves, and area and friction down to each of them.
+"""ChainResult of the chain: the solved waves, and area and friction down to each of them.
 
     real area    A_r/A_0  = prod A_i / lambda_i
     friction     mu_r     = sum mu_i
@@ -37,21 +37,16 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import ConvergenceError, InputError
+from gripscale.core.labels import labelled
+from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.model import NOT_CONVERGED, CutOffExponents, Load, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
-from gripscale.wave.problem import Sine, Status, WaveLoad, WaveProblem
-from gripscale.wave.result import (
-    CHAIN,
-    LW,
-    WaveResult,
-    labelled,
-    waves_from_dataset,
-    waves_to_dataset,
-)
+from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
+from gripscale.wave.result import CHAIN, LW, ScaleResult, waves_from_dataset, waves_to_dataset
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -80,7 +75,7 @@ class PressureClasses:
         """Mean pressure on the area of all classes [Pa]."""
         return float(self.pressure @ self.area / self.area.sum())
 
-    def handed_down(self, solved: Sequence[WaveResult], count: int) -> PressureClasses:
+    def handed_down(self, solved: Sequence[ScaleResult], count: int) -> PressureClasses:
         """Return `count` classes of the contacts of the waves solved under each class.
 
         Raises `InputError` for several classes if a solver returns no pressure along the wave.
@@ -98,7 +93,7 @@ class PressureClasses:
         areas = np.diff(np.interp(np.linspace(0.0, load[-1], count + 1), load, below))
         return PressureClasses(load[-1] / (count * areas), areas)
 
-    def combined(self, solved: Sequence[WaveResult]) -> WaveResult:
+    def combined(self, solved: Sequence[ScaleResult]) -> ScaleResult:
         """Return one result for a wave solved under each class.
 
         Contact fractions are averaged by area, frictions by load; stretches, residual and status
@@ -130,12 +125,12 @@ class PressureClasses:
         )
 
 
-def usable(wave: WaveResult) -> bool:
+def usable(wave: ScaleResult) -> bool:
     """Return whether the next wave can be solved: this one converged and is in contact."""
     return wave.converged and 0.0 < wave.contact_fraction <= 1.0
 
 
-def _contact_of(wave: WaveResult) -> tuple[Array, Array]:
+def _contact_of(wave: ScaleResult) -> tuple[Array, Array]:
     """Return share of the wavelength and pressure [Pa] of each node in contact.
 
     The edges of the contact lie between nodes, so that shares are scaled to the contact fraction
@@ -156,17 +151,17 @@ def _contact_of(wave: WaveResult) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True)
-class Prediction:
+class ChainResult:
     """Contact and friction of a stack of waves (m, Pa, m/s).
 
     A wave that did not converge is kept, last, with its status: the totals are then NaN.
     """
 
     rubber: Rubber
-    """As measured; under conditions each wave has another one, see `WaveResult.rubber`."""
+    """As measured; under conditions each wave has another one, see `ScaleResult.rubber`."""
     sines: SineStack
     load: Load
-    scales: list[WaveResult]
+    scales: list[ScaleResult]
     planned: int
     """Number of waves to solve."""
     conditions: Conditions | None = None
@@ -335,7 +330,7 @@ class Prediction:
             return gripscale.report.write_report(stored, output)
 
     @classmethod
-    def from_dataset(cls, data: xr.Dataset) -> Prediction:
+    def from_dataset(cls, data: xr.Dataset) -> ChainResult:
         """Return the prediction of a Dataset, in memory or read from a file.
 
         Raises `InputError` if the Dataset is not that of a prediction of the chain.
@@ -379,7 +374,7 @@ class Prediction:
 class RubberAt(Protocol):
     """Rubber of each wave, which may depend on the waves solved before."""
 
-    def __call__(self, wave: Sine, so_far: Prediction) -> Rubber:
+    def __call__(self, wave: Sine, so_far: ChainResult) -> Rubber:
         """Return the rubber on `wave`, the next one after those of `so_far`."""
 
 
@@ -389,7 +384,7 @@ class ChainError(ConvergenceError):
     The last entry of `partial.scales` is the wave that failed, with its status.
     """
 
-    def __init__(self, message: str, partial: Prediction) -> None:
+    def __init__(self, message: str, partial: ChainResult) -> None:
         super().__init__(message)
         self.partial = partial
 
@@ -403,14 +398,14 @@ class ChainError(ConvergenceError):
 class ChainSolve:
     """Solves all waves one after the other and adds them to an `empty` prediction."""
 
-    empty: Prediction
+    empty: ChainResult
     waves: Sequence[Sine]
     solver: WaveSolver
     classes: int
     """Number of pressure classes."""
-    on_scale: Callable[[Prediction], None] | None
+    on_scale: Callable[[ChainResult], None] | None
 
-    def __call__(self, rubber_at: RubberAt | None, start: Prediction | None) -> Prediction:
+    def __call__(self, rubber_at: RubberAt | None, start: ChainResult | None) -> ChainResult:
         """Return the prediction with the rubber of each wave, each from its wave of `start`."""
         result, load = self.empty, self.empty.load
         classes, length = PressureClasses.uniform(load.pressure), load.footprint

@@ -27,10 +27,11 @@ from functools import cached_property
 import numpy as np
 import xarray as xr
 
-from gripscale.chain.prediction import CLASS_PRESSURES, ChainSolve, Prediction
+from gripscale.chain.prediction import CLASS_PRESSURES, ChainResult, ChainSolve
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core.labels import labelled
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import (
     Bands,
@@ -45,7 +46,7 @@ from gripscale.surface import SineStack
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, Sine, WaveLoad, WaveProblem
-from gripscale.wave.result import WaveResult, labelled
+from gripscale.wave.result import ScaleResult
 
 STEP = 0.05
 """Change of the logarithm of an input."""
@@ -62,10 +63,10 @@ Change = Callable[[float], tuple[Sequence[Rubber], Load]]
 class NeighbourSolver:
     """Solves each wave near one that is solved, on the same mesh and from its solution."""
 
-    solved: Sequence[WaveResult]
+    solved: Sequence[ScaleResult]
     name: str = "neighbour"
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         """Return the solved wave itself for its own problem, else a new solution."""
         profile, load = problem.profile, problem.load
         wave = next(each for each in self.solved if each.wavelength == profile.wavelength)
@@ -84,7 +85,7 @@ class NeighbourSolver:
 class WaveDifferences:
     """Derivatives of ln mu and ln A_r/A_0 of solved waves."""
 
-    solved: Prediction
+    solved: ChainResult
 
     @cached_property
     def rubbers(self) -> list[Rubber]:
@@ -183,14 +184,14 @@ def _with_term(rubber: Rubber, term: int, factor: float) -> Rubber:
         )
 
 
-def _harmonics(wave: WaveResult) -> Array:
+def _harmonics(wave: ScaleResult) -> Array:
     """Return the angular frequencies at which a wave excites the rubber [rad/s], zero first."""
     count = int(wave.details.get("columns", wave.details.get("points", 0)))
     return np.asarray(wave.angular_frequency * np.arange(count // 2 + 1))
 
 
 def wave_sensitivity(
-    result: Prediction,
+    result: ChainResult,
     *,
     bands_per_decade: int,
     reference_temperature: float | None,
@@ -243,7 +244,7 @@ def wave_sensitivity(
     ).assign_coords(coordinates)
 
 
-def _require_solvable(result: Prediction) -> None:
+def _require_solvable(result: ChainResult) -> None:
     """Raise `InputError` unless the waves slide, are solved, and can be solved again."""
     solvers = (FiniteStrainBlock.name, HalfPlane.name)
     other = [wave.model for wave in result.scales if wave.model not in solvers]
@@ -268,7 +269,7 @@ def _shift(rubber: Rubber, other: Rubber) -> float:
 
 
 def sensitivity(
-    result: RoughContact | WaveResult | Prediction,
+    result: RoughContact | ScaleResult | ChainResult,
     *,
     bands_per_decade: int = 2,
     contact_fraction: bool = False,
@@ -284,7 +285,7 @@ def sensitivity(
 
     Parameters
     ----------
-    result : RoughContact, ScaleResult or Prediction
+    result : RoughContact, ScaleResult or ChainResult
         In motion, with friction above zero. Waves of another solver than "finite_strain" and
         "half_plane", and a period of a profile, are refused.
     bands_per_decade : int
@@ -323,11 +324,11 @@ def sensitivity(
             contact_fraction=contact_fraction,
             reference_temperature=reference_temperature,
         )
-    if isinstance(result, WaveResult):
+    if isinstance(result, ScaleResult):
         result = _chain_of(result)
-    if not isinstance(result, Prediction):
+    if not isinstance(result, ChainResult):
         raise InputError(
-            "result must be a RoughContact, ScaleResult or Prediction; got "
+            "result must be a RoughContact, ScaleResult or ChainResult; got "
             f"{checks.short_repr(result)}"
         )
     return wave_sensitivity(
@@ -338,10 +339,10 @@ def sensitivity(
     )
 
 
-def _chain_of(wave: WaveResult) -> Prediction:
+def _chain_of(wave: ScaleResult) -> ChainResult:
     """Return the chain of one wave."""
     if wave.rubber is None:
         raise InputError("result must know its rubber for derivatives; got a wave without one")
     sines = SineStack(np.array([wave.wavelength]), np.array([wave.amplitude]))
     load = Load(wave.pressure_received, wave.speed, wave.wavelength, wave.load_time)
-    return Prediction(wave.rubber, sines, load, [wave], 1)
+    return ChainResult(wave.rubber, sines, load, [wave], 1)

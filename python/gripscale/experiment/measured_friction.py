@@ -20,10 +20,10 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.labels import labelled
 from gripscale.core.units import UNITS, in_si, listed, plain, spelled
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
 from gripscale.model import PLAUSIBLE
-from gripscale.wave.result import labelled
 
 _WORDS = {
     "speed": ("speed", "velocity", "v"),

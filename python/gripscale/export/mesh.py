@@ -40,9 +40,10 @@ from numpy.typing import NDArray
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import file_path
-from gripscale.wave import Status, WaveResult
+from gripscale.wave import ScaleResult
 from gripscale.wave.result import waves_from_dataset
 
 
@@ -58,7 +59,7 @@ class ReferenceBlock:
     order: int
 
     @classmethod
-    def of(cls, result: WaveResult) -> ReferenceBlock:
+    def of(cls, result: ScaleResult) -> ReferenceBlock:
         """Return the mesh on which a wave was solved.
 
         Raises `InputError` if the solver of the wave has no mesh.
@@ -195,12 +196,12 @@ class BlockStress:
         return np.asarray(total / volume.sum(axis=(2, 3))[(..., *extra)])
 
 
-def block_stress(result: WaveResult) -> BlockStress:
+def block_stress(result: ScaleResult) -> BlockStress:
     """Return the stress in the block of a wave.
 
     Parameters
     ----------
-    result : WaveResult
+    result : ScaleResult
         Of the finite-strain block, solved or read from a file, with its mesh and its rubber.
 
     Returns
@@ -213,7 +214,7 @@ def block_stress(result: WaveResult) -> BlockStress:
     InputError
         If the wave has no mesh or no rubber, or is not in equilibrium.
     """
-    checks.instance("result", result, WaveResult)
+    checks.instance("result", result, ScaleResult)
     block, rubber = ReferenceBlock.of(result), result.rubber
     if result.status not in EQUILIBRIUM or rubber is None or result.deformed_mesh is None:
         raise InputError(
@@ -324,7 +325,7 @@ NUMBERS = (
 """Attributes of the wave in the field data, in SI units."""
 
 
-def write_mesh(result: WaveResult, path: str | Path) -> Path:
+def write_mesh(result: ScaleResult, path: str | Path) -> Path:
     """Write the deformed block of a wave as VTU; return the path.
 
     Coordinates are those of gripscale, in m: x along the sliding, z up, y = 0. Points are the
@@ -343,7 +344,7 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
 
     Parameters
     ----------
-    result : WaveResult
+    result : ScaleResult
         Of the finite-strain block, solved or read from a file. If it is not in equilibrium (its
         status is neither converged nor that of a missed accuracy), cells have no data.
     path : str or Path
@@ -356,7 +357,7 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
     FileError
         If the file cannot be written.
     """
-    checks.instance("result", result, WaveResult)
+    checks.instance("result", result, ScaleResult)
     block = ReferenceBlock.of(result)
     assert result.deformed_mesh is not None
     x, z = result.deformed_mesh
@@ -384,7 +385,7 @@ def write_mesh(result: WaveResult, path: str | Path) -> Path:
     return write_vtu(file_path(path), _vectors(x, z), element_nodes(block), data, numbers)
 
 
-def wave_of(data: xr.Dataset, number: int) -> WaveResult:
+def wave_of(data: xr.Dataset, number: int) -> ScaleResult:
     """Return wave `number`, from 1, of a prediction, or that profile of blocks on profiles.
 
     Raises `InputError` if the prediction has no meshes, or not so many.

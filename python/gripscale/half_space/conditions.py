@@ -27,11 +27,11 @@ from gripscale.conditions.conditions import Conditions, RubberByScale, StateBySc
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.core.status import Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
-from gripscale.wave.problem import Status
 
 ROUND_OFF = 1e-12
 """Share of the friction below which the heat of an octave is neglected."""

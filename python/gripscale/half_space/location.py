@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
-from gripscale.wave.result import labelled
+from gripscale.core.labels import labelled
 
 if TYPE_CHECKING:
     from gripscale.half_space.result import RoughContact

@@ -15,12 +15,13 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.labels import labelled
 from gripscale.half_space.location import SHARES, contact_trace, with_traces
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
 from gripscale.wave.profile import solve_profile
-from gripscale.wave.result import labelled, waves_to_dataset
+from gripscale.wave.result import waves_to_dataset
 
 if TYPE_CHECKING:
     import xarray as xr

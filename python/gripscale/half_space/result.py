@@ -35,6 +35,8 @@ from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.labels import labelled
+from gripscale.core.status import Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
 from gripscale.half_space.location import SHARES as BY_SLOPE
@@ -50,8 +52,6 @@ from gripscale.model import (
 )
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NONE, Extrapolation, of_spectrum
-from gripscale.wave.problem import Status
-from gripscale.wave.result import labelled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -54,13 +54,13 @@ from gripscale.conditions.conditions import state_by_scale
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core.labels import labelled
 from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
-from gripscale.wave.result import labelled
 
 ADJOINT_TOLERANCE = 1e-8
 """Residual of the adjoint system over its right side, both as pressures. Five digits of the

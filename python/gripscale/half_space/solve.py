@@ -20,6 +20,7 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import checks
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import worker_count
+from gripscale.core.status import Status
 from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import PeriodicHeights, periodic_heights
@@ -41,7 +42,6 @@ from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import HeightMap, Profile
 from gripscale.theory.half_plane import GridContact
-from gripscale.wave.problem import Status
 
 FEWEST_IN_CONTACT = 8
 LEAST_FRICTION = 0.01

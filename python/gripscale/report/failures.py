@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gripscale.wave.problem import Status
+from gripscale.core.status import Status
 
 
 @dataclass(frozen=True)

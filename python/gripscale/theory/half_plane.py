@@ -43,6 +43,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.theory.elastic import (
@@ -52,8 +53,8 @@ from gripscale.theory.elastic import (
     poisson,
 )
 from gripscale.wave.kernel import face_of
-from gripscale.wave.problem import Sine, Status, WaveLoad, WaveProblem
-from gripscale.wave.result import WaveResult
+from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
+from gripscale.wave.result import ScaleResult
 
 Compliance = Callable[[Array], ComplexArray]
 
@@ -223,7 +224,7 @@ class HalfPlane(Checked):
         checks.allowed_names("option", options, cls.__dataclass_fields__)
         return cls(**options)
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         """Return contact and friction of `problem`.
 
         Raises `InputError` for a `start`, which the nested grids do not use, and for a profile
@@ -283,7 +284,7 @@ class HalfPlane(Checked):
                 status = Status.ACTIVE_SET_NOT_SETTLED
             elif in_contact < _FEWEST_IN_CONTACT:
                 status = Status.CONTACT_TOO_NARROW
-        return WaveResult(
+        return ScaleResult(
             wavelength=wave.wavelength,
             amplitude=wave.amplitude,
             pressure_received=load.pressure,
@@ -323,7 +324,7 @@ def solve_half_plane(
     points: int = HalfPlane.points,
     poisson_ratio: float | None = None,
     most_iterations: int = HalfPlane.most_iterations,
-) -> WaveResult:
+) -> ScaleResult:
     """Return contact and friction of one wave by small-strain theory.
 
     Raises `InputError` if an argument is out of its range, or the rubber at rest is a melt: the
@@ -346,7 +347,7 @@ def solve_half_plane(
 
     Returns
     -------
-    WaveResult
+    ScaleResult
         With `model` "half_plane", stretches NaN (a half-plane's surface does not show them) and
         `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`. A `status`
         other than "converged" says why not to trust the numbers.

@@ -34,6 +34,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface.height_difference import (
@@ -53,7 +54,6 @@ from gripscale.theory.persson import (
     refine_intervals,
     running_integral,
 )
-from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr

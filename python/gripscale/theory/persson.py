@@ -31,6 +31,7 @@ from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.model import NOT_CONVERGED, Load, Model, OnProgress, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
@@ -43,7 +44,6 @@ from gripscale.surface.spectrum import (
     profile_spectrum,
 )
 from gripscale.surface.surface import Surface, SurfacePart
-from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -93,7 +93,7 @@ class TheoryResult:
         """
         import xarray as xr
 
-        from gripscale.wave.result import labelled
+        from gripscale.core.labels import labelled
 
         data = {
             variable: labelled(dims, getattr(self, variable), unit, text, self.source)

@@ -6,11 +6,10 @@ from .kernel import describe_settings as describe_settings
 from .problem import Mesh as Mesh
 from .problem import SampledProfile as SampledProfile
 from .problem import Sine as Sine
-from .problem import Status as Status
 from .problem import WaveLoad as WaveLoad
 from .problem import WaveProblem as WaveProblem
 from .profile import solve_profile as solve_profile
-from .result import WaveResult as WaveResult
+from .result import ScaleResult as ScaleResult
 from .transient import Stage as Stage
 from .transient import TransientResult as TransientResult
 from .transient import solve_transient as solve_transient

@@ -3,7 +3,7 @@
 The block is one wavelength wide and periodic, in plane strain: a permanent network plus one
 temporary network per Maxwell element (Lubliner, Mech. Res. Commun. 12 (1985) 93). The compiled
 kernel solves the static or steady state in the frame of the wave; this module is the only one that
-builds a `WaveResult` from its solution.
+builds a `ScaleResult` from its solution.
 """
 
 from __future__ import annotations
@@ -18,12 +18,13 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
+from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.wave import kernel
 from gripscale.wave.kernel import face_of
-from gripscale.wave.problem import Mesh, Sine, Status, WaveLoad, WaveProblem
-from gripscale.wave.result import WaveResult
+from gripscale.wave.problem import Mesh, Sine, WaveLoad, WaveProblem
+from gripscale.wave.result import ScaleResult
 
 SOLVED = (
     Status.CONVERGED,
@@ -91,8 +92,8 @@ class FiniteStrainBlock(Checked):
         return replace(self, mesh=replace(mesh, columns=columns, rows=rows), tolerance=None)
 
     def solve(
-        self, problem: WaveProblem, start: WaveResult | None = None, *, workers: int | None = None
-    ) -> WaveResult:
+        self, problem: WaveProblem, start: ScaleResult | None = None, *, workers: int | None = None
+    ) -> ScaleResult:
         """Return contact and friction of `problem`.
 
         `start` is a first guess and may be of another rubber, wave or load. `workers` as for
@@ -107,7 +108,7 @@ class FiniteStrainBlock(Checked):
         )
         return self._result(problem, solution)
 
-    def _result(self, problem: WaveProblem, solution: kernel.Solution) -> WaveResult:
+    def _result(self, problem: WaveProblem, solution: kernel.Solution) -> ScaleResult:
         profile, load = problem.profile, problem.load
         length = profile.wavelength
         details = {
@@ -135,7 +136,7 @@ class FiniteStrainBlock(Checked):
             else:
                 why = f"no coarser mesh than {solution.columns} columns was solved"
             details["no_error_estimate"] = why
-        return WaveResult(
+        return ScaleResult(
             wavelength=length,
             amplitude=profile.amplitude,
             pressure_received=load.pressure,
@@ -182,10 +183,10 @@ def solve_scale(
     tolerance: float | None = None,
     time_limit: float | None = None,
     workers: int | None = None,
-    start: WaveResult | None = None,
+    start: ScaleResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
-) -> WaveResult:
+) -> ScaleResult:
     """Press a rubber block on one rigid sine wave, slide it, and find contact and friction.
 
     The block is one wavelength wide and periodic, in plane strain at finite deformation: the
@@ -224,7 +225,7 @@ def solve_scale(
     workers : int, optional
         Threads for a large mesh; their number does not change the result by a bit. One per core by
         default, and one if gripscale solves several waves concurrently.
-    start : WaveResult, optional
+    start : ScaleResult, optional
         A result of another wave, pressure, speed or rubber to start from (a warm start).
     max_iterations : int, optional
         Newton iterations allowed in one load step.

@@ -13,7 +13,7 @@ from gripscale.core.parallel import look, worker_count
 from gripscale.rubber import Rubber
 from gripscale.rubber.banded import Band, BandedRubber
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveProblem
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 Solution = _kernel.Solution
 T = TypeVar("T")
@@ -71,12 +71,12 @@ def solve_stages(
     return _checked_call(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))
 
 
-def solution_of(start: WaveResult) -> Solution:
+def solution_of(start: ScaleResult) -> Solution:
     """Return the kernel's solution behind a result.
 
     Raises `InputError` if there is none: the result is of another solver, or from a file.
     """
-    checks.instance("start", start, WaveResult)
+    checks.instance("start", start, ScaleResult)
     if isinstance(start.solution, Solution):
         return start.solution
     raise InputError(
@@ -126,7 +126,7 @@ def _checked_call(call: Callable[[], T]) -> T:
         raise InputError(str(error)) from error
 
 
-F = TypeVar("F", bound=Callable[..., WaveResult])
+F = TypeVar("F", bound=Callable[..., ScaleResult])
 
 
 @runtime_checkable
@@ -141,7 +141,7 @@ class WaveSolver(Protocol):
     def name(self) -> str:
         """Word for the solver in results and case files."""
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         """Return contact and friction of `problem`.
 
         `start`, the result of a neighbouring problem, saves time and changes the result by the
@@ -160,7 +160,7 @@ class RefinableSolver(WaveSolver, Protocol):
 def face_of(solver: type) -> Callable[[F], F]:
     """Mark a function with keyword arguments as the face of `solver`.
 
-    `gripscale.predict` then accepts the function in place of the solver.
+    `gripscale.solve_chain` then accepts the function in place of the solver.
     """
 
     def mark(function: F) -> F:

@@ -22,7 +22,7 @@ from gripscale.surface.resampling import fill_gaps
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
@@ -52,11 +52,11 @@ def solve_profile(
     tolerance: float | None = None,
     time_limit: float | None = None,
     workers: int | None = None,
-    start: WaveResult | None = None,
+    start: ScaleResult | None = None,
     max_iterations: int | None = None,
     residual_tolerance: float | None = None,
     settings: Mapping[str, float] | None = None,
-) -> WaveResult:
+) -> ScaleResult:
     """Press a rubber block on one period of a profile, slide it, and find contact and friction.
 
     As `gripscale.solve_scale`, on sampled heights in place of one sine. Missing heights are
@@ -88,7 +88,7 @@ def solve_profile(
         up to a number of few factors, from 128 to 4096, and a number of rows whose heights grow by
         12 % at most from one to the next. Columns are doubled, to 4096 at most, as long as the two
         frictions differ by more than the `friction_bound` of the result.
-    start : WaveResult, optional
+    start : ScaleResult, optional
         A result of the block to start from, of any profile, load and rubber.
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over half the range of heights [-].
@@ -97,7 +97,7 @@ def solve_profile(
 
     Returns
     -------
-    WaveResult
+    ScaleResult
         Its `wavelength` is the period, its `amplitude` half the range of heights; x starts at the
         first point. `details` also has the `contact_edges` [m], the `missing_share` of the points,
         the `smallest_wavelength` of the block's profile [m], and the `contact_slope`, the largest

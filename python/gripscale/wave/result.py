@@ -1,6 +1,6 @@
 """Contact and friction of one wave, with the evidence for them, as an object and as a Dataset.
 
-Both directions of the conversion use the same tables: `FIELDS`, the numbers of a `WaveResult`;
+Both directions of the conversion use the same tables: `FIELDS`, the numbers of a `ScaleResult`;
 `DERIVED`, numbers that follow from these and are written for the reader; and `DETAILS`, numbers
 that only some solvers have. Arrays along the waves are padded with NaN.
 """
@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 
 import gripscale
 from gripscale.core.arrays import Array
+from gripscale.core.labels import labelled
+from gripscale.core.status import Status
 from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
-from gripscale.wave.problem import Status
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,7 +50,7 @@ def harmonics(x: Array, pressure: Array, period: float, order: NDArray[np.int_])
 
 
 @dataclass(frozen=True)
-class WaveResult:
+class ScaleResult:
     """Contact and friction of one wave, or of one period of a profile, with the evidence for them.
 
     All lengths in m, pressures in Pa, speeds in m/s, angular frequencies in rad/s.
@@ -221,9 +222,6 @@ class WaveResult:
         return complex(self.rubber.complex_modulus(self.angular_frequency))
 
 
-ScaleResult = WaveResult
-"""The public name, `gripscale.ScaleResult`."""
-
 LW = "Lind & Wangenheim 2014, IMECE2014-37998"
 CHAIN = "gripscale chain"
 SOLVER = "gripscale solver of one wave"
@@ -242,7 +240,7 @@ class Field(NamedTuple):
 
     @property
     def attribute(self) -> str:
-        """Name of the attribute of `WaveResult`, or its path."""
+        """Name of the attribute of `ScaleResult`, or its path."""
         return self.other_name or self.name
 
     def variable(self, values: Any) -> xr.Variable:
@@ -269,7 +267,7 @@ FIELDS = (
     Field("newton_iterations", "1", "Newton iterations"),
     Field("residual", "1", "residual force over applied force"),
 )
-"""Numbers of a `WaveResult`, written and read."""
+"""Numbers of a `ScaleResult`, written and read."""
 
 DERIVED = (
     Field("contact_length", "m", "contact length on the mean plane"),
@@ -344,7 +342,7 @@ DETAILS = (
 """Numbers that only some solvers or conditions have."""
 
 
-def waves_to_dataset(results: Sequence[WaveResult]) -> xr.Dataset:
+def waves_to_dataset(results: Sequence[ScaleResult]) -> xr.Dataset:
     """Return `results` over `scale`; what lies along the waves is padded with NaN.
 
     Every variable carries `units`, `long_name` and `source`.
@@ -384,7 +382,7 @@ def waves_to_dataset(results: Sequence[WaveResult]) -> xr.Dataset:
     return xr.Dataset(data, coords={"scale": scale})
 
 
-def waves_from_dataset(data: xr.Dataset) -> list[WaveResult]:
+def waves_from_dataset(data: xr.Dataset) -> list[ScaleResult]:
     """Return the waves of a Dataset, equal to the original ones except for solver states."""
     out = []
     for i in range(data.sizes["scale"]):
@@ -399,7 +397,7 @@ def waves_from_dataset(data: xr.Dataset) -> list[WaveResult]:
             layers, columns = np.isfinite(x).any(axis=1), np.isfinite(x).any(axis=0)
             mesh = (x[layers][:, columns], z[layers][:, columns]) if layers.any() else None
         out.append(
-            WaveResult(
+            ScaleResult(
                 **{**fields, "newton_iterations": int(fields["newton_iterations"])},  # type: ignore[arg-type]
                 status=Status(str(wave["status"].item())),
                 model=str(wave["wave_solver"].item()),
@@ -411,12 +409,6 @@ def waves_from_dataset(data: xr.Dataset) -> list[WaveResult]:
             )
         )
     return out
-
-
-def labelled(dims: Any, values: Any, unit: str, long_name: str, source: str) -> xr.Variable:
-    """Return `values` as a variable with the attributes that every result has."""
-    attrs = {"units": unit, "long_name": long_name, "source": source}
-    return xr.Variable(dims, np.asarray(values), attrs)
 
 
 def _padded(arrays: Sequence[Array]) -> Array:

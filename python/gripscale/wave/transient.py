@@ -17,11 +17,12 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.problem import Sine, Status
-from gripscale.wave.result import WaveResult
+from gripscale.wave.problem import Sine
+from gripscale.wave.result import ScaleResult
 
 DEFAULT_COLUMNS = 96
 DEFAULT_ROWS = 14
@@ -107,7 +108,7 @@ def solve_transient(
     wavelength: float,
     amplitude: float,
     stages: Sequence[Stage],
-    start: WaveResult | None = None,
+    start: ScaleResult | None = None,
     depth: float = 1.5,
     columns: int = DEFAULT_COLUMNS,
     rows: int = DEFAULT_ROWS,
@@ -129,7 +130,7 @@ def solve_transient(
         Of the wave [m].
     stages : sequence of Stage
         The programme. The first pressure acts at once, on rubber at rest.
-    start : WaveResult, optional
+    start : ScaleResult, optional
         A static or steady state to start from, solved with the same rubber and wave.
     depth, columns, rows, workers, **options
         As in `gripscale.solve_scale`.

@@ -47,7 +47,7 @@ def test_each_point_is_the_prediction_at_its_speed_temperature_and_pressure(
     assert found.pressure.tolist() == [2e5, 3e5, 3e5]
     term = found.area_term(LAW, MEASURED.speed)
     for at, kelvin in enumerate([303.15, 313.15, 298.15]):
-        alone = gs.predict(
+        alone = gs.solve_chain(
             RUBBER, SINES, solver=HalfPlane(points=64), pressure=found.pressure[at],
             speed=MEASURED.speed[at], footprint=0.05,
             conditions=Conditions(temperature=kelvin, heat=heat, shear_stress=LAW),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.core.status import Status
 from gripscale.experiment import Task
 from gripscale.half_space import BlockOnProfile, surface_of_sines
 from gripscale.half_space.model import DirectContact
@@ -18,7 +19,6 @@ from gripscale.questions.compare.ladder import LADDER, ComparisonSetup, chosen
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, SineStack, Surface, self_affine_profile
 from gripscale.theory import HalfPlane
-from gripscale.wave import Status
 from studies.finite_strain_pairs import solve_both_ways
 from tests.samples import GENTLE_SINES as STACK
 

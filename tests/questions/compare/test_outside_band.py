@@ -83,7 +83,7 @@ def test_refused_extrapolation_leaves_a_point_without_totals() -> None:
         answer.prediction_status.item()
     )
     with pytest.raises(ExtrapolationError, match="above the measured band"):
-        gs.predict(RUBBER, SINES, pressure=2e6, speed=0.1, footprint=0.1, extrapolate="refuse")
+        gs.solve_chain(RUBBER, SINES, pressure=2e6, speed=0.1, footprint=0.1, extrapolate="refuse")
     slow = Chain(HalfPlane(), extrapolate="refuse").predict(RUBBER, surface(), Load(2e6, 0.02, 0.1))
     assert slow.prediction_status == "converged"
 

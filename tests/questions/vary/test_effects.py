@@ -57,7 +57,7 @@ def test_each_answer_is_that_of_the_model_without_the_effect(both: list[xr.Datas
     assert (data.prediction_status == "converged").all()
     without = ({}, {"temperature": None}, {"softening": None}, {"heat": None})
     for name, left_out in zip(NAMES, without, strict=False):
-        own = gs.predict(
+        own = gs.solve_chain(
             RUBBER,
             SINES,
             pressure=3e5,

@@ -117,7 +117,7 @@ def test_ranges_hold_every_admissible_series(made: Compounds) -> None:
     load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
     sines = gs.SineStack([10e-3, 2e-3], [1e-3, 0.2e-3])
     found = [
-        gs.predict(one, sines, solver=gs.theory.HalfPlane(points=128), **load).friction
+        gs.solve_chain(one, sines, solver=gs.theory.HalfPlane(points=128), **load).friction
         for one in made.rubbers["lossy"].admissible_rubbers()
     ]
     assert lossy.total_friction_low == pytest.approx(min(*found, float(lossy.total_friction)))

@@ -206,7 +206,7 @@ def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Ro
 def test_friction_between_waves_is_linear_in_the_logarithm() -> None:
     ends = octave_ends(8e-3, 1e-3)
     np.testing.assert_allclose(ends, [8e-3, 4e-3, 2e-3, 1e-3])
-    answer = gs.predict(
+    answer = gs.solve_chain(
         gs.Rubber(2e6, [4e6], [1e-3]),
         gs.SineStack([8e-3, 2e-3], [4e-4, 1e-4]),
         pressure=3e5,

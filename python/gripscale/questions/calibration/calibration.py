@@ -22,6 +22,7 @@ from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.core.labels import labelled
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import OnTask, bench_in
@@ -37,7 +38,6 @@ from gripscale.questions.calibration.measured_comparison import (
 )
 from gripscale.questions.vary.inputs import default_model
 from gripscale.rubber.extrapolation import require_measured
-from gripscale.wave.result import labelled
 
 FACTORS_SHOWN = 3.0
 """How far the profile of an end that is not determined is kept, in the numbers of the search."""

@@ -15,6 +15,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.labels import labelled
 from gripscale.core.units import ZERO_CELSIUS, plain
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.measured_friction import (
@@ -34,7 +35,6 @@ from gripscale.model import (
     word_of,
 )
 from gripscale.rubber import Rubber
-from gripscale.wave.result import labelled
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -347,7 +347,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     Parameters
     ----------
     data : xarray.Dataset
-        Of `Prediction.to_dataset`, with heat.
+        Of `ChainResult.to_dataset`, with heat.
     title : str
         Above the panel.
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, TypeAlias, get_args
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.chain.prediction import Prediction
+    from gripscale.chain.prediction import ChainResult
     from gripscale.questions.answer.answer import Answer
 
 PASSES = "passes"
@@ -71,12 +71,12 @@ class WaveSolved:
     """Time it took to solve [s]."""
     stored: bool
     """Whether an earlier run of the same case solved it."""
-    so_far: Prediction | None = field(default=None, repr=False, compare=False)
+    so_far: ChainResult | None = field(default=None, repr=False, compare=False)
     """The prediction down to this wave; not in the line of JSON."""
 
     @classmethod
     def last_of(
-        cls, so_far: Prediction, prediction: str, pass_number: int, seconds: float, *, stored: bool
+        cls, so_far: ChainResult, prediction: str, pass_number: int, seconds: float, *, stored: bool
     ) -> WaveSolved:
         """Return the event of the last wave of a prediction."""
         wave = so_far.scales[-1]
@@ -101,7 +101,7 @@ class PredictionFinished:
 
     @classmethod
     def of(
-        cls, solved: Prediction, prediction: str, failure: Exception | None
+        cls, solved: ChainResult, prediction: str, failure: Exception | None
     ) -> PredictionFinished:
         """Return the event of a prediction, with what ended it early."""
         last = solved.scales[-1]

@@ -11,7 +11,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain import Chain, ChainError
-from gripscale.chain.prediction import Prediction
+from gripscale.chain.prediction import ChainResult
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import DisplayUnit
 from gripscale.experiment.task import Task
@@ -24,7 +24,7 @@ from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import WaveProblem
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 DYNAMIC, STATIC = "dynamic", "static"
 KEY, FINISHED = "prediction_key", "prediction_finished"
@@ -38,7 +38,7 @@ SAVE_EVERY = 2.0
 class StoredPrediction:
     """A prediction of an earlier run: all of it, or the waves that converged."""
 
-    prediction: Prediction
+    prediction: ChainResult
     finished: bool
 
 
@@ -47,14 +47,14 @@ class ReplayedWaves:
     """Answers stored waves with their stored results, and solves the others."""
 
     inner: WaveSolver
-    stored: tuple[WaveResult, ...]
+    stored: tuple[ScaleResult, ...]
 
     @property
     def name(self) -> str:
         """Name of the solver inside."""
         return self.inner.name
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         """Return the stored result of just this wave under just this pressure, or solve it."""
         asked = problem.profile.wavelength, problem.profile.amplitude, problem.load.pressure
         for wave in self.stored:
@@ -70,7 +70,7 @@ class ChainRun:
     case: Case
     folder: Path | None = None
     """Gets a file for each prediction, `dynamic.nc` and `static.nc`."""
-    predictions: dict[str, Prediction] = field(default_factory=dict)
+    predictions: dict[str, ChainResult] = field(default_factory=dict)
     """By name, "dynamic" and "static"."""
     failures: dict[str, ChainError] = field(default_factory=dict)
     """Why a prediction has no totals, by name."""
@@ -95,12 +95,12 @@ class ChainRun:
         return run
 
     @property
-    def dynamic(self) -> Prediction | None:
+    def dynamic(self) -> ChainResult | None:
         """The rubber sliding, or None if it was not asked for or has no wave yet."""
         return self.predictions.get(DYNAMIC)
 
     @property
-    def static(self) -> Prediction | None:
+    def static(self) -> ChainResult | None:
         """The relaxed rubber at rest, or None if it was not asked for or has no wave yet."""
         return self.predictions.get(STATIC)
 
@@ -143,7 +143,7 @@ class ChainRun:
         clock = saved = time.perf_counter()
         pass_number = 0
 
-        def keep(so_far: Prediction) -> None:
+        def keep(so_far: ChainResult) -> None:
             nonlocal clock, saved, pass_number
             self.predictions[name] = so_far
             is_stored = len(so_far.scales) <= stored_waves
@@ -205,7 +205,7 @@ def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     """
     try:
         data = netcdf.load(path)
-        prediction = Prediction.from_dataset(data) if data.attrs.get(KEY) == key else None
+        prediction = ChainResult.from_dataset(data) if data.attrs.get(KEY) == key else None
     except (FileError, InputError):
         return None
     if prediction is None:

@@ -13,6 +13,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.core import provenance
+from gripscale.core.labels import labelled
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import resolved_wavelength
@@ -31,7 +32,6 @@ from gripscale.questions.compare.ladder import ComparisonSetup, Rung
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import coordinates
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.wave.result import labelled
 
 SOURCE = "gripscale compare"
 WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), strict=True))

@@ -51,7 +51,7 @@ from gripscale.questions.vary.inputs import NAMED_MODELS, conditions_of, reading
 from gripscale.questions.vary.study import Study, coordinates
 
 if TYPE_CHECKING:
-    from gripscale.chain.prediction import Prediction
+    from gripscale.chain.prediction import ChainResult
     from gripscale.half_space.result import RoughContact
     from gripscale.model import Load, Model, OnProgress
     from gripscale.rubber import Rubber
@@ -173,9 +173,9 @@ class ChainSensitivity(Chain):
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer with the derivatives; without any if a wave has no result."""
-        last: list[Prediction] = []
+        last: list[ChainResult] = []
 
-        def keep(so_far: Prediction) -> None:
+        def keep(so_far: ChainResult) -> None:
             last[:] = [so_far]
             if on_progress is not None:
                 on_progress(so_far)

@@ -37,7 +37,7 @@ from gripscale.surface.resampling import fill_gaps_smoothly
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import WaveProblem
-from gripscale.wave.result import WaveResult
+from gripscale.wave.result import ScaleResult
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,7 +67,7 @@ class LongerLoaded:
         """Word for the solver within."""
         return self.solver.name
 
-    def solve(self, problem: WaveProblem, start: WaveResult | None = None) -> WaveResult:
+    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
         """Return contact and friction of `problem`, loaded so much longer."""
         load = replace(problem.load, load_time=self.factor * problem.load.load_time)
         return self.solver.solve(replace(problem, load=load), start)

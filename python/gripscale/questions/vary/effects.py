@@ -15,7 +15,7 @@ from typing import Any
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.chain.prediction import Prediction
+from gripscale.chain.prediction import ChainResult
 from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import (
@@ -149,7 +149,7 @@ def case_effects(
     folder: str | Path,
     store: str | Path,
     *,
-    dynamic: Prediction | None = None,
+    dynamic: ChainResult | None = None,
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
@@ -166,7 +166,7 @@ def case_effects(
         Gets `effects_<model>.nc`.
     store : path
         Keeps the finished predictions.
-    dynamic : Prediction, optional
+    dynamic : ChainResult, optional
         The chain of the sliding case, where it is solved already.
     workers, client, on_task
         As for `gripscale.experiment.solve_all`.
