@@ -45,7 +45,7 @@ def measure(folder: str | Path) -> list[str]:
     points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
     case = read_case(CASE)
     store = Store(Path(folder) / "predictions")
-    found = predictions_at(points, case.chain, case.rubber.rubber, case.surface, case.load, store)
+    found = predictions_at(points, case.chain, case.rubber, case.surface, case.load, store)
     exact = found.friction + found.area_term(TRUE, points.speed)
     friction = np.random.default_rng(SEED).normal(exact, SPREAD)
     columns = points.speed, points.temperature - 273.15, friction

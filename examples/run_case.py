@@ -1,11 +1,13 @@
-"""A case file run from Python: `python examples/run_case.py [CASE.toml [FOLDER]]`."""
+"""The answer of a case file from Python: `python examples/run_case.py [CASE.toml [FOLDER]]`."""
 
 import sys
 from pathlib import Path
 
-from gripscale.case_file import run_case
+import gripscale as gs
 
-case = sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent / "road_and_tread" / "case.toml"
-results = run_case(case, output=sys.argv[2] if len(sys.argv) > 2 else "results/run_case")
-print(f"A_r/A_0 = {results.dynamic.contact_fraction:.4f}, mu = {results.dynamic.friction:.3f}")
-print(f"{len(results.dynamic.scales)} waves on {results.rubber.rubber.name}")
+path = sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent / "road_and_tread" / "case.toml"
+folder = Path(sys.argv[2] if len(sys.argv) > 2 else "results/run_case")
+folder.mkdir(parents=True, exist_ok=True)
+answer = gs.answer(gs.read_case(path))
+print(answer)
+print("Saved:", answer.save(folder / "answer.nc"))

@@ -44,13 +44,13 @@ class Warming:
 def main(folder: str = "results/examples") -> None:
     """Predict with and without it; then vary the speed in a study with it."""
     case = read_case(CASE)
-    inputs = case.rubber.rubber, case.surface.sines
+    inputs = case.rubber, case.surface.sines
     load = {"pressure": 3e5, "speed": 3.0, "footprint": 0.1}  # [Pa], [m/s], [m]
     plain = solve_chain(*inputs, **load, solver=COARSE)
     warm = solve_chain(*inputs, **load, solver=COARSE, rubber_at=Warming())
     for cold, hot in zip(plain.scales, warm.scales, strict=True):
         print(f"{cold.wavelength * 1e3:.0f} mm: friction {cold.friction:.4f}, {hot.friction:.4f}")
-    study = Study(read_case(CASE), {"speed": [0.3, 3.0]}, model=Chain(COARSE, rubber_at=Warming()))
+    study = Study(case, {"speed": [0.3, 3.0]}, model=Chain(COARSE, rubber_at=Warming()))
     result = study.run(Path(folder) / "toy_condition")
     for speed, friction in zip(result.speed.values, result.total_friction.values, strict=True):
         print(f"{speed:g} m/s: friction {friction:.4f}")

@@ -26,6 +26,7 @@ from .questions.cut_off.question import CutOff as CutOff
 from .questions.cut_off.question import cut_off as cut_off
 from .questions.result import Result as Result
 from .questions.result import load as load
+from .questions.uncertainty.question import uncertainty as uncertainty
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber
 from .rubber import fit_prony as fit_prony

@@ -305,7 +305,7 @@ def in_si(name: str, value: float | str, kind: str) -> float:
     try:
         return parse_quantity(value, kind)
     except ValueError as error:
-        raise InputError(f"{name} = {value!r}: {error}") from error
+        raise InputError(f" = {value!r}: {error}", key=name) from error
 
 
 def described_surface(

@@ -222,6 +222,8 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
+            if isinstance(error, GripscaleError) and error.key in kwargs:
+                error.args = (f"--{error.key.replace('_', '-')}{error.detail}",)
             message, exit_code = failure_of(error)
             print_error(message)
             raise typer.Exit(exit_code) from None

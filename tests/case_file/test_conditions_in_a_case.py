@@ -80,10 +80,11 @@ def test_a_case_without_effects_has_no_conditions(tmp_path: Path) -> None:
 def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
     file = read_case_file(written(tmp_path, ALL))
     results = run_case(file, output=tmp_path / "results")
-    load = results.load
+    case = results.case
+    load = case.load
     own = solve_chain(
-        results.rubber,
-        results.surface.sines,
+        case.rubber,
+        case.surface.sines,
         pressure=load.pressure,
         speed=load.speed,
         footprint=load.footprint,
@@ -158,7 +159,7 @@ def test_sweeps_at_several_temperatures_make_the_rubber(tmp_path: Path) -> None:
     rubber = results.rubber
     assert rubber.shift is not None
     assert float(rubber.shift.log_a(313.15, 293.15)) == pytest.approx(-8 * 20 / 140, abs=0.02)
-    assert results.rubber.superposition is not None
+    assert results.measured_rubber.superposition is not None
     assert results.rubber_before.reference_temperature == pytest.approx(313.15)
 
 

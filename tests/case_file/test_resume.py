@@ -106,9 +106,7 @@ def test_a_finished_run_solves_nothing_again_unless_told_to(
     assert len(seen) == 6
 
 
-@pytest.mark.parametrize(
-    ("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 4", "rows = 5"), ("[load]", "[load] # other")]
-)
+@pytest.mark.parametrize(("old", "new"), [('"3 bar"', '"2 bar"'), ("rows = 4", "rows = 5")])
 def test_another_case_takes_nothing_up(
     case_copy: Path, tmp_path: Path, solved: Count, old: str, new: str
 ) -> None:
@@ -119,23 +117,35 @@ def test_another_case_takes_nothing_up(
     assert len(seen) == 6
 
 
-def test_a_changed_file_of_the_same_name_takes_nothing_up(
-    inputs: Path, tmp_path: Path, solved: Count
+def test_a_comment_solves_nothing_again(case_copy: Path, tmp_path: Path, solved: Count) -> None:
+    case_copy.write_text(CASE.replace("[load]", "[load] # other"))
+    seen = solved(None)
+    run_case(case_copy, output=tmp_path / "out")
+    assert not seen
+    assert "# other" in netcdf.load(tmp_path / "out" / "dynamic.nc").attrs["case"]
+
+
+@pytest.mark.parametrize(("new", "waves"), [("another digit", 6), ("a space", 0)])
+def test_other_numbers_in_a_file_of_the_same_name_take_nothing_up(
+    inputs: Path, tmp_path: Path, solved: Count, new: str, waves: int
 ) -> None:
     for path in inputs.iterdir():
         (tmp_path / path.name).write_bytes(path.read_bytes())
     run_case(tmp_path / "case.toml", output=tmp_path / "out")
     road = tmp_path / "road.txt"
-    road.write_text(road.read_text().replace("\t", " \t"))
+    lines = road.read_text().splitlines()
+    middle = len(lines) // 2
+    changed = lines[middle].replace("\t", " \t") if new == "a space" else lines[middle] + "1"
+    road.write_text("\n".join([*lines[:middle], changed, *lines[middle + 1 :], ""]))
     seen = solved(None)
     run_case(tmp_path / "case.toml", output=tmp_path / "out")
-    assert len(seen) == 6
+    assert len(seen) == waves
 
 
 def test_other_software_takes_nothing_up(
     case_copy: Path, tmp_path: Path, solved: Count, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gripscale.case_file.read.software", lambda: "another")
+    monkeypatch.setattr("gripscale.experiment.task.software", lambda: "another")
     seen = solved(None)
     run_case(case_copy, output=tmp_path / "out")
     assert len(seen) == 6

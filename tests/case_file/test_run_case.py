@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import case_chain, read_case, read_case_file, run_case
+from gripscale.case_file import case_chain, read_case_file, run_case
 from gripscale.core.errors import ExtrapolationError
 from gripscale.core.status import Status
 from gripscale.io import netcdf
@@ -31,7 +31,7 @@ def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFix
     assert results.dynamic.friction == alone.friction
     assert results.static.contact_fraction > alone.contact_fraction
     assert results.converged
-    assert results.surface.sines.wavelength.tolist() == [10e-3, 3e-3]
+    assert results.case.surface.sines.wavelength.tolist() == [10e-3, 3e-3]
     assert [path.name for path in case.parent.iterdir()] == ["case.toml"]
     assert capsys.readouterr() == ("", "")
 
@@ -39,7 +39,9 @@ def test_case_gives_its_results_as_objects(case: Path, capsys: pytest.CaptureFix
 def test_pressure_classes_of_the_case_are_those_of_the_chain(case: Path) -> None:
     case.write_text(case.read_text() + "[chain]\npressure_classes = 2\n")
     results = run_case(case)
-    alone = case_chain(read_case_file(case)).predict(results.rubber, results.surface, results.load)
+    alone = case_chain(read_case_file(case)).predict(
+        results.case.rubber, results.case.surface, results.case.load
+    )
     assert results.dynamic is not None
     assert results.dynamic.friction == alone.total_friction
     assert results.dynamic.to_dataset().sizes["pressure_class"] == 2
@@ -58,7 +60,7 @@ def test_files_are_written_where_they_are_wanted(
         on_disk = netcdf.load(target / f"{event.prediction}.nc").sizes["scale"]
         seen.append((event.prediction, event.number, on_disk))
 
-    results = run_case(read_case(case), output=target, on_event=look)
+    results = run_case(case, output=target, on_event=look)
     assert seen == [("dynamic", 1, 1), ("dynamic", 2, 2), ("static", 1, 1), ("static", 2, 2)]
     tree = netcdf.load_tree(target / "dynamic.nc")
     assert set(tree.children) == {"inputs"}

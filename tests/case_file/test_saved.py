@@ -37,7 +37,7 @@ def test_a_saved_case_run_into_its_own_folder_keeps_its_files(inputs: Path, tmp_
     again = run_case(case, output=tmp_path / "results", fresh=True)
     assert case.read_text() == text
     assert read_case(case).surface.sines.wavelength.tolist() == (
-        again.surface.sines.wavelength.tolist()
+        again.case.surface.sines.wavelength.tolist()
     )
     assert again.dynamic is not None
     assert first.dynamic is not None

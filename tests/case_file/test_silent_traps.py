@@ -226,7 +226,7 @@ def said(folder: Path, changes: dict[str, Any]) -> str:
         return str(error)
     attrs = {name: "\n".join(getattr(results, name)()) for name in ("doubts", "load_notes")}
     first = [
-        n.text for n in InputRecord(xr.Dataset(attrs=attrs)).warnings() if n.effect == math.inf
+        n.sentence for n in InputRecord(xr.Dataset(attrs=attrs)).warnings() if n.effect == math.inf
     ]
     return " | ".join(first)
 
@@ -272,10 +272,9 @@ def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
         read_case(misread), {"a": "case", "b": "case"}, tmp_path / "roads", samples=None
     )
     (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
-    rubbers = {"right": "case", "misread": "other.txt"}
-    compounds = compare_compounds(
-        read_case(write(tmp_path)), rubbers, tmp_path / "rubbers", uncertainty=False
-    )
+    file = read_case_file(write(tmp_path))
+    rubbers = {"right": "case", "misread": read_rubber("other.txt", file)}
+    compounds = compare_compounds(read_case(file), rubbers, tmp_path / "rubbers", uncertainty=False)
     for data in (ladder, roads.data, compounds.data):
         assert data.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
 
@@ -339,7 +338,7 @@ def test_commands_and_their_pages_say_the_doubts_of_a_run(
 ) -> None:
     file = write(tmp_path, case=TRAPPED, road=with_plate(20e-3))
     (tmp_path / "friction.csv").write_text("speed [m/s],friction\n0.1,2\n1,2\n200,2\n")
-    said = [n.text for n in case_notices(None, InputRecord(record.inputs(read_case(file))))]
+    said = [n.sentence for n in case_notices(None, InputRecord(record.inputs(read_case(file))))]
     first = [*said[:3], *filter(None, [of_its_load])]
     for words in ("plates", "states the temperature of its moduli", "The footprint, 1 mm"):
         assert any(words in text for text in first)
@@ -389,7 +388,9 @@ def test_an_answer_ends_where_the_heights_do_whatever_the_cut_off(tmp_path: Path
     direct = answer(results, folder=tmp_path).data
     assert "roughness down to 0.2 mm" in " ".join(answer_lines(direct))  # two steps
     warnings = case_notices(direct, InputRecord(record.inputs(results)))
-    assert warnings[0].text.startswith("The cut-off of the case is 0.02 mm, but the heights hold")
+    assert warnings[0].sentence.startswith(
+        "The cut-off of the case is 0.02 mm, but the heights hold"
+    )
 
 
 def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Path) -> None:
@@ -401,10 +402,9 @@ def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Pa
 
 
 def test_a_sensitivity_doubts_a_foreign_rubber_without_a_temperature(tmp_path: Path) -> None:
-    file = write(tmp_path)
+    file = read_case_file(write(tmp_path))
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
-    case_sensitivity(
-        read_case(file), folder=tmp_path, vary={"rubber": ["case", "other.txt"]}, model="chain"
-    )
+    vary = read_named_inputs({"rubber": ["case", "other.txt"]}, file)
+    case_sensitivity(read_case(file), folder=tmp_path, vary=vary, model="chain")
     warnings = case_notices(None, InputRecord.of_file(tmp_path / "sensitivity.nc"))
-    assert warnings[0].text.startswith("other.txt: the file states no temperature")
+    assert warnings[0].sentence.startswith("other.txt: the file states no temperature")

@@ -98,7 +98,7 @@ def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) 
         assert row["nominal_speed [m/s]"] == float(data.nominal_speed)
         assert row["prediction_status"] == "converged"
         assert row["surface_source"].endswith("road.txt")
-    direct = netcdf.load(done[1] / "direct.nc")
+    direct = netcdf.load(done[1] / "answer.nc")
     friction = float(direct.best_friction)
     assert by_name[0]["best_friction [-]"] == pytest.approx(friction, rel=1e-15)
     assert by_name[0]["not_to_rely_on"] == no_answer(direct) or None
@@ -199,7 +199,7 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
     texts = {"case.toml", "report.txt", "summary.xlsx", "road.txt", "dma.txt", NOTE}
-    assert left == texts | {"dynamic.nc", "direct.nc", "notes.txt", "mine.png"}
+    assert left == texts | {"dynamic.nc", "answer.nc", "notes.txt", "mine.png"}
 
 
 def test_a_finished_run_is_shown_again_and_not_made_again(

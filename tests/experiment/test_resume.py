@@ -21,9 +21,10 @@ from gripscale.questions import Study
 VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
 PROGRAM = """
 import sys
-from gripscale.experiment import Study
+from gripscale.case_file import read_case
+from gripscale.questions import Study
 vary = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
-Study(sys.argv[1], vary).run(
+Study(read_case(sys.argv[1]), vary).run(
     sys.argv[2], workers=2, on_task=lambda told: print(told.done, told.label, flush=True)
 )
 """

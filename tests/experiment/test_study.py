@@ -15,6 +15,7 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
+from gripscale.case_file.named_inputs import read_named_inputs
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import FACES, fingerprint
@@ -150,7 +151,8 @@ def test_what_is_not_there_is_one_sentence(
     case: Path, vary: dict[str, Any], error: type[Exception], words: str
 ) -> None:
     with pytest.raises(error, match=words):
-        _ = Study(read_case(case), vary).points
+        named = read_named_inputs(vary, read_case_file(case))
+        _ = Study(read_case(case), named).points
 
 
 def test_failed_chain_is_a_status(
@@ -247,7 +249,7 @@ def test_study_found_whole_is_not_prepared_again(
 ) -> None:
     first = Study(read_case(case), {"speed": SPEEDS}).run(tmp_path)
     monkeypatch.setattr(
-        study_module.inputs, "prepared_rubber_of", lambda *_: pytest.fail("fitted again")
+        study_module.inputs, "measured_rubber_of", lambda *_: pytest.fail("fitted again")
     )
     again = Study(read_case(case), {"speed": SPEEDS})
     assert again.run(tmp_path).identical(first)
@@ -266,10 +268,15 @@ def test_study_is_not_the_same_with_another_file_behind_it(case: Path, tmp_path:
     curve = tmp_path / "dma.txt"
     rows = [f"{10.0**n} {5 + n} {0.5 + 0.1 * n}" for n in range(6)]
     curve.write_text("\n".join(["f (Hz) E' (MPa) E'' (MPa)", *rows]) + "\n")
-    key = Study(read_case(case), {"rubber": str(curve)}).key
-    assert Study(read_case(case), {"rubber": str(curve)}).key == key
+
+    def key() -> str:
+        named = read_named_inputs({"rubber": str(curve)}, read_case_file(case))
+        return Study(read_case(case), named).key
+
+    before = key()
+    assert key() == before
     curve.write_text(curve.read_text().replace("7 0.7", "7 0.8"))
-    assert Study(read_case(case), {"rubber": str(curve)}).key != key
+    assert key() != before
 
 
 def test_changed_material_is_never_served_old_results(

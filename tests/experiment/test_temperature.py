@@ -217,7 +217,7 @@ def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -
 
 
 def test_kelvin_from_python_and_units_from_texts() -> None:
-    axis = gs.experiment.axis.axes_of({"temperature": [293.15, "40 C"]})[0]
+    axis = gs.questions.vary.axis.axes_of({"temperature": [293.15, "40 C"]})[0]
     assert axis.values == (293.15, 313.15)
     assert axis.labels == ("20 C", "40 C")
 

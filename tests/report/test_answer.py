@@ -107,7 +107,7 @@ def test_a_guess_is_called_one_before_its_numbers(changed: dict[str, float], why
     assert all(card.bad for card in answer_cards(data))
     (notice,) = no_answer_notices(data)
     assert (notice.severity, why in notice.sentence) == ("error", True)
-    assert not any(why in other.text for other in answer_notices(data)), "it is said once"
+    assert not any(why in other.sentence for other in answer_notices(data)), "it is said once"
 
 
 def test_warnings_stand_by_what_they_change() -> None:
@@ -117,7 +117,7 @@ def test_warnings_stand_by_what_they_change() -> None:
     ).assign(cut_off_exponent_missing="")
     warnings = ranked(answer_notices(data))
     assert [round(warning.effect, 3) for warning in warnings] == [0.5, 0.414, 0.25, 0.06]
-    steep, octave, band, gaps = (warning.text for warning in warnings)
+    steep, octave, band, gaps = (warning.sentence for warning in warnings)
     assert steep.startswith("50 % of the friction comes from slopes above 1")
     assert octave == (
         "If the roughness goes on as over its last octave, down to 0.05 mm, half the cut-off, the "
@@ -131,7 +131,7 @@ def test_two_frictions_that_disagree_are_warned_of() -> None:
     numbers = {"total_friction": 0.24, "total_friction_from_dissipation": 0.2}
     worst = ranked(answer_notices(answered(**numbers, best_steep_share=0.0)))[1]
     assert worst.friction == pytest.approx(0.2)
-    assert "differ by 20 %" in worst.text
+    assert "differ by 20 %" in worst.sentence
 
 
 def test_those_without_a_number_stand_below_in_an_order() -> None:
@@ -194,13 +194,13 @@ def test_inputs_know_what_they_change() -> None:
         total_friction_cut_off_exponent=-0.5, total_contact_fraction_cut_off_exponent=math.nan
     ).assign(cut_off_exponent_missing="")
     footprint, steep, _, roughness, *_ = notices = case_notices(data, record)
-    assert footprint.text == "The footprint is short."
-    assert "slopes above 1" in steep.text
-    assert roughness.text == (
+    assert footprint.sentence == "The footprint is short."
+    assert "slopes above 1" in steep.sentence
+    assert roughness.sentence == (
         "Roughness from 0.200 mm, where the measurement ends, to 0.100 mm is extrapolated: without "
         "it the friction changes by -29 %."
     )
     effects = {round(notice.effect, 3): notice.sentence for notice in notices}
     assert "25 % below the measured" in effects[0.25]
     assert "26 % of their height" in effects[round(10**0.1 - 1, 3)]
-    assert notices[-1].text == "Surface: road: heights jump."
+    assert notices[-1].sentence == "Surface: road: heights jump."

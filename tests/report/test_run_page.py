@@ -208,7 +208,7 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     totals = (float(whole[f"total_{name}"]) for name in ("friction", "contact_fraction"))
     friction, area = (total / best for total, best in zip(totals, (0.25, 0.04), strict=True))
     text = f"{friction:.2g} times the friction and {area:.2g} times the contact area of the best"
-    (warning,) = (n for n in notices(replace(run, direct=whole)) if text in n.text)
+    (warning,) = (n for n in notices(replace(run, direct=whole)) if text in n.sentence)
     assert warning.effect == pytest.approx(max(abs(friction - 1.0), abs(area - 1.0)))
     assert [chart.name for chart in contact_charts(run.by_wave, whole)][:2] == [
         "contact-area",

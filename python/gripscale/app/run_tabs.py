@@ -21,7 +21,7 @@ import xarray as xr
 
 from gripscale.app.case import CaseState, field_text, tables_of
 from gripscale.app.case_panel import problem_pane
-from gripscale.app.commands import COMMANDS, Command, Option
+from gripscale.app.commands import COMMANDS
 from gripscale.app.elements import (
     Cards,
     Folded,
@@ -43,6 +43,7 @@ from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.view import SYMBOLS, PredictionView
+from gripscale.questions.registry import Field, Form
 from gripscale.report import source
 from gripscale.report.elements import Element, Text
 from gripscale.report.head import with_answer
@@ -85,9 +86,9 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         return state.text
 
     def show_options(*_: Any) -> None:
-        command: Command = choice.value
+        command: Form = choice.value
         fields.clear()
-        fields.update({option.label: option_field(option) for option in command.options})
+        fields.update({option.label: option_field(option) for option in command.fields})
         drop = []
         if command.others:
             others.value = ""
@@ -97,7 +98,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
 
     async def start() -> None:
         names = [name.strip() for name in (others.value or "").split(",") if name.strip()]
-        command: Command = choice.value
+        command: Form = choice.value
         values = {label: str(field.value or "") for label, field in fields.items()}
         answer.objects = []
         with state.refusals("run"):
@@ -145,7 +146,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     )
 
 
-def option_field(option: Option) -> pn.widgets.TextInput | pn.widgets.Select:
+def option_field(option: Field) -> pn.widgets.TextInput | pn.widgets.Select:
     """Return the field of an option: a choice where only some values are possible."""
     look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
     if not option.choices:

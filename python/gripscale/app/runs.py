@@ -22,7 +22,7 @@ from typing import Any
 import param
 
 from gripscale.app.case import CaseState
-from gripscale.app.commands import COMMANDS, RUN, Command
+from gripscale.app.commands import COMMANDS, RUN
 from gripscale.case_file import CaseFile
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.folders import write_text
@@ -36,6 +36,7 @@ from gripscale.questions.chain.events import (
     WaveSolved,
     from_json,
 )
+from gripscale.questions.registry import Form
 
 REPORT = "report.html"
 """The page of a result in its folder, as `gripscale report` names it."""
@@ -128,7 +129,7 @@ class Run:
     case: Path
     folder: Path
     text: str
-    command: Command = COMMANDS[0]
+    command: Form = COMMANDS[0]
     arguments: tuple[str, ...] = ()
     """What follows the case on the command line."""
     stopped: bool = field(default=False, init=False)
@@ -139,7 +140,7 @@ class Run:
         atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / REPORT).unlink(missing_ok=True)
-        reports = self.command.name == RUN
+        reports = self.command.command == RUN
         command = [sys.executable, "-m", "gripscale", *self.words]
         command += ["--progress", "json"] if reports else []
         process_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
@@ -157,7 +158,7 @@ class Run:
     @property
     def words(self) -> list[str]:
         """The command and its arguments, from the folder of the visit."""
-        return [self.command.name, self.case.name, *self.arguments]
+        return [self.command.command, self.case.name, *self.arguments]
 
     @property
     def asked(self) -> tuple[str, ...]:
@@ -256,7 +257,7 @@ class Run:
 
     def how_far(self) -> str:
         """Return how far it is, in words."""
-        if self.command.name == RUN:
+        if self.command.command == RUN:
             return self.progress().sentence
         return self.last_line() or "starting"
 
@@ -278,7 +279,7 @@ class Runs(param.Parameterized):
 
     def start(
         self,
-        command: Command = COMMANDS[0],
+        command: Form = COMMANDS[0],
         values: Mapping[str, str] = MappingProxyType({}),
         others: Sequence[str] = (),
     ) -> Run:
@@ -314,7 +315,7 @@ class Runs(param.Parameterized):
             run.stop()
         self.changes += 1
 
-    def _new(self, file: CaseFile, command: Command, arguments: tuple[str, ...]) -> Run:
+    def _new(self, file: CaseFile, command: Form, arguments: tuple[str, ...]) -> Run:
         """Return a further run of a case, to be saved beside the files it names."""
         number, path = len(self.all) + 1, self._state.visit.path
         name, case = f"run-{number}", path / f"case-{number}.toml"

@@ -363,9 +363,9 @@ class UncertaintyTable(Table):
     def options(self) -> UncertaintyOptions:
         """Return what is stated as options of the question."""
         ranges = {} if self.ranges is None else self.ranges.model_dump(exclude_none=True)
-        stated = {name: getattr(self, name) for name in ("samples", "seed", "model", "tolerance")}
+        options = {name: getattr(self, name) for name in ("samples", "seed", "model", "tolerance")}
         return UncertaintyOptions(
-            without=tuple(self.without), ranges=ranges, block_length=self.block_length, **stated
+            without=tuple(self.without), ranges=ranges, block_length=self.block_length, **options
         )
 
 

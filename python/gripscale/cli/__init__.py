@@ -18,7 +18,7 @@ from typer.core import TyperGroup
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces
 from gripscale.cli.design import design
 from gripscale.cli.docs import docs
-from gripscale.cli.experiments import calibrate, study, uncertainty
+from gripscale.cli.experiments import calibrate, study
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.new import new
@@ -61,7 +61,6 @@ app.command("calibrate")(calibrate)
 app.command("design")(design)
 app.command("report")(report)
 app.command("study")(study)
-app.command("uncertainty")(uncertainty)
 app.command("sensitivity")(sensitivity)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)

@@ -13,10 +13,14 @@ class GripscaleError(Exception):
     see = ""
     """A chapter of the documentation or a command that explains it, or empty."""
 
-    def __init__(self, *args: object, missing: str = "") -> None:
-        super().__init__(*args)
+    def __init__(self, message: str = "", *, missing: str = "", key: str = "") -> None:
+        super().__init__(f"{key}{message}")
         self.missing = missing
         """The key of a case, or argument of a reader, that was not stated and is needed."""
+        self.key = key
+        """Argument or key that the message is about, which then begins with it; or empty."""
+        self.detail = message
+        """The message without its key."""
 
 
 class InputError(GripscaleError, ValueError):

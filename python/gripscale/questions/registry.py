@@ -12,7 +12,7 @@ To add a question is to add a room and its line here; to drop one is to delete b
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 ROOMS = [
     "gripscale.questions.answer",
+    "gripscale.questions.uncertainty",
     "gripscale.questions.cut_off",
 ]
 """Rooms in the order of the command line."""
@@ -51,6 +52,18 @@ class Form:
     fields: Sequence[Field] = ()
     others: str = ""
     """What files it needs beside the case, if any."""
+
+    def arguments(self, values: Mapping[str, str], others: Sequence[str] = ()) -> list[str]:
+        """Return what follows the case on the command line; an empty value leaves its option out.
+
+        `values` are those of the fields by label, `others` the files beside the case.
+        """
+        words = list(others)
+        for field in self.fields:
+            value = values.get(field.label, field.value).strip()
+            if value:
+                words += [field.flag, f"{field.prefix}{value}"]
+        return words
 
 
 def commands() -> Iterator[tuple[str, Callable[..., None]]]:

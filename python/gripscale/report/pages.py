@@ -118,7 +118,6 @@ def page_of(source: Source) -> Page:
         "roads": roads_page,
         "sensitivity": sensitivity_page,
         "design": design_page,
-        "uncertainty": uncertainty_page,
         "calibration": calibration_page,
     }
     return pages[source.kind](source)
@@ -464,23 +463,6 @@ def compounds_page(source: Study) -> Page:
             method_section(),
             rerun_section(data.attrs),
         ],
-    )
-
-
-def uncertainty_page(source: Study) -> Page:
-    """Return the report of an uncertainty."""
-    data = source.data
-    case = case_name(data.attrs)
-    return _page(
-        f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
-        uncertainty.subtitle(data),
-        uncertainty.page_notices(data),
-        uncertainty.page_cards(data),
-        [
-            *uncertainty.page_sections(data),
-            rerun_section(data.attrs),
-        ],
-        data,
     )
 
 

@@ -159,8 +159,6 @@ def read_result(path: Path) -> Source:
     names, kind = set(tree.variables), ""
     if "profile_excess" in names:
         kind = "calibration"
-    elif "friction_quantile" in names:
-        kind = "uncertainty"
     elif SENSITIVITY in names:
         kind = "sensitivity"
     elif "rolling_ratio" in names:

@@ -103,7 +103,7 @@ def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
 
 def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparison) -> None:
     over = compare_over(
-        read_case(made.file),
+        made.case,
         {"temperature": "20 C,35 C"},
         seeds=1,
         rungs=["chain_half_plane", "persson"],

@@ -14,8 +14,8 @@ from gripscale.case_file.prepare import case_surface, prepare_rubber
 from gripscale.core.errors import InputError
 from gripscale.half_space import HurstExponent, contact_by_cut_off
 from gripscale.io import netcdf
-from gripscale.questions import case_cut_off
-from gripscale.questions.cut_off.curve import AREA, FILE, FRICTION, at_cut_off
+from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off
+from gripscale.questions.cut_off.question import cut_off
 from gripscale.report import write_report
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
 
@@ -37,7 +37,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def data(folder):
-    return case_cut_off(read_case(folder / "below.toml"), folder=folder / "result")
+    return cut_off(read_case(folder / "below.toml"), folder=folder / "result").data
 
 
 def test_the_curves_are_those_of_the_lines(folder, data):
@@ -69,13 +69,13 @@ def test_rules_lie_on_the_curve(data):
 
 def test_a_second_call_solves_nothing(folder, data):
     stored = []
-    again = case_cut_off(
+    again = cut_off(
         read_case(folder / "below.toml"),
         folder=folder / "result",
         on_task=lambda progress: stored.append(progress.stored),
     )
     assert stored == [True]
-    assert np.array_equal(again[AREA], data[AREA])
+    assert np.array_equal(again.data[AREA], data[AREA])
 
 
 def test_command_and_page_lead_with_the_answer(folder, shell: Shell):
@@ -101,7 +101,7 @@ def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data)
     for name in ("case", "below"):
         result = shell("run", folder / f"{name}.toml", "--output", folder / name)
         assert result.exit_code == 0, result.output
-        answers[name] = netcdf.load(folder / name / "direct.nc")
+        answers[name] = netcdf.load(folder / name / "answer.nc")
     without, with_it = answers["case"], answers["below"]
     for quantity, curve in (("friction", FRICTION), ("contact_fraction", AREA)):
         ratio = float(with_it[f"best_{quantity}"] / without[f"best_{quantity}"])
@@ -111,9 +111,9 @@ def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data)
     assert bool(wider) or not math.isfinite(float(without.best_friction_half_width))
     report = (folder / "below" / "report.txt").read_text(encoding="utf-8")
     assert "roughness continued from 0.5 mm to 0.15 mm" in " ".join(report.split())
-    assert (folder / "below" / FILE).is_file()
+    assert (folder / "below" / "cut_off.nc").is_file()
     assert (folder / "below" / "figures" / "cut_off.png").is_file()
-    assert not (folder / "case" / FILE).exists()
+    assert not (folder / "case" / "cut_off.nc").exists()
 
 
 def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, monkeypatch):
@@ -160,5 +160,5 @@ def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
     finer = '\n[below_measurement]\ndown_to = "0.4 mm"\nfiner = { file = "road.txt" }\n'
     path.write_text((folder / "case.toml").read_text() + finer)
     assert ("below_measurement", "road.txt") in read_case_file(path).case.named_files()
-    result = case_cut_off(read_case(path), folder=folder / "finer", down_to=0.4e-3)
+    result = cut_off(read_case(path), folder=folder / "finer", down_to=0.4e-3).data
     assert bool(result.curve_measured[-1])

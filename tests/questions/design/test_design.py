@@ -12,6 +12,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
+from gripscale.case_file.named_inputs import read_surface
 from gripscale.case_file.prepare import case_surface
 from gripscale.charts.paper import png
 from gripscale.core.errors import InputError
@@ -283,10 +284,17 @@ def test_a_goal_on_another_road(case, tmp_path):
     """Each road counts with its weight, and has a friction of its own."""
     other = self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=1e-4, seed=2)
     write_road(tmp_path / "smooth.txt", other)
-    smooth = str(tmp_path / "smooth.txt")
-    goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road=smooth)]
+    smooth = read_surface(str(tmp_path / "smooth.txt"), read_case_file(case))
+    goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road="smooth")]
     free = CompoundLimits(points=[])
-    data = design_compound(read_case(case), tmp_path, goals=goals, levels=[1.0], limits=free)
+    data = design_compound(
+        read_case(case),
+        tmp_path,
+        goals=goals,
+        levels=[1.0],
+        limits=free,
+        roads={"smooth": smooth},
+    )
     assert data.sizes["limit"] == 0
     rough, mild = data.today_friction.values
     assert mild < 0.8 * rough

@@ -46,7 +46,7 @@ def tangent(results: Case) -> Tangent:
 
 
 def test_another_rubber(results, tangent):
-    case = tangent.case
+    case = tangent.usual
     rubber = case.rubber
     factors = 1.0 + 0.1 * np.cos(np.arange(rubber.moduli.size))
     changed = replace(case, rubber=replace(rubber, moduli=rubber.moduli * factors, admissible=None))
@@ -59,7 +59,7 @@ def test_another_rubber(results, tangent):
 
 
 def test_other_heights(results, tangent):
-    case = tangent.case
+    case = tangent.usual
     lines = []
     for line in results.surface.measured.cleaned:
         wave = 2e-6 * np.sin(2.0 * np.pi * line.x / 2e-3)
@@ -71,7 +71,7 @@ def test_other_heights(results, tangent):
 
 
 def test_another_cut_off(results, tangent):
-    case = tangent.case
+    case = tangent.usual
     changed = case.ended_at(1.2 * case.end)
     expected, area = tangent.solved_change(changed)
     # the exponent is that of the last octave, of a road of a few waves
@@ -86,7 +86,7 @@ def test_another_temperature_and_pressure(folder):
     (folder / "shifted.toml").write_text(CASE.replace("terms = 4", f"terms = 4\n{shift}"))
     shifted = Tangent.of(read_case(folder / "shifted.toml"))
     for change in ({"warming": 0.5}, {"log_pressure": 0.1}):
-        inputs = replace(shifted.case, **change)
+        inputs = replace(shifted.usual, **change)
         expected = shifted.solved_change(inputs)
         derived = [shifted.change(inputs), shifted.area_change(inputs)]
         assert np.abs(expected).max() > 0.02
@@ -100,7 +100,7 @@ def test_noise_of_the_heights_is_one_way(results, tangent):
     names = [name for name in SOURCES if name != "height_noise"]
     noise = Uncertainty(names, {"height_noise": "120 um"})
     sources = noise.of(Measurement.of(results), ["direct"]).sources
-    drawn = [each.inputs for each in draws(tangent.case, sources, SOLVED["height_noise"], 0)]
+    drawn = [each.inputs for each in draws(tangent.usual, sources, SOLVED["height_noise"], 0)]
     changes = np.array([tangent.solved_change(inputs) for inputs in drawn])
     mean, scatter = changes.mean(axis=0), changes.std(axis=0)
     assert mean[0] > 1.5 * scatter[0]

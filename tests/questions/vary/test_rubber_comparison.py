@@ -22,7 +22,7 @@ from gripscale.questions.vary.page_side_by_side import (
 )
 from gripscale.report import write_report
 from gripscale.rubber import WLF, MasterCurve, fit_prony
-from tests.samples import HALF_PLANE, case_text, write_road
+from tests.samples import HALF_PLANE, ROOT, case_text, write_road
 
 COLD, ROOM, WARM = 273.15, 293.15, 313.15
 
@@ -175,4 +175,6 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
 
 def test_two_to_six_compounds(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="rubbers must be 2 to 6 compounds to be compared; got 1"):
-        compare_compounds(read_case(tmp_path / "case.toml"), {"one": "case"}, tmp_path)
+        compare_compounds(
+            read_case(ROOT / "examples" / "three_waves" / "case.toml"), {"one": "case"}, tmp_path
+        )

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
+from gripscale.case_file.named_inputs import read_surface
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import JUDGED_TO, DirectContact
@@ -65,7 +66,9 @@ def solves() -> list[str]:
 
 @pytest.fixture(scope="module")
 def made(folder: Path, solves: list[str]) -> Roads:
-    surfaces = {name: str(folder / f"{name}.txt") for name in ("road", "twin", "rough")}
+    file = read_case_file(folder / "case.toml")
+    names = ("road", "twin", "rough")
+    surfaces = {name: read_surface(str(folder / f"{name}.txt"), file) for name in names}
     return compare_surfaces(
         read_case(folder / "case.toml"),
         surfaces,
@@ -120,7 +123,7 @@ def test_samples_have_the_friction_of_a_road_solved_as_finely(tmp_path: Path) ->
     write_road(tmp_path / "road.txt", road)
     text = CASE.replace("1 mm", "0.1 mm")
     (tmp_path / "case.toml").write_text(text)
-    surface = surface_of("case", read_case_file(tmp_path / "case.toml"))
+    surface = surface_of("case", read_case(tmp_path / "case.toml"))
     moduli = 2e5 * (POWER_LAW_TIMES / 1e-2) ** -0.7
     lossy = gs.Rubber(4e6, moduli, POWER_LAW_TIMES, bulk_modulus=1e13)
     model, load = DirectContact(tolerance=JUDGED_TO), Load(3e5, 0.3, 0.1)

@@ -9,7 +9,6 @@ lines to a surface (`gripscale.questions.answer.best_estimate`). `gripscale run`
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -28,9 +27,13 @@ from gripscale.questions.answer.direct_contact import (
     solve_direct_contact,
 )
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
-from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.page import answer_lines, basis_lines
-from gripscale.questions.answer.reliance import has_answer, is_solved, no_answer
+from gripscale.questions.answer.reliance import (
+    answer_interval,
+    answer_number,
+    is_solved,
+    no_answer,
+)
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
@@ -53,22 +56,22 @@ class Answer(Result):
     @property
     def friction(self) -> float:
         """Friction coefficient of the hysteresis [-]; NaN without an answer or at rest."""
-        return self._number("best_friction")
+        return answer_number(self.data, "friction")
 
     @property
     def friction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
-        return self._interval("friction")
+        return answer_interval(self.data, "friction")
 
     @property
     def contact_fraction(self) -> float:
         """Real over nominal contact area [-]; NaN without an answer."""
-        return self._number("best_contact_fraction")
+        return answer_number(self.data, "contact_fraction")
 
     @property
     def contact_fraction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
-        return self._interval("contact_fraction")
+        return answer_interval(self.data, "contact_fraction")
 
     @property
     def reliable(self) -> bool:
@@ -121,15 +124,6 @@ class Answer(Result):
         from gripscale.questions.answer.page import answer_page
 
         return answer_page(self.data, InputRecord(self.inputs), self.findings)
-
-    def _number(self, name: str) -> float:
-        return float(self.data[name]) if has_answer(self.data) else math.nan
-
-    def _interval(self, name: str) -> tuple[float, float]:
-        if not has_answer(self.data):
-            return math.nan, math.nan
-        ends = interval_ends(self.data[f"best_{name}"], self.data[f"best_{name}_half_width"])
-        return float(ends[0]), float(ends[1])
 
 
 def answer(case: Case, *, folder: str | Path | None = None) -> Answer:

@@ -15,6 +15,7 @@ from gripscale import model
 from gripscale.chain.chain import Chain
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.intervals import interval_ends
 from gripscale.report.elements import percent
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -117,3 +118,16 @@ def is_measured(data: xr.Dataset) -> bool:
     """Return whether an answer is of a measured surface: otherwise it is the chain's."""
     total = data.get("total_friction")
     return total is None or total.attrs.get("source") != Chain.name
+
+
+def answer_number(data: xr.Dataset, name: str) -> float:
+    """Return `friction` or `contact_fraction` of an answer [-]; NaN without one."""
+    return float(data[f"best_{name}"]) if has_answer(data) else math.nan
+
+
+def answer_interval(data: xr.Dataset, name: str) -> tuple[float, float]:
+    """Return both ends of the 90 % interval of a number of an answer [-]; NaN without one."""
+    if not has_answer(data):
+        return math.nan, math.nan
+    ends = interval_ends(data[f"best_{name}"], data[f"best_{name}_half_width"])
+    return float(ends[0]), float(ends[1])

@@ -20,6 +20,7 @@ from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.page import (
     answer_cards,
     answer_lines,
+    basis_lines,
     interval,
     number_and_interval,
 )
@@ -36,7 +37,8 @@ from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, ROAD, RUN
 from gripscale.questions.uncertainty.sources import LABELS, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
-from gripscale.report.elements import Card, Element, Section, Text
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
 HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
@@ -73,23 +75,22 @@ def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 
 
 def uncertainty_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the answer, what matters most to it, the quantiles of the models, then warnings."""
-    yield from answer_parts(data)
+    """Yield what matters most to the answer, the quantiles of the models, then warnings."""
+    if axis := axis_of(data):
+        yield answer_table(data, axis)
     yield from part_tables(data)
     yield quantile_table(data)
     yield from share_parts(data)
     yield from warning_sentences(data)
 
 
-def answer_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the answer with what its interval holds; at several loads a table of answers."""
-    axis = axis_of(data)
-    if not axis:
-        first, *below = answer_lines(data)
-        yield from (first, f"  {interval_sentence(data)}", *below)
+def answer_lines_of(data: xr.Dataset) -> Iterator[str]:
+    """Yield the answer with what its interval holds; at several loads what the intervals hold."""
+    if axis_of(data):
+        yield interval_sentence(data)
         return
-    yield answer_table(data, axis)
-    yield interval_sentence(data)
+    first, *below = answer_lines(data)
+    yield from (first, f"  {interval_sentence(data)}", *below)
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
@@ -501,3 +502,17 @@ def as_elements(parts: Iterable[str | Table]) -> list[Element]:
 
 def _sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
+
+
+def uncertainty_page(data: xr.Dataset) -> Page:
+    """Return the page of an answer with the errors of its inputs."""
+    case = case_name(data.attrs)
+    sections = [*page_sections(data), rerun_section(data.attrs)]
+    return Page(
+        f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
+        subtitle(data),
+        page_notices(data),
+        page_cards(data),
+        [section for section in sections if section.elements],
+        tuple(basis_lines(data)),
+    )

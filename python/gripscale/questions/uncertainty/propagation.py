@@ -374,15 +374,15 @@ def propagate(
     InputError, FileError
         If an argument or a file cannot be used, or a result cannot be written.
     """
-    stated = stated_options(case)
-    accuracy = stated.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
-    number = stated.samples if samples is None else samples
-    choice = Uncertainty.of_case(stated) if uncertainty is None else uncertainty
+    options = stated_options(case)
+    accuracy = options.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    number = options.samples if samples is None else samples
+    choice = Uncertainty.of_case(options) if uncertainty is None else uncertainty
     plan = Plan(
         case,
         choice,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", stated.seed if seed is None else seed, least=0, most=MOST_SEED),
+        checks.whole("seed", options.seed if seed is None else seed, least=0, most=MOST_SEED),
         _models(stated_models(case, choice) if models is None else models),
         _axis(vary),
         accuracy,

@@ -1,0 +1,132 @@
+"""`gripscale uncertainty CASE.toml`: the answer with the errors of its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+from gripscale import terminal
+from gripscale.core.errors import InputError
+from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
+
+
+@command
+def uncertainty(
+    case: CasePath,
+    samples: Annotated[
+        int | None, option("Samples, of all inputs at once; 200 by default.")
+    ] = None,
+    model: Annotated[
+        str | None,
+        option(
+            "direct (contact of the whole profile, the default where one was measured), chain or "
+            "both."
+        ),
+    ] = None,
+    without: Annotated[
+        list[str] | None,
+        option(
+            "A source to be left out: height_noise, cleaning, profile, grid, modulus, "
+            "bulk_modulus, equilibrium_modulus, temperature, pressure, load_time, cut_off, waves. "
+            "May be given several times.",
+            metavar="NAME",
+        ),
+    ] = None,
+    ranges: Annotated[
+        list[str] | None,
+        option(
+            "What is known of a source, in place of its default: two ends as "
+            "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', cleaning=1.5:10 (height per "
+            "step that is a spike), load_time=0.5:2 (factors), equally likely values as "
+            "waves=6,8, or the standard error of what is not sampled without it: "
+            "height_noise='5 um', temperature='2 K', pressure='3 %'. May be given several times.",
+            "--range",
+            metavar="NAME=VALUES",
+        ),
+    ] = None,
+    vary: Annotated[
+        str | None,
+        option(
+            "Speeds or pressures, the same samples at each: speed=0.003:30:log9.",
+            metavar="NAME=VALUES",
+        ),
+    ] = None,
+    block_length: Annotated[
+        str | None,
+        option(
+            "Length of the blocks of profiles that are drawn, such as '120 mm'; four of the "
+            "largest waves by default."
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        option(
+            "Estimated relative error of each direct contact; by default that of its first "
+            "full grid, about a tenth."
+        ),
+    ] = None,
+    seed: Annotated[int | None, option("Seed of the random numbers; 0 by default.")] = None,
+    output: OwnFolder = None,
+    workers: Workers = None,
+    cluster: Cluster = None,
+) -> None:
+    """Answer with what is not known of the inputs, and what matters most; resumes where stopped.
+
+    Options go before what the case states in its table [uncertainty].
+    """
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.core import checks
+    from gripscale.core.parallel import worker_count
+    from gripscale.experiment.solve import PROCESSES
+    from gripscale.half_space.model import DirectContact
+    from gripscale.questions.uncertainty import question
+    from gripscale.questions.uncertainty.propagation import BOTH, VARIED, stated_models
+    from gripscale.questions.uncertainty.sampled_inputs import length
+    from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
+    from gripscale.questions.vary.axis import parse_vary
+
+    models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
+    axes = None if vary is None else dict([parse_vary(vary, VARIED)])
+    options: dict[str, Any] = {
+        "without": without or None,
+        "ranges": _values_by_source(ranges or ()),
+        "block_length": None if block_length is None else length(block_length),
+    }
+    file = read_case_file(case)
+    read = read_case(file)
+    choice = Uncertainty.of_case(stated_options(read), **options)
+    models = models or stated_models(read, choice)
+    if cluster is None and DirectContact.name in models and worker_count(workers) > 1:
+        cluster = PROCESSES
+    console, target = terminal.open_folder(
+        file, output, "uncertainty", f"Uncertainty of {file.path}"
+    )
+    result = question.uncertainty(
+        read,
+        **options,
+        samples=samples,
+        seed=seed,
+        models=models,
+        vary=axes,
+        tolerance=tolerance,
+        folder=target,
+        workers=workers,
+        client=cluster,
+        on_task=terminal.progress_printer(console),
+    )
+    terminal.finish(
+        console, target, result, file, "uncertainty.txt", "tables and figures", page=True
+    )
+
+
+def _values_by_source(ranges: Sequence[str]) -> dict[str, str]:
+    """Return the values of `NAME=VALUES` by name; raise `InputError` for anything else."""
+    values: dict[str, str] = {}
+    for text in ranges:
+        name, separator, value = (part.strip() for part in text.partition("="))
+        if not separator or not value:
+            raise InputError(f'range must be such as "cut_off=50 um:200 um"; got {text!r}')
+        if name in values:
+            raise InputError(f"range must name different sources; got {name} twice")
+        values[name] = value
+    return values

@@ -1,0 +1,152 @@
+"""How uncertain is the answer: the interval with the errors of the inputs, and what makes it.
+
+result = gs.uncertainty(case, samples=200)
+result.friction_interval
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gripscale.case import Case
+from gripscale.core.finding import Finding
+from gripscale.experiment.solve import OnTask
+from gripscale.io.table import Table
+from gripscale.questions.answer.reliance import answer_interval, answer_number
+from gripscale.questions.result import Result
+from gripscale.questions.uncertainty import page
+from gripscale.questions.uncertainty.propagation import propagate
+from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
+from gripscale.report.elements import Page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class SampledAnswer(Result):
+    """The answer of a case with the errors of its inputs, and the parts of its interval."""
+
+    kind = "uncertainty"
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient of the hysteresis [-]; NaN without an answer."""
+        return answer_number(self.data, "friction")
+
+    @property
+    def friction_interval(self) -> tuple[float, float]:
+        """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
+        return answer_interval(self.data, "friction")
+
+    @property
+    def contact_fraction(self) -> float:
+        """Real over nominal contact area [-]; NaN without an answer."""
+        return answer_number(self.data, "contact_fraction")
+
+    @property
+    def contact_fraction_interval(self) -> tuple[float, float]:
+        """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
+        return answer_interval(self.data, "contact_fraction")
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The answer with its interval; over a varied input the range of the answers."""
+        return tuple(page.answer_lines_of(self.data))
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        """Samples without an answer."""
+        return tuple(page.page_notices(self.data))
+
+    @property
+    def failure(self) -> str:
+        """Why too many samples have no answer; empty if enough have one."""
+        return str(page.failures(self.data)) if page.too_many_failed(self.data) else ""
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield the parts of the interval, the samples and the shares of the sources."""
+        yield from page.uncertainty_parts(self.data)
+
+    def table(self) -> Table:
+        """Return the parts of the interval, the largest first."""
+        return next(page.part_tables(self.data))
+
+    def figures(self) -> Iterator[tuple[str, Figure]]:
+        """Yield what matters most, and how friction and contact area scatter."""
+        from gripscale.questions.uncertainty.charts import uncertainty_pictures
+
+        for picture in uncertainty_pictures(self.data):
+            yield picture.name, picture.figure
+
+    def page_content(self) -> Page:
+        """Return what matters most, then the samples."""
+        return page.uncertainty_page(self.data)
+
+
+def uncertainty(
+    case: Case,
+    *,
+    samples: int | None = None,
+    seed: int | None = None,
+    models: Sequence[str] | None = None,
+    without: Sequence[str] | None = None,
+    ranges: Mapping[str, Any] | None = None,
+    block_length: float | None = None,
+    vary: Mapping[str, Any] | None = None,
+    tolerance: float | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> SampledAnswer:
+    """Return the answer of a case with the errors of its inputs, from samples of all at once.
+
+    Parameters
+    ----------
+    case : Case
+        What it states about its uncertainty holds where an argument is left out.
+    samples : int, optional
+        Samples, 10 to 100 000; 200 by default.
+    seed : int, optional
+        Seed of the random numbers.
+    models : sequence of str, optional
+        "chain", "direct" or both; "direct" where profiles were measured by default.
+    without : sequence of str, optional
+        Sources that are taken to be known, see `gripscale.questions.Uncertainty`.
+    ranges : mapping, optional
+        What is known of a source, in place of its default, see `gripscale.questions.Uncertainty`.
+    block_length : float, optional
+        Length of the blocks of profiles that are drawn [m].
+    vary : mapping, optional
+        Speeds or pressures; the same samples at each.
+    tolerance : float, optional
+        Estimated relative error of each direct contact; about a tenth by default.
+    folder : path, optional
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
+    workers, client, on_task
+        As for `gripscale.experiment.Bench`.
+
+    Raises
+    ------
+    InputError, FileError
+        If an argument or a file cannot be used, or a result cannot be written.
+    """
+    choice = Uncertainty.of_case(
+        stated_options(case), without=without, ranges=ranges, block_length=block_length
+    )
+    data = propagate(
+        case,
+        choice,
+        samples=samples,
+        seed=seed,
+        models=models,
+        vary=vary,
+        tolerance=tolerance,
+        folder=folder,
+        workers=workers,
+        client=client,
+        on_task=on_task,
+    )
+    return SampledAnswer(data)

@@ -1,0 +1,107 @@
+"""A case made in Python and the case file with the same inputs have one answer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gripscale as gs
+
+DATA = Path(__file__).parents[3] / "examples" / "data"
+ROAD = DATA / "road" / "20211011_aylesbury_dec_station_0.dat"
+DMA = DATA / "rubber" / "measured_dma.txt"
+CROP = (0.3, 0.6)
+LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
+END, WAVES = 2e-3, 4
+
+CASE = f"""\
+[surface]
+files = ["{ROAD}"]
+crop = ["{CROP[0]} m", "{CROP[1]} m"]
+scales = {WAVES}
+smallest_wavelength = "2 mm"
+
+[rubber]
+file = "{DMA}"
+reference_temperature = "20 C"
+
+[load]
+pressure = "3 bar"
+speed = "0.3 m/s"
+footprint = "100 mm"
+"""
+
+
+def made(**other: Any) -> gs.Case:
+    """Return the case made in Python, with other arguments where they are given."""
+    profiles = [gs.clean(gs.read_profile(ROAD), crop=CROP)[0]]
+    rubber = gs.fit_prony(gs.read_master_curve(DMA, reference_temperature=293.15))
+    arguments = {"smallest_wavelength": END, "waves": WAVES, **LOAD, **other}
+    return gs.Case(profiles, rubber, **arguments)
+
+
+def numbers(answer: gs.Answer) -> tuple[object, ...]:
+    """Return friction and contact fraction with their intervals."""
+    return (
+        answer.friction,
+        answer.friction_interval,
+        answer.contact_fraction,
+        answer.contact_fraction_interval,
+    )
+
+
+@pytest.fixture(scope="module")
+def answer() -> gs.Answer:
+    return gs.answer(made())
+
+
+def test_a_case_file_has_the_answer_of_the_same_case_in_python(
+    answer: gs.Answer, tmp_path: Path
+) -> None:
+    path = tmp_path / "case.toml"
+    path.write_text(CASE, encoding="utf-8")
+    assert answer.reliable
+    assert 0.0 < answer.friction_interval[0] < answer.friction < answer.friction_interval[1]
+    assert numbers(gs.answer(gs.read_case(path))) == numbers(answer)
+
+
+def test_texts_with_units_are_the_same_case(answer: gs.Answer) -> None:
+    texts = {"pressure": "3 bar", "speed": "0.3 m/s", "footprint": "100 mm"}
+    assert numbers(gs.answer(made(**texts, smallest_wavelength="2 mm"))) == numbers(answer)
+
+
+def test_a_saved_answer_is_the_same(answer: gs.Answer, tmp_path: Path) -> None:
+    loaded = gs.load(answer.save(tmp_path / "answer.nc"))
+    assert isinstance(loaded, gs.Answer)
+    assert str(loaded) == str(answer)
+    assert numbers(loaded) == numbers(answer)
+
+
+def test_sine_waves_have_no_answer_to_rely_on() -> None:
+    sines = gs.SineStack([10e-3, 3e-3], [0.8e-3, 0.25e-3])
+    answer = gs.answer(gs.Case(sines, gs.rubber.styrene_butadiene(), **LOAD))
+    assert not answer.reliable
+    assert not answer.is_solved
+    statement = (
+        "none with an interval. Only the direct contact of a measured surface has an interval"
+    )
+    assert statement in " ".join(str(answer).split())
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        ({"pressure": "3 bananas"}, "pressure = '3 bananas': "),
+        ({"speed": -0.3}, "speed must not be negative"),
+        (
+            {"conditions": gs.conditions.Conditions(temperature=313.15)},
+            "shift",
+        ),
+    ],
+)
+def test_a_bad_input_is_refused_in_one_sentence(wrong: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(gs.InputError, match=sentence) as refused:
+        made(**wrong)
+    assert "\n" not in str(refused.value)
