@@ -7,9 +7,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 BUILT := $(VENV)/.built
+FAST := $(addprefix tests/,core/test_house.py core/test_units.py core/test_errors.py surface rubber/test_shift.py theory)
 SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 
-.PHONY: run build test verify docs bench wheel clean
+.PHONY: run build test quick verify docs bench wheel clean
 .DEFAULT_GOAL := run
 
 run: build
@@ -29,6 +30,14 @@ test: build
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
 	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
+
+# What a person runs while working, within a minute: style, types, and fast tests or those of ROOM.
+quick: build
+	cargo fmt --check
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 $(if $(ROOM),$(ROOM),$(FAST))
 
 verify: build
 	$(BIN)/python -m pytest -q -m verification

@@ -90,6 +90,6 @@ def result_class(kind: str) -> type[Result] | None:
 
 
 def _attribute(room: str, path: str) -> Any:
-    """Return what `module:name` in a room stands for."""
+    """Return what `module:name` in a room stands for; `:name` is in the room itself."""
     module, _, name = path.partition(":")
-    return getattr(import_module(f"{room}.{module}"), name)
+    return getattr(import_module(f"{room}.{module}" if module else room), name)

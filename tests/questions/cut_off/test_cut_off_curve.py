@@ -73,7 +73,7 @@ def test_a_second_call_solves_nothing(folder, data):
         read_case(folder / "below.toml"),
         folder=folder / "result",
         on_task=lambda progress: stored.append(progress.stored),
-    )
+    ).data
     assert stored == [True]
     assert np.array_equal(again.data[AREA], data[AREA])
 
