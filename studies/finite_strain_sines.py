@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 import gripscale as gs
-from gripscale.half_space import FiniteStrainPairs, solve_both_ways, surface_of_sines
+from gripscale.half_space import surface_of_sines
 from gripscale.theory import solve_half_plane
+from studies.finite_strain_pairs import FiniteStrainPairs, solve_both_ways
 from studies.shipped import tread
 
 PERIOD = 28.678e-3

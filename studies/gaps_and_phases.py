@@ -21,7 +21,7 @@ from scipy.optimize import least_squares
 
 import gripscale as gs
 from gripscale.half_space import one_period, random_phases
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 from gripscale.surface.sine_fit import first_consistent_lag
 from studies.shipped import road, tread
 
@@ -74,7 +74,7 @@ def main() -> None:
 
 def _rows(rubber: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> None:
     first = first_consistent_lag(gs.height_difference(line))
-    whole = gs.Profile(line.x, filled(line.z), name=line.name)
+    whole = gs.Profile(line.x, fill_gaps(line.z), name=line.name)
     of_filled, of_pairs = (smooth_spectrum(one, first) for one in (whole, line))
     ways = {
         AS_MEASURED: [line],

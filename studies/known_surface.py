@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.half_space import map_over_lines, solve_map_and_lines
 from gripscale.surface import HeightMap, Profile
+from studies.isotropic_maps.map_factor import map_over_lines, solve_map_and_lines
 from studies.isotropic_maps.setting import AREA, FRICTION, LOAD, TOLERANCE
 from studies.shipped import tread
 

@@ -39,7 +39,7 @@ from gripscale.surface import (
     height_difference,
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
-from gripscale.theory.models import KlueppelHeinrich
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
 WAVES = 8

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.surface import HeightMap, isotropic_maps
+from gripscale.surface import HeightMap
+from studies.isotropic_maps.construction import isotropic_maps
 from studies.isotropic_maps.setting import CONSTRUCTIONS, SMALLEST, STATIONS
 from studies.isotropic_maps.solved import OfLines, OfMap, of_lines, of_map
 from studies.shipped import road

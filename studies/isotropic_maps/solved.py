@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.half_space import solve_map_and_lines, solve_windows, windows
+from gripscale.half_space import solve_windows, windows
 from gripscale.surface import HeightMap
-from gripscale.surface.line_statistics import periodic_lines
+from studies.isotropic_maps.line_statistics import periodic_lines
+from studies.isotropic_maps.map_factor import solve_map_and_lines
 from studies.isotropic_maps.setting import AREA, FRICTION, LENGTH, LOAD, SMALLEST, TOLERANCE
 from studies.shipped import road
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 
 import gripscale as gs
-from gripscale.half_space import solve_map_and_lines
 from studies.isotropic_maps.folder import Folder
+from studies.isotropic_maps.map_factor import solve_map_and_lines
 from studies.isotropic_maps.setting import (
     AREA,
     CONSTRUCTIONS,

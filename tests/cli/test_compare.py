@@ -105,7 +105,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     assert lines[at + 1].startswith("Tables, figures and result"), "nothing else comes after it"
 
 
-@pytest.mark.parametrize("group", ["waves", "measured", "theory", "windows", "map"])
+@pytest.mark.parametrize("group", ["waves", "measured", "theory", "windows"])
 def test_rungs_of_any_group_alone_are_drawn(
     comparison: tuple[str, Path], tmp_path: Path, group: str
 ) -> None:

@@ -56,11 +56,6 @@ class Door:
         return self.call.__qualname__
 
 
-def first_map(**arguments: Any) -> gs.HeightMap:
-    """Return the first of `isotropic_maps`, which checks its arguments when asked for it."""
-    return next(surface.isotropic_maps(**arguments))
-
-
 def doors() -> Iterator[Door]:
     """Yield every one."""
     yield from _theory()
@@ -235,8 +230,6 @@ def _surface() -> Iterator[Door]:
     yield Door(SLOPES.power_law, {"of": "surface"})
     yield Door(surface.RmsSlope, {"rms_slope": 1.3, "of": "surface", "extrapolate": False})
     yield Door(surface.find_cut_off, {"surface": LONG, "rule": 1e-3})
-    maps = {"construction": "lines", "points": 128, "seeds": [1]}
-    yield Door(first_map, {"profile": LONG, "smallest_wavelength": 4e-3, **maps}, slow=True)
     yield Door(surface.profile_warnings, {"profile": LINE, "cleaned": None, "steep": True})
     places = {"x": PLACE, "z": HEIGHT, "step": 5e-4, "bridge": None, "name": "", "source": ""}
     yield Door(surface.resample, places)
@@ -295,10 +288,3 @@ def _rough() -> Iterator[Door]:
     )
     spread = {"length": 1e-2, "most": 2, "smallest_wavelength": 2e-3}
     yield Door(rough.spread_windows, {"profiles": [LINE], **spread})
-    pairs = {"lines": [LINE], **PRESSED, "load_time": 1.0, "workers": 1}
-    yield Door(rough.solve_both_ways, {"rubber": SOLID, **pairs}, slow=True)
-    whole = {"rubber": SOLID, "surface": MAP, "lines": 2, "tolerance": None, "workers": 1}
-    yield Door(rough.solve_map_and_lines, {**whole, **PRESSED}, slow=True)
-    made = {"construction": "lines", "points": 128, "seeds": [1], "lines": 1, "workers": 1}
-    over = {"rubber": SOLID, "profile": LONG, **PRESSED, "smallest_wavelength": 4e-3, **made}
-    yield Door(rough.map_over_lines, over, slow=True)

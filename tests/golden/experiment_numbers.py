@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.io import netcdf
+from studies.isotropic_maps.map_factor import map_over_lines
 
 from .experiments import Experiments
 
@@ -75,7 +76,7 @@ def _synthetic_map(folder: Path) -> Values:
     rubber = gs.Rubber(6e6, [2e6, 3e6, 5e6], [1e-1, 1e-3, 1e-5])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        made = gs.rough.map_over_lines(
+        made = map_over_lines(
             rubber,
             [gs.clean(profile)[0] for profile in profiles],
             pressure=3e5,

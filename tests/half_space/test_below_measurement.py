@@ -16,8 +16,8 @@ from gripscale.half_space import (
 )
 from gripscale.half_space.below_measurement import BAND, cut_off_at
 from gripscale.model import Load
-from gripscale.surface import Surface, self_affine_profile
-from gripscale.surface.octaves import Intermittency, PeriodicLine
+from gripscale.surface import HeightMap, Measured, Surface, self_affine_profile
+from gripscale.surface.periodic import Intermittency, PeriodicLine
 from tests.samples import THREE_SINES
 from tests.verification.families import tread
 from tests.verification.withheld_octaves import coarser, intermittent
@@ -147,9 +147,15 @@ def test_hurst_exponents_beyond_one_are_refused():
         HurstExponent(1.2)
 
 
-def test_waves_stated_by_hand_are_refused():
-    with pytest.raises(InputError, match="profiles or a map; got waves stated by hand"):
-        ContinuedContact().predict(tread(), Surface(THREE_SINES, ""), Load(3e5, 0.3, 0.1))
+def test_waves_stated_by_hand_and_maps_are_refused():
+    x = 1e-4 * np.arange(16.0)
+    measured = Measured.of(HeightMap(x, x, np.zeros((16, 16))))
+    for surface, kind in (
+        (Surface(THREE_SINES, ""), "waves stated by hand"),
+        (Surface(THREE_SINES, "", measured=measured), "a map"),
+    ):
+        with pytest.raises(InputError, match=f"from measured profiles; got {kind}"):
+            ContinuedContact().predict(tread(), surface, Load(3e5, 0.3, 0.1))
 
 
 def test_random_phases_have_no_coupling_and_cascades_have():

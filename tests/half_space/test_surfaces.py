@@ -10,7 +10,7 @@ from gripscale.core.errors import InputError
 from gripscale.half_space import random_phases, solve_windows, surface_of_sines, windows
 from gripscale.half_space.grid import joined, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 
 from .rough_cases import ZENER, isotropic_heights, isotropic_map, solve
 
@@ -164,7 +164,7 @@ def test_random_phases_have_the_steep_lines_that_bridge_gaps():
     line = Profile(x, np.where(np.arange(x.size) % 40 < 10, np.nan, z))
     measured, bridged, drawn = (
         height_difference(one, max_lag=2e-4).value[0]
-        for one in (line, Profile(x, joined(filled(line.z))), random_phases(line, seed=1))
+        for one in (line, Profile(x, joined(fill_gaps(line.z))), random_phases(line, seed=1))
     )
     # One flank a gap of eleven steps: a quarter of the steps rise by 0.2 mm / 11.
     assert bridged == pytest.approx(11 / 40 * (2e-4 / 11) ** 2, rel=0.05)

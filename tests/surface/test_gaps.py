@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.surface.resampling import filled, filled_smoothly
+from gripscale.surface.resampling import fill_gaps, fill_gaps_smoothly
 
 X, Y = np.arange(24) * 1e-4, np.arange(30) * 2.5e-4
 
@@ -18,9 +18,9 @@ def holes(shape, share, seed):
 
 def test_a_line_is_interpolated_linearly_and_held_at_its_ends():
     z = np.array([np.nan, 2.0, np.nan, np.nan, 8.0, np.nan])
-    np.testing.assert_allclose(filled(z), [2, 2, 4, 6, 8, 8])
+    np.testing.assert_allclose(fill_gaps(z), [2, 2, 4, 6, 8, 8])
     # round the end there are two steps from 8 to 2, the first point being the second of them
-    np.testing.assert_allclose(filled(z, periodic=True), [4, 2, 4, 6, 8, 6])
+    np.testing.assert_allclose(fill_gaps(z, periodic=True), [4, 2, 4, 6, 8, 6])
 
 
 def test_cubics_have_no_kink_and_stay_between_the_ends_of_a_gap():
@@ -28,13 +28,13 @@ def test_cubics_have_no_kink_and_stay_between_the_ends_of_a_gap():
     x = np.linspace(0.0, 1.0, 101)
     z = x**2
     z[40:50] = np.nan
-    smooth, straight = filled_smoothly(z), filled(z)
+    smooth, straight = fill_gaps_smoothly(z), fill_gaps(z)
     np.testing.assert_array_equal(smooth[~np.isnan(z)], z[~np.isnan(z)])
     errors = [np.abs(line - x**2).max() for line in (smooth, straight)]
     assert errors[0] < 0.5 * errors[1]
     rough = np.random.default_rng(2).standard_normal(200)
     rough[holes(200, 0.6, 3)] = np.nan
-    filled_in = filled_smoothly(rough)
+    filled_in = fill_gaps_smoothly(rough)
     valid = np.flatnonzero(~np.isnan(rough))
     for first, last in pairwise(valid):
         ends = sorted((rough[first], rough[last]))
@@ -50,7 +50,7 @@ def test_harmonic_heights_come_back_whatever_the_steps():
     for harmonic in (x * y, x**2 - y**2, 0.3 * x - 0.2 * y + 1e-4):
         missing = np.zeros(harmonic.shape, dtype=bool)
         missing[3:20, 5:25] = holes((17, 20), 0.7, 1)
-        found = filled(np.where(missing, np.nan, harmonic), (1e-4, 2.5e-4))
+        found = fill_gaps(np.where(missing, np.nan, harmonic), (1e-4, 2.5e-4))
         np.testing.assert_allclose(found, harmonic, atol=1e-12 * np.abs(harmonic).max())
         assert missing.any()
 
@@ -59,15 +59,15 @@ def test_steps_weigh_the_neighbours_by_their_inverse_squares():
     z = np.zeros((16, 16))
     z[7, 8] = z[9, 8] = 1.0  # along x
     z[8, 8] = np.nan
-    assert filled(z, (1.0, 2.0))[8, 8] == pytest.approx(0.8)
-    assert filled(z)[8, 8] == pytest.approx(0.5)
+    assert fill_gaps(z, (1.0, 2.0))[8, 8] == pytest.approx(0.8)
+    assert fill_gaps(z)[8, 8] == pytest.approx(0.5)
 
 
 def test_a_border_is_held_or_goes_round():
     z = np.outer(np.arange(16.0), np.ones(16))
     z[0] = np.nan
-    np.testing.assert_allclose(filled(z)[0], 1.0)
-    np.testing.assert_allclose(filled(z, periodic=True)[0], 8.0)  # between 1 and 15
+    np.testing.assert_allclose(fill_gaps(z)[0], 1.0)
+    np.testing.assert_allclose(fill_gaps(z, periodic=True)[0], 8.0)  # between 1 and 15
 
 
 @settings(max_examples=40, deadline=None)
@@ -76,7 +76,7 @@ def test_no_filled_height_stands_out(seed, share, periodic):
     z = np.random.default_rng(seed).standard_normal((20, 17))
     missing = holes(z.shape, share, seed + 1)
     missing[0, 0] = False
-    found = filled(np.where(missing, np.nan, z), (1.0, 3.0), periodic=periodic)
+    found = fill_gaps(np.where(missing, np.nan, z), (1.0, 3.0), periodic=periodic)
     np.testing.assert_array_equal(found[~missing], z[~missing])
     rounding = 1e-12
     assert z[~missing].min() - rounding <= found.min() <= found.max()
@@ -85,7 +85,7 @@ def test_no_filled_height_stands_out(seed, share, periodic):
 
 def test_whole_surfaces_are_left_alone():
     z = np.random.default_rng(0).standard_normal((16, 16))
-    assert filled(z) is z
+    assert fill_gaps(z) is z
 
 
 def rough(points=128):
@@ -108,6 +108,6 @@ def test_a_membrane_is_nearer_to_a_rough_surface_than_lines(gaps):
     }[gaps]
     missing = measure > np.quantile(measure, 0.9)
     holed = np.where(missing, np.nan, z)
-    lines = np.stack([filled(line) for line in holed.T], axis=1)
-    error, of_lines = (np.std((one - z)[missing]) for one in (filled(holed), lines))
+    lines = np.stack([fill_gaps(line) for line in holed.T], axis=1)
+    error, of_lines = (np.std((one - z)[missing]) for one in (fill_gaps(holed), lines))
     assert error < 0.9 * of_lines

@@ -232,7 +232,7 @@ def test_integrals_over_the_angle(frequency):
 
 
 def test_not_converging_is_a_status_and_no_number(monkeypatch):
-    monkeypatch.setattr(module, "FINEST", 8)
+    monkeypatch.setattr(module, "_FINEST", 8)
     found = persson(ZENER, HALF, pressure=1e5, speed=0.1)
     assert found.status == "tolerance not met"
     assert not found.converged

@@ -15,7 +15,7 @@ TEXT = (ROOT / "docs" / "theories.md").read_text(encoding="utf-8")
 EXAMPLES = re.findall(r"```python\n(.*?)```.*?```text\n(.*?)```", TEXT, re.DOTALL)
 
 
-@pytest.mark.parametrize(("example", "shown"), EXAMPLES, ids=["diffusion", "road and tread"])
+@pytest.mark.parametrize(("example", "shown"), EXAMPLES, ids=["road and tread"])
 def test_an_example_prints_what_stands_below_it(example, shown, monkeypatch, capsys):
     monkeypatch.chdir(ROOT)
     exec(compile(example, "theories.md", "exec"), {"__name__": "theories"})

@@ -3,8 +3,8 @@
 import pytest
 
 import gripscale as gs
-from gripscale.half_space import map_over_lines
 from gripscale.surface import clean, read_profile
+from studies.isotropic_maps.map_factor import map_over_lines
 from tests.surface.surface_cases import DATA, ROAD, ROAD_ONLY
 
 pytestmark = pytest.mark.verification

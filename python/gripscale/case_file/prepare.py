@@ -50,7 +50,7 @@ from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.theory.models import KlueppelHeinrich
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
 RawHeights = surfaces.HeightMap | list[surfaces.Profile]
@@ -407,6 +407,8 @@ def read_case(path: CaseFile | str | Path) -> Case:
         For what cannot be read or used.
     """
     file = path if isinstance(path, CaseFile) else read_case_file(path)
+    if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:
+        raise InputError(f"{file.path}: [below_measurement] needs measured profiles; got a map")
     # measured friction is refused before anything is fitted
     friction, chain = stated_friction(file), case_chain(file)
     surface = case_surface(file)

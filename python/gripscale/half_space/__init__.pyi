@@ -4,19 +4,9 @@ from .below_measurement import HurstExponent as HurstExponent
 from .below_measurement import OwnFaces as OwnFaces
 from .below_measurement import contact_by_cut_off as contact_by_cut_off
 from .continued import ContinuedContact as ContinuedContact
-from .finite_strain import Correction as Correction
-from .finite_strain import FiniteStrainPairs as FiniteStrainPairs
-from .finite_strain import Pair as Pair
-from .finite_strain import solve_both_ways as solve_both_ways
-from .finite_strain import spread_windows as spread_windows
 from .grid_sequence import GridRecord as GridRecord
 from .location import contact_trace as contact_trace
 from .location import shares_by_slope as shares_by_slope
-from .map_below_measurement import map_by_cut_off as map_by_cut_off
-from .maps import MapContact as MapContact
-from .maps import MapOverLines as MapOverLines
-from .maps import map_over_lines as map_over_lines
-from .maps import solve_map_and_lines as solve_map_and_lines
 from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
@@ -26,5 +16,6 @@ from .windows import WindowContacts as WindowContacts
 from .windows import one_period as one_period
 from .windows import random_phases as random_phases
 from .windows import solve_windows as solve_windows
+from .windows import spread_windows as spread_windows
 from .windows import surface_of_sines as surface_of_sines
 from .windows import windows as windows

@@ -1,7 +1,7 @@
 """Contact and friction against the cut-off, from the longest waves to far below the measurement.
 
 A line is continued octave by octave: its measured waves stay, and random waves are added below them
-(`gripscale.surface.octaves`). What counts is how rough the faces are that touch, so the slope of
+(`gripscale.surface.periodic`). What counts is how rough the faces are that touch, so the slope of
 each octave is measured on the points in contact of the solution without it, as the 68 % quantile of
 its magnitude: steep edges, of which there are few, do not decide it. Each new octave gets a slope
 that is r times that of the octave above. r comes from
@@ -41,7 +41,7 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
-from gripscale.surface.octaves import Intermittency, PeriodicLine
+from gripscale.surface.periodic import Intermittency, PeriodicLine
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,8 +50,8 @@ BAND = 0.20
 """Half width of the 90 % band of a number one octave below the measurement, relative to it.
 Measured on withheld octaves, see docs/below-measurement.md."""
 
-GROWTH_OF_LINES = 0.5
-"""Power of the octaves that the band of continued lines grows with."""
+_BAND_GROWTH = 0.5
+"""Power of the octaves below the measurement that the band grows with."""
 
 QUANTILE = 0.68
 """Share of the points in contact whose slope is below that of an octave."""
@@ -60,10 +60,10 @@ RATIO_LIMIT = 0.3
 """Largest |ln r_1|: an octave that rolls off faster is the end of an instrument's band."""
 
 MOST_OCTAVES = 8
-LEAST_STEP = 0.05
+_LEAST_STEP = 0.05
 """Rest of an octave, over the last cut-off, that is not a step of its own."""
 
-LONGEST = 0.25
+_LONGEST = 0.25
 """Longest cut-off over the length of the shortest line."""
 
 OnContact = Callable[[RoughContact], None]
@@ -95,7 +95,7 @@ class FinerMeasurement(Checked):
     @property
     def wavelengths(self) -> tuple[float, float]:
         """Longest and shortest wavelength [m] whose slope is measured."""
-        longest = LONGEST * self.lines[0].length
+        longest = _LONGEST * self.lines[0].length
         return longest, max(line.resolution_limit for line in self.lines)
 
     def slope(self, longest: float, shortest: float) -> float:
@@ -130,13 +130,12 @@ class Withheld:
 
 @dataclass(frozen=True, eq=False)
 class CutOffContact:
-    """The contacts of all lines, or of a map, with waves down to one cut-off."""
+    """The contacts of all lines with waves down to one cut-off."""
 
     wavelength: float
     """Shortest wavelength of the lines [m]."""
     contacts: tuple[RoughContact, ...] = field(repr=False)
     lines: tuple[PeriodicLine, ...] = field(repr=False)
-    """Empty for a map."""
     slope: float
     """Slope of the last octave on the faces that touch [-]; NaN for the first."""
 
@@ -170,8 +169,6 @@ class ContactByCutOff:
     """How well the last measured octave is found from those above; None where it was not tried."""
     overlap: float
     """Slope of the faces over that of the finer measurement where both are measured [-]."""
-    growth: float = GROWTH_OF_LINES
-    """Power of the octaves below the measurement that the band grows with [-]."""
 
     @property
     def wavelength(self) -> Array:
@@ -186,7 +183,7 @@ class ContactByCutOff:
     @property
     def band(self) -> Array:
         """Half width of the 90 % band of each step, relative to its number."""
-        return BAND * self.octaves_below**self.growth
+        return BAND * self.octaves_below**_BAND_GROWTH
 
     def values(self, name: str) -> Array:
         """Return a number of `RoughContact` at each step, averaged by length."""
@@ -321,7 +318,7 @@ def contact_by_cut_off(
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     resolved = max(line.resolution_limit for line in profiles)
     last = checks.positive("down_to", down_to, unit="m")
-    if last > resolved / (1.0 + LEAST_STEP):
+    if last > resolved / (1.0 + _LEAST_STEP):
         last = max(last, resolved)
     if last < resolved / 2**MOST_OCTAVES:
         raise InputError(
@@ -331,7 +328,7 @@ def contact_by_cut_off(
     solver = _Solver(rubber, {"pressure": pressure, "speed": speed, "tolerance": None, **options})
     periodic = [_periodic(line, resolved, last) for line in profiles]
     shortest_line = min(line.length for line in periodic)
-    most = min(checks.positive("longest", longest, unit="m"), LONGEST * shortest_line)
+    most = min(checks.positive("longest", longest, unit="m"), _LONGEST * shortest_line)
     measured_to = max(resolved, last)
     octaves = max(0, math.floor(math.log2(most / measured_to) + 1e-9))
     cut_offs = measured_to * 2.0 ** np.arange(octaves, -1, -1)
@@ -479,7 +476,7 @@ class _Continuation:
         """Return the step an octave below the last, or at the last cut-off [m]."""
         here = steps[-1]
         shortest = 0.5 * here.wavelength
-        if shortest < last * (1.0 + LEAST_STEP):
+        if shortest < last * (1.0 + _LEAST_STEP):
             shortest = last
         share = math.log2(here.wavelength / shortest)
         if self.finer is None:

@@ -24,7 +24,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap, Profile
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 
 Single = NDArray[np.float32]
 SingleComplex = NDArray[np.complex64]
@@ -198,7 +198,7 @@ def periodic_heights(
     axes = surface_axes(surface)
     steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
     grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
-    z = filled(surface.z, tuple(steps), periodic=periodic)
+    z = fill_gaps(surface.z, tuple(steps), periodic=periodic)
     if not periodic:
         z = joined(z)
     step, length = max(steps), min(grid.lengths)

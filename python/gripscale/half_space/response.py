@@ -30,7 +30,7 @@ from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError
 from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import plane_strain_modulus
+from gripscale.rubber.material import plane_strain_modulus_of
 
 AnyArray = NDArray[np.floating]
 AnyComplexArray = NDArray[np.complexfloating]
@@ -68,7 +68,7 @@ class HalfSpace:
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
-        value = plane_strain_modulus(self.young_modulus(grid), self.rubber.bulk_modulus)
+        value = plane_strain_modulus_of(self.young_modulus(grid), self.rubber.bulk_modulus)
         if self.loss != 1.0:
             value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
         return np.where(grid.own_opposite, np.abs(value), value)

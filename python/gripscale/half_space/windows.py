@@ -7,6 +7,7 @@ period of a line, superposed sines, and a surface with the same spectrum but ran
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, TypeVar
@@ -22,9 +23,9 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
-from gripscale.surface.period import one_period as one_period
+from gripscale.surface.periodic import one_period as one_period
 from gripscale.surface.profile import FEWEST_POINTS
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 
 LEAST_VALID = 0.5
 """Share of heights that a window must have."""
@@ -135,6 +136,22 @@ def windows(
     return out
 
 
+def spread_windows(
+    profiles: Sequence[Profile], length: float, most: int, smallest_wavelength: float
+) -> list[Profile]:
+    """Return at most `most` windows of the profiles, each made `one_period`.
+
+    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly; waves
+    shorter than `smallest_wavelength` [m] are left out. Raises `InputError` as `windows` does, or
+    if `most` is not a whole number from 1.
+    """
+    number = checks.whole("most", most, least=1, most=100_000)
+    lines = checks.instances("profiles", profiles, Profile)
+    every = [window for line in lines for window in windows(line, length)]
+    chosen = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
+    return [one_period(every[index], smallest_wavelength) for index in chosen]
+
+
 def solve_windows(
     rubber: Rubber, surface: Profile | HeightMap, length: float | tuple[float, float], **load: Any
 ) -> WindowContacts:
@@ -199,7 +216,7 @@ def random_phases(surface: Measurement, seed: int) -> Measurement:
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     surface_axes(surface)
     steps = surface.step if isinstance(surface, HeightMap) else ()
-    z = joined(filled(surface.z, steps))
+    z = joined(fill_gaps(surface.z, steps))
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface
     size = np.abs(spectrum)
     spectrum *= np.abs(scipy.fft.rfftn(z)) / np.where(size > 0.0, size, 1.0)

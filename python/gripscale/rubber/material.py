@@ -175,7 +175,7 @@ def poisson_ratio(bulk: ArrayLike, modulus: ArrayLike) -> Array:
     return np.asarray((bulk - 2.0 * shear) / (2.0 * (bulk + shear)))
 
 
-def plane_strain_modulus(modulus: ComplexArray, bulk: float) -> ComplexArray:
+def plane_strain_modulus_of(modulus: ComplexArray, bulk: float) -> ComplexArray:
     """Return E/(1 - nu^2) = 4 G (3K + G) / (3K + 4 G) [Pa] of E* = 3 G and K [Pa], same shape."""
     shear = modulus / 3.0
     bulk = 3.0 * bulk
@@ -476,7 +476,7 @@ class Rubber(Checked, eq=False):
         This is the stiffness of a half-plane in plane strain when shear relaxes (G* = E*/3) and the
         bulk modulus does not; 4/3 of E* when incompressible.
         """
-        return plane_strain_modulus(self.complex_modulus(omega), self.bulk_modulus)
+        return plane_strain_modulus_of(self.complex_modulus(omega), self.bulk_modulus)
 
     def outside_band(self, omega: ArrayLike) -> Mask:
         """Return whether each `omega` [rad/s] lies outside `valid_band`; False if none is known."""

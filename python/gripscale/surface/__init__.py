@@ -3,23 +3,25 @@
 from gripscale.surface.cleaning import CleaningReport, StepReport, clean, clean_map
 from gripscale.surface.cut_off import (
     ContactSlope,
-    CutOff,
     CutOffRule,
     PowerLaw,
     RmsSlope,
     SlopeByWavelength,
+    SurfaceCutOff,
     find_cut_off,
     slope_by_wavelength,
 )
-from gripscale.surface.height_difference import HeightDifference, height_difference
-from gripscale.surface.isotropic_maps import isotropic_maps
+from gripscale.surface.height_difference import (
+    HeightDifference,
+    SelfAffineFit,
+    fit_self_affine,
+    height_difference,
+)
 from gripscale.surface.plausibility import profile_warnings
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.read import read_map, read_profile, read_profiles
 from gripscale.surface.resampling import resample
-from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
-from gripscale.surface.sine_ambiguity import SineAmbiguity, sine_ambiguity
-from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sine_fit import SineAmbiguity, fit_sines, sine_ambiguity
 from gripscale.surface.sines import SineStack
 from gripscale.surface.spectrum import (
     ArealSpectrum,
@@ -36,7 +38,6 @@ __all__ = [
     "ArealSpectrum",
     "CleaningReport",
     "ContactSlope",
-    "CutOff",
     "CutOffRule",
     "HeightDifference",
     "HeightMap",
@@ -51,6 +52,7 @@ __all__ = [
     "SlopeByWavelength",
     "StepReport",
     "Surface",
+    "SurfaceCutOff",
     "SurfacePart",
     "areal_spectrum",
     "clean",
@@ -59,7 +61,6 @@ __all__ = [
     "fit_self_affine",
     "fit_sines",
     "height_difference",
-    "isotropic_maps",
     "map_spectrum",
     "profile_spectrum",
     "profile_warnings",

@@ -19,13 +19,13 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
-TRENDS = ("linear", "mean", "none")
+_TRENDS = ("linear", "mean", "none")
 
-HIGHEST_ORDER = 8
+_HIGHEST_ORDER = 8
 """Highest order of a form: beyond it a polynomial follows the roughness."""
 
 Limits = tuple[float, float]
-Measurement = TypeVar("Measurement", Profile, HeightMap)
+_Heights = TypeVar("_Heights", Profile, HeightMap)
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ def mark_spikes(
 
 def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, StepReport]:
     """Subtract the least-squares line, or the mean, of the valid heights."""
-    checks.one_of("detrend", kind, TRENDS)
+    checks.one_of("detrend", kind, _TRENDS)
     valid = np.isfinite(profile.z)
     mean = float(profile.z[valid].mean())
     note = f"mean {1e3 * mean:.4g} mm"
@@ -316,7 +316,7 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
 
     Raises `InputError` if `order` is not from 0 to 8, or there are fewer heights than coefficients.
     """
-    highest = checks.whole("form", order, least=0, most=HIGHEST_ORDER)
+    highest = checks.whole("form", order, least=0, most=_HIGHEST_ORDER)
     terms = [(m, n) for m in range(highest + 1) for n in range(highest + 1 - m)]
     if surface.z.size - surface.missing < len(terms):
         raise InputError(
@@ -361,8 +361,8 @@ def _part(
 
 
 def mark_dropouts(
-    measured: Measurement, valid_range: Limits | None = None
-) -> tuple[Measurement, StepReport]:
+    measured: _Heights, valid_range: Limits | None = None
+) -> tuple[_Heights, StepReport]:
     """Count the heights already missing; mark those outside `valid_range` [m] as missing."""
     note = f"{measured.missing} missing as measured"
     if valid_range is None:
@@ -374,8 +374,8 @@ def mark_dropouts(
 
 
 def _without_spikes(
-    measured: Measurement, z: Array, slope: float, note: str
-) -> tuple[Measurement, StepReport]:
+    measured: _Heights, z: Array, slope: float, note: str
+) -> tuple[_Heights, StepReport]:
     if np.isnan(z).all():
         step = in_mm(np.max(measured.step), 3)
         raise InputError(
@@ -387,8 +387,9 @@ def _without_spikes(
 
 
 def _in_turn(
-    steps: Sequence[Callable[[Measurement], tuple[Measurement, StepReport]]], measured: Measurement
-) -> tuple[Measurement, CleaningReport]:
+    steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]],
+    measured: _Heights,
+) -> tuple[_Heights, CleaningReport]:
     """Return a profile or map after all steps, and their reports."""
     reports = []
     for step in steps:
@@ -397,9 +398,7 @@ def _in_turn(
     return measured, CleaningReport(tuple(reports))
 
 
-def _report(
-    step: str, before: Measurement, after: Measurement, note: str
-) -> tuple[Measurement, StepReport]:
+def _report(step: str, before: _Heights, after: _Heights, note: str) -> tuple[_Heights, StepReport]:
     """Return the changed profile or map and the count of its changes."""
     removed = before.z.size - after.z.size
     made_missing = 0 if removed else after.missing - before.missing

@@ -53,7 +53,7 @@ from gripscale.surface.spectrum import (
 DEFINITIONS = ("surface", "profile")
 """Whose slope: the length of the surface's gradient, or the slope along its lines."""
 
-ROUNDING = 1e-9
+_ROUNDING = 1e-9
 """Relative difference below which two wavelengths are the same."""
 
 _FITTED = 10.0
@@ -123,7 +123,7 @@ class SlopeByWavelength:
         length = checks.positive("wavelength", wavelength, unit="m")
         checks.one_of("of", of, DEFINITIONS)
         limit = self.resolution_limit
-        if length >= limit * (1.0 - ROUNDING):
+        if length >= limit * (1.0 - _ROUNDING):
             return self._measured(length, of)
         try:
             law = self.power_law(of)
@@ -141,11 +141,11 @@ class SlopeByWavelength:
         checks.positive("slope", slope)
         checks.one_of("of", of, DEFINITIONS)
         total = self._measured(self.resolution_limit, of)
-        if not total >= slope * (1.0 - ROUNDING):
+        if not total >= slope * (1.0 - _ROUNDING):
             return math.nan
         if of == "profile":
             sums = np.cumsum(_mean_square(self.line))
-            first = int(np.searchsorted(sums, slope**2 * (1.0 - ROUNDING)))
+            first = int(np.searchsorted(sums, slope**2 * (1.0 - _ROUNDING)))
             return float(2.0 * np.pi / self.line.wavenumber[first])
         assert self.areal is not None
         if total <= slope:
@@ -177,7 +177,7 @@ class SlopeByWavelength:
             mean = self.line.averaged()
             q, growth = mean.wavenumber, mean.wavenumber**3 * mean.density
         last = 2.0 * np.pi / self.resolution_limit
-        used = (q <= last * (1.0 + ROUNDING)) & (q >= last / _FITTED) & (growth > 0.0)
+        used = (q <= last * (1.0 + _ROUNDING)) & (q >= last / _FITTED) & (growth > 0.0)
         if used.sum() < _FEWEST:
             raise InputError(
                 f"the spectrum must have {_FEWEST} points above zero in the decade above "
@@ -203,11 +203,11 @@ class SlopeByWavelength:
         spectrum = self.line if of == "profile" else self.areal
         if spectrum is None:
             return math.nan
-        number = 2.0 * np.pi / length * (1.0 + ROUNDING)
+        number = 2.0 * np.pi / length * (1.0 + _ROUNDING)
         if isinstance(spectrum, ProfileSpectrum):
             counted = spectrum.wavenumber <= number
             return float(np.sqrt(_mean_square(spectrum)[counted].sum()))
-        if number <= spectrum.wavenumber[0] * (1.0 + 2.0 * ROUNDING):
+        if number <= spectrum.wavenumber[0] * (1.0 + 2.0 * _ROUNDING):
             return 0.0
         return spectrum.rms_gradient(length if number < spectrum.wavenumber[-1] else None)
 
@@ -248,10 +248,10 @@ def _mean_square(line: ProfileSpectrum) -> Array:
     return np.asarray(line.wavenumber**2 * line.density * line.width)
 
 
-INSTRUMENT = "instrument"
+_INSTRUMENT = "instrument"
 """The word for the shortest wavelength that the measurement resolves."""
 
-MOST_CONTINUED = 100.0
+_MOST_CONTINUED = 100.0
 """Ratio of the shortest wavelength measured to the shortest that it may be continued to."""
 
 
@@ -294,7 +294,7 @@ CutOffRule = float | Literal["instrument"] | RmsSlope | ContactSlope
 
 
 @dataclass(frozen=True)
-class CutOff:
+class SurfaceCutOff:
     """The cut-off of a measured surface, its rule and the slopes down to it."""
 
     wavelength: float
@@ -312,7 +312,7 @@ class CutOff:
     @property
     def beyond_measurement(self) -> bool:
         """Whether the roughness includes waves that the measurement does not resolve."""
-        return self.wavelength < self.resolution_limit * (1.0 - ROUNDING)
+        return self.wavelength < self.resolution_limit * (1.0 - _ROUNDING)
 
     def __str__(self) -> str:
         slopes = (
@@ -330,7 +330,7 @@ class CutOff:
 
 def find_cut_off(
     surface: Profile | Sequence[Profile] | HeightMap | SlopeByWavelength, rule: CutOffRule
-) -> CutOff:
+) -> SurfaceCutOff:
     """Return where the roughness of a measured surface ends by a rule.
 
     Raises `InputError` if the rule is none of these, or the measurement does not reach the slope:
@@ -356,12 +356,12 @@ def find_cut_off(
     elif isinstance(rule, RmsSlope):
         length, words = _length_of_slope(slopes, rule), str(rule)
     elif isinstance(rule, str):
-        checks.one_of("rule", rule, [INSTRUMENT])
+        checks.one_of("rule", rule, [_INSTRUMENT])
         length, words = limit, "the shortest wavelength that the measurement carries"
     else:
         length, words = checks.positive("rule", rule, unit="m"), "a stated length"
     surface_slope, profile_slope = (slopes.down_to(length, of) for of in DEFINITIONS)
-    return CutOff(length, words, surface_slope, profile_slope, limit)
+    return SurfaceCutOff(length, words, surface_slope, profile_slope, limit)
 
 
 def cut_off_rule(value: Any) -> CutOffRule:
@@ -371,7 +371,7 @@ def cut_off_rule(value: Any) -> CutOffRule:
     { rms_slope = 1.3, of = "surface", extrapolate = false }, or the latter in words: "rms_slope 1.3
     of surface extrapolate". Raises `ValueError` with what was expected; the caller adds the place.
     """
-    if value == INSTRUMENT or isinstance(value, RmsSlope | ContactSlope):
+    if value == _INSTRUMENT or isinstance(value, RmsSlope | ContactSlope):
         return value  # type: ignore[no-any-return]
     if isinstance(value, dict) and set(value) == {"contact_slope"}:
         return ContactSlope(**value)
@@ -390,7 +390,7 @@ def cut_off_rule(value: Any) -> CutOffRule:
         length = parse_quantity(value, "length")
     except ValueError as error:
         raise ValueError(
-            f'{error}, or "{INSTRUMENT}", or {{ rms_slope = 1.3, of = "surface" }}'
+            f'{error}, or "{_INSTRUMENT}", or {{ rms_slope = 1.3, of = "surface" }}'
         ) from error
     if length <= 0.0:
         raise ValueError("expected a length greater than zero")
@@ -418,10 +418,10 @@ def _length_of_slope(slopes: SlopeByWavelength, rule: RmsSlope) -> float:
         )
     law = slopes.power_law(rule.of)
     ratio = law.ratio(rule.rms_slope**2 - reached**2)
-    if ratio > MOST_CONTINUED:
+    if ratio > _MOST_CONTINUED:
         raise InputError(
             f"cut_off must be an rms slope of the {rule.of} reached within a factor of "
-            f"{MOST_CONTINUED:g} below {in_mm(limit, 3)}, where it is {reached:.3g} and goes "
+            f"{_MOST_CONTINUED:g} below {in_mm(limit, 3)}, where it is {reached:.3g} and goes "
             f"on with H = {law.hurst:.2f}; got {rule.rms_slope:g}"
         )
     return limit / ratio

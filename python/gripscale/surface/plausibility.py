@@ -18,50 +18,49 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
-from gripscale.surface.sine_fit import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE
-from gripscale.surface.sines import SineStack
+from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
 from gripscale.surface.supports import road_between, support_plates
 
-STEEPEST = 3.0
+_SPIKE_SLOPE = 3.0
 """Height change per step of a spike (ISO 13473-1:2019, section 7.5)."""
 
-MOST_SPIKES = 0.5
+_MOST_SPIKES = 0.5
 """Share of spikes beyond which the unit is probably wrong; 4 % are usual on roads."""
 
-TALLEST = 0.1
+_TALLEST = 0.1
 """Rms height over length beyond which one of the two probably has a wrong unit."""
 
-LARGEST_HEIGHT = 0.1
+_LARGEST_HEIGHT = 0.1
 """Rms height [m] that no pavement has."""
 
-COARSEST_STEP = 0.01
+_COARSEST_STEP = 0.01
 """Step [m] beyond which no texture is measured."""
 
-SMOOTHEST = 5e-3
+_SMOOTHEST = 5e-3
 """Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction."""
 
-JUMP = 10.0
+_JUMP = 10.0
 """Height change over a short way that is a jump, in robust standard deviations of such changes."""
 
-SHORT_WAY = 1 / 400
+_SHORT_WAY = 1 / 400
 """The short way, as a share of the profile."""
 
-MOST_JUMPS = 8
+_MOST_JUMPS = 8
 """Jumps beyond which they belong to the surface, as grooves do."""
 
-STRETCHES = 40
+_STRETCHES = 40
 """Parts into which a profile is cut to find flat ones."""
 
-SHORTEST_STRETCH = 16
+_SHORTEST_STRETCH = 16
 """Heights a part must have for its roughness to be compared."""
 
-LONGEST_WAVE = 4.0
+_LONGEST_WAVE = 4.0
 """Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau."""
 
-AT_THE_EDGE = 1e-3
+_AT_THE_EDGE = 1e-3
 """Distance of the logarithm of a factor from its limit below which the factor is at the limit."""
 
-FLAT = 0.02
+_FLAT = 0.02
 """Roughness of a part, over the usual one, below which it is flat."""
 
 
@@ -70,7 +69,7 @@ def profile_warnings(
 ) -> tuple[str, ...]:
     """Return warnings about an implausible profile, a sentence each; empty if there are none.
 
-    They are about steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and
+    They concern steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and
     heights or lengths that suggest another unit. Raises `InputError` if `cleaned` is no part of
     `profile`.
 
@@ -87,50 +86,62 @@ def profile_warnings(
     doubts = _doubts(profile, cleaned)
     if doubts.heights is None:
         return doubts.texts
-    level = _levelled(doubts.heights)
-    return (
-        *doubts.texts,
-        *(() if doubts.plates else (*_jump_warnings(level), *_flat_warnings(level))),
-        *(_slope_warnings(doubts.heights, profile.step) if steep else ()),
-    )
+    warnings = list(doubts.texts)
+    if not doubts.plates:
+        level = _levelled(doubts.heights)
+        warnings += [*_jump_warnings(level), *_flat_warnings(level)]
+    if steep:
+        slopes = _between_neighbours(doubts.heights) / profile.step
+        rms, count = _rms(slopes), int((slopes >= _SPIKE_SLOPE * (1 + 1e-6)).sum())
+        if rms > _SPIKE_SLOPE:
+            warnings.append(
+                f"the rms slope is {rms:.3g}, above {_SPIKE_SLOPE:g}: spikes, or another unit?"
+            )
+        elif count:
+            warnings.append(
+                f"{count} of {slopes.size} remaining slopes are {_SPIKE_SLOPE:g} or steeper, up to "
+                f"{slopes.max():.3g}: remove_spikes with spike_slope = {_SPIKE_SLOPE:g} takes them "
+                "out"
+            )
+    return tuple(warnings)
 
 
 def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
-    """Return those warnings of a profile that leave no answer to rely on, or none.
+    """Return the warnings of a profile that make its answer unreliable.
 
-    They are about sentinels, plates and supports, and units. Arguments and errors as
+    They concern sentinels, plates and supports, and units. Arguments and errors as
     `profile_warnings`.
     """
     return _doubts(profile, cleaned).texts
 
 
 def has_likely_units(profile: Profile) -> bool:
-    """Return whether heights and distances of a profile are those of a texture."""
+    """Return whether the units of heights and distances are plausible for a texture."""
     return not _doubts(profile, None).units
 
 
 class _Doubts(NamedTuple):
-    """Why a profile may be no road."""
+    """Reasons to doubt that a profile is a road."""
 
     texts: tuple[str, ...] = ()
     heights: Array | None = None
-    """Heights that count [m]; None where they mean nothing."""
+    """Valid heights [m]; None if they are meaningless."""
     plates: bool = False
     units: bool = False
     """Whether a length suggests another unit."""
 
 
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
-    """Return why a profile may be no road; `InputError` as `profile_warnings`."""
+    """Return reasons to doubt a profile; raise `InputError` as `profile_warnings` does."""
     part = _kept_part(profile, cleaned)
     measured, kept = part.z, np.isfinite(part.z if cleaned is None else cleaned.z)
     valid = measured[np.isfinite(measured)]
     if valid.size == 0 or np.ptp(valid) == 0.0:
         return _Doubts(("all heights are equal: is this the column of heights?",))
     spikes = float((np.isfinite(measured) & ~kept).sum() / valid.size)
-    if spikes > MOST_SPIKES:  # the remaining heights mean nothing
+    if spikes > _MOST_SPIKES:  # the remaining heights mean nothing
         text = (
-            f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {STEEPEST:g}: "
+            f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {_SPIKE_SLOPE:g}: "
             "is the unit of heights or of distances right?"
         )
         return _Doubts((text, *_unit_warnings(_levelled(measured), profile)), units=True)
@@ -138,13 +149,21 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
     sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
     if sentinels:  # a sentinel is far off, steep, flat and high, too
         return _Doubts(sentinels)
-    plates = tuple(_plate_warnings(part))
     units = tuple(_unit_warnings(_levelled(part.z), profile))
-    return _Doubts((*plates, *units), part.z, bool(plates), bool(units))
+    supports = support_plates(part)
+    if not supports:
+        return _Doubts(units, part.z, units=bool(units))
+    road = road_between(part)
+    ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
+    plates = (
+        "plates, supports or filled gaps lie in the profile, at "
+        f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
+        f"crop{ends} leaves them out"
+    )
+    return _Doubts((plates, *units), part.z, plates=True, units=bool(units))
 
 
 def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
-    """Return what cleaning kept of a profile, with the heights as measured."""
     checks.instance("profile", profile, Profile)
     if cleaned is None:
         return profile
@@ -159,19 +178,6 @@ def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:
     return replace(cleaned, z=measured)
 
 
-def _plate_warnings(profile: Profile) -> Iterator[str]:
-    """Warn of plates and supports, and say which crop leaves them out."""
-    supports = support_plates(profile)
-    if supports:
-        road = road_between(profile)
-        ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
-        yield (
-            "plates, supports or filled gaps lie in the profile, at "
-            f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
-            f"crop{ends} leaves them out"
-        )
-
-
 def _levelled(z: Array) -> Array:
     """Return heights without their least-squares line: a tilt is no roughness."""
     x = np.linspace(-1.0, 1.0, z.size)
@@ -180,7 +186,7 @@ def _levelled(z: Array) -> Array:
 
 
 def _sentinel_warnings(valid: Array) -> Iterator[str]:
-    """Warn of a repeated value farther from all others than they are from each other."""
+    """Warn of a repeated value that lies farther from all others than their range."""
     for extreme, words in ((float(valid.min()), "lowest"), (float(valid.max()), "highest")):
         rest = valid[valid != extreme]
         count = valid.size - rest.size
@@ -194,16 +200,16 @@ def _sentinel_warnings(valid: Array) -> Iterator[str]:
 def _jump_warnings(z: Array) -> Iterator[str]:
     """Warn of a few changes of level, each as wide as the way over which heights are compared."""
     valid = z[np.isfinite(z)]
-    way = max(SHORTEST_STRETCH // 2, round(SHORT_WAY * valid.size))
+    way = max(_SHORTEST_STRETCH // 2, round(_SHORT_WAY * valid.size))
     changes = valid[way:] - valid[:-way]
     if not changes.size:
         return
     departures = np.abs(changes - np.median(changes))
     # 1.4826 median absolute departures are a standard deviation that jumps themselves hardly move
-    far = departures > JUMP * float(1.4826 * np.median(departures))
+    far = departures > _JUMP * float(1.4826 * np.median(departures))
     edges = np.flatnonzero(np.diff(np.concatenate(([0], far.astype(np.int8), [0]))))
     jumps = int((edges[1::2] - edges[::2] >= way // 2).sum())
-    if 0 < jumps <= MOST_JUMPS:
+    if 0 < jumps <= _MOST_JUMPS:
         yield (
             f"heights jump in {jumps} place{'s' if jumps > 1 else ''}, by up to "
             f"{in_mm(np.abs(changes).max(), 3)}, far more than the roughness: are plates, "
@@ -213,27 +219,14 @@ def _jump_warnings(z: Array) -> Iterator[str]:
 
 def _flat_warnings(z: Array) -> Iterator[str]:
     """Warn of parts that bend much less than the others: filled or held, not measured."""
-    count = min(STRETCHES, z.size // (2 * SHORTEST_STRETCH))
+    count = min(_STRETCHES, z.size // (2 * _SHORTEST_STRETCH))
     parts = [part[np.isfinite(part)] for part in np.array_split(z, max(count, 1))]
-    bends = np.array([_rms(np.diff(part, 2)) for part in parts if part.size >= SHORTEST_STRETCH])
-    flat = bends < FLAT * np.median(bends) if bends.size else np.zeros(0, dtype=bool)
+    bends = np.array([_rms(np.diff(part, 2)) for part in parts if part.size >= _SHORTEST_STRETCH])
+    flat = bends < _FLAT * np.median(bends) if bends.size else np.zeros(0, dtype=bool)
     if flat.any():
         yield (
             f"{flat.sum()} of {flat.size} parts of the profile are flat or straight, with less "
-            f"than {FLAT:g} of the usual roughness: are plates or filled gaps in it?"
-        )
-
-
-def _slope_warnings(z: Array, step: float) -> Iterator[str]:
-    """Warn of slopes that no surface has."""
-    slopes = _between_neighbours(z) / step
-    rms, steep = _rms(slopes), int((slopes >= STEEPEST * (1 + 1e-6)).sum())
-    if rms > STEEPEST:
-        yield f"the rms slope is {rms:.3g}, above {STEEPEST:g}: spikes, or another unit?"
-    elif steep:
-        yield (
-            f"{steep} of {slopes.size} remaining slopes are {STEEPEST:g} or steeper, up to "
-            f"{slopes.max():.3g}: remove_spikes with spike_slope = {STEEPEST:g} takes them out"
+            f"than {_FLAT:g} of the usual roughness: are plates or filled gaps in it?"
         )
 
 
@@ -243,11 +236,11 @@ def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
     slopes = _between_neighbours(z) / profile.step
     lengths = (in_mm(length, 3) for length in (rms, profile.length, profile.step))
     sizes = "rms height {} over {} in steps of {}".format(*lengths)
-    if rms > min(TALLEST * profile.length, LARGEST_HEIGHT):
+    if rms > min(_TALLEST * profile.length, _LARGEST_HEIGHT):
         yield f"{sizes}: too high for a texture; is the unit of heights right?"
-    elif slopes.size and np.quantile(slopes, 0.75) < SMOOTHEST:
+    elif slopes.size and np.quantile(slopes, 0.75) < _SMOOTHEST:
         yield f"{sizes}: hardly any slope; is the unit of heights right?"
-    if profile.step > COARSEST_STEP:
+    if profile.step > _COARSEST_STEP:
         yield f"{sizes}: too coarse for a texture; is the unit of distances right?"
 
 
@@ -262,7 +255,7 @@ def _rms(values: Array) -> float:
 
 
 def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[str]:
-    """Yield which waves and which roughness the measurement does not carry."""
+    """Yield notes on waves and roughness beyond the resolution of the measurement."""
     last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
     if limit is not None and _beyond(last, limit):
         yield (
@@ -284,7 +277,7 @@ def _beyond(length: float, limit: float | None) -> bool:
 def stack_notes(
     sines: SineStack, correlation: HeightDifference, fit: Mapping[str, Any]
 ) -> Iterator[str]:
-    """Yield why the waves end where they do, and warn of factors at the edge of their range.
+    """Yield notes on the end of the waves and on factors at the edge of their range.
 
     `fit` are the arguments of `fit_sines` for the waves.
     """
@@ -294,10 +287,10 @@ def stack_notes(
         at_limit = limit is not None and last <= limit * (1.0 + 1e-6)
         reason = "the shortest the measurement carries" if at_limit else "where the fit puts it"
         yield (f"no smallest wavelength is stated: the smallest wave is {in_mm(last, 3)}, {reason}")
-    first, longest = float(sines.wavelength[0]), LONGEST_WAVE * float(correlation.lag[-1])
+    first, longest = float(sines.wavelength[0]), _LONGEST_WAVE * float(correlation.lag[-1])
     if first > longest and fit.get("first_wavelength") is None:
         yield (
-            f"the largest wave, {in_mm(first, 3)}, is longer than {LONGEST_WAVE:g} times the "
+            f"the largest wave, {in_mm(first, 3)}, is longer than {_LONGEST_WAVE:g} times the "
             f"largest lag, {in_mm(longest, 3)}: fewer scales, or a smaller smallest_wavelength, "
             "suit the curve"
         )
@@ -305,7 +298,7 @@ def stack_notes(
         factor = getattr(sines, name)
         if factor is None or fit.get(name) is not None:
             continue
-        if min(abs(np.log(factor / edge)) for edge in limits) < AT_THE_EDGE:
+        if min(abs(np.log(factor / edge)) for edge in limits) < _AT_THE_EDGE:
             yield (
                 f"{name} is {factor:.3g}, at the edge of the range searched, {limits[0]:g} to "
                 f"{limits[1]:g}: the correlation does not determine it; state it, or change scales"

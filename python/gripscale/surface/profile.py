@@ -33,10 +33,10 @@ A distance rounded to a tenth of a step is just within. Uniform departures up to
 the squared distance of neighbours, 0.2 % of it.
 """
 
-COARSEST_PRINT = 0.5
+_COARSEST_PRINT = 0.5
 """Largest last decimal place of printed distances, in steps, that still separates neighbours."""
 
-SINGLE = 1.6
+_SINGLE = 1.6
 """Length, in the shortest step, up to which a step counts as single.
 
 Printed steps differ by the last decimal, at most half as much again; double steps are longer.
@@ -86,7 +86,7 @@ def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
         return None
     # Printed steps scatter about the true one: only the mean of all single ones is accurate enough
     # to count how many steps a long gap holds.
-    single = steps[steps <= SINGLE * steps.min()].mean()
+    single = steps[steps <= _SINGLE * steps.min()].mean()
     numbers = [np.arange(x.size)]
     if steps.max() <= _LARGEST_NUMBER * single:
         whole = np.maximum(np.rint(steps / single), 1.0)
@@ -98,7 +98,7 @@ def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
         centred = number - mean_number
         step = float(centred @ (x - mean_x) / (centred @ centred))
         departure = float(np.abs(x - mean_x - step * centred).max())
-        printed = 1.01 * resolution if resolution <= COARSEST_PRINT * step else 0.0
+        printed = 1.01 * resolution if resolution <= _COARSEST_PRINT * step else 0.0
         if departure <= max(GRID_TOLERANCE * step, printed) + rounding:
             return EvenGrid(number, step, departure / step)
     return None
@@ -115,7 +115,7 @@ def uneven_step(x: Array) -> int:
 FEWEST_POINTS = 16
 """Points a profile must have: fewer leave no lag that has both a power law and pairs to average."""
 
-MOST_POINTS = 10_000_000
+MOST_PROFILE_POINTS = 10_000_000
 """Points beyond which no profile is made."""
 
 RESOLVED_STEPS = 4.0
@@ -384,7 +384,7 @@ def line_label(text: str, number: int, direction: str) -> str:
     return f"{text}, line {number} along {direction}".lstrip(", ")
 
 
-SAME_STEP = 1e-3
+_SAME_STEP = 1e-3
 """Relative difference of steps up to which they are the same."""
 
 
@@ -408,7 +408,7 @@ def of_one_step(profile: Profile | Sequence[Profile], purpose: str) -> list[Prof
     profiles = profile_list(profile)
     step = profiles[0].step
     for at, other in enumerate(profiles):
-        if abs(other.step - step) > SAME_STEP * step:
+        if abs(other.step - step) > _SAME_STEP * step:
             raise InputError(
                 f"profiles must have the same step to be {purpose}; got {step:g} m at index 0 and "
                 f"{other.step:g} m at index {at}"

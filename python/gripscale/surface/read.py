@@ -23,16 +23,21 @@ from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
-from gripscale.surface.sdf import is_sdf_text, read_sdf_text
-from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
+from gripscale.surface.text_files import (
+    is_sdf_text,
+    length_unit,
+    read_sdf_text,
+    read_text_map,
+    read_text_profile,
+)
 
-MOST_POINTS_PER_BYTE = 1032
+_MOST_POINTS_PER_BYTE = 1032
 """Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""
 
 
 @dataclass(frozen=True)
 class HeightField:
-    """Heights [m] on a line (points, 1) or a map (points along x, points along y)."""
+    """_AnySurface [m] on a line (points, 1) or a map (points along x, points along y)."""
 
     heights: Array
     x: Array
@@ -93,7 +98,7 @@ def read_instrument_file(
             try:
                 topography = _topography(path, reader.channels, channel, step)
                 points = topography.nb_grid_pts
-                if math.prod(points) > MOST_POINTS_PER_BYTE * len(raw):
+                if math.prod(points) > _MOST_POINTS_PER_BYTE * len(raw):
                     raise FileError(
                         f"{path}: expected a surface; its header states "
                         f"{' x '.join(map(str, points))} points, which {len(raw)} bytes cannot hold"
@@ -166,7 +171,7 @@ def _topography(
 
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
-MAP_TEXT_SUFFIXES = (*TEXT_SUFFIXES, ".xyz")
+_MAP_TEXT_SUFFIXES = (*TEXT_SUFFIXES, ".xyz")
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
 """Sheets of a Mitutoyo roughness tester's Excel file."""
 
@@ -251,10 +256,10 @@ def read_profiles(
     return [upwards(source.profile(file, direction, int(line)), z_axis) for line in lines]
 
 
-Heights = TypeVar("Heights", Profile, HeightMap)
+_AnySurface = TypeVar("_AnySurface", Profile, HeightMap)
 
 
-def upwards(surface: Heights, z_axis: str | None) -> Heights:
+def upwards(surface: _AnySurface, z_axis: str | None) -> _AnySurface:
     """Return a surface as read, turned over if its heights count "down"; None is not stated."""
     if z_axis is None:
         return surface
@@ -321,7 +326,6 @@ def _steps(
 
 
 def _is_text(path: Path, reader: str, suffixes: Collection[str]) -> bool:
-    """Return whether gripscale reads the file itself."""
     return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
 
 
@@ -358,7 +362,7 @@ def read_map(
     """
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    if _is_text(file, reader, MAP_TEXT_SUFFIXES):
+    if _is_text(file, reader, _MAP_TEXT_SUFFIXES):
         text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
         return upwards(text_map, z_axis)
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)

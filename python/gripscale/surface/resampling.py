@@ -30,7 +30,7 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import TextTable
 from gripscale.surface.profile import (
     FEWEST_POINTS,
-    MOST_POINTS,
+    MOST_PROFILE_POINTS,
     RESOLVED_STEPS,
     TURNED_ROUND,
     EvenGrid,
@@ -39,7 +39,7 @@ from gripscale.surface.profile import (
     uneven_step,
 )
 
-LONGEST_BRIDGE = 2.0
+_LONGEST_BRIDGE = 2.0
 """Longest distance of neighbours that is bridged by default, in usual distances or new steps."""
 
 
@@ -91,13 +91,13 @@ def resample(
         )
     even = checks.positive("step", step, unit="m")
     points = int(np.floor((old[-1] - old[0]) / even * (1.0 + 1e-12))) + 1
-    if not FEWEST_POINTS <= points <= MOST_POINTS:
+    if not FEWEST_POINTS <= points <= MOST_PROFILE_POINTS:
         raise InputError(
-            f"step must give {FEWEST_POINTS} to {MOST_POINTS} points over "
+            f"step must give {FEWEST_POINTS} to {MOST_PROFILE_POINTS} points over "
             f"{old[-1] - old[0]:g} m; {even:g} m gives {points}"
         )
     usual = float(np.median(distances))
-    longest = LONGEST_BRIDGE * max(usual, even)
+    longest = _LONGEST_BRIDGE * max(usual, even)
     if bridge is not None:
         longest = checks.positive("bridge", bridge, unit="m")
     new = old[0] + even * np.arange(points)
@@ -120,7 +120,7 @@ def resample(
     )
 
 
-MOST_LEFT_OUT = 0.5
+_MOST_LEFT_OUT = 0.5
 """Largest share of the points of a grid that a file may leave out."""
 
 
@@ -133,21 +133,20 @@ def printed_grid(
     Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
-    if grid is None:
-        refusal = _uneven(table, column, distances, lines)
-    elif grid.left_out > MOST_LEFT_OUT * grid.size:
+    if grid is not None and grid.left_out <= _MOST_LEFT_OUT * grid.size:
+        return grid
+    if grid is not None:
         refusal = FileError(
             f"{table.path}: expected a distance in column {column + 1} at half the points of an "
             f"even grid or more; got {grid.number.size} of {grid.size} in steps of {grid.step:.6g}"
         )
     else:
-        return grid
+        refusal = _uneven(table, column, distances, lines)
     refusal.see = "" if lines is None else "docs/inputs.md#a-measured-profile"
     raise refusal
 
 
 def _uneven(table: TextTable, column: int, distances: Array, lines: list[int] | None) -> FileError:
-    """Return the refusal of distances in steps that are not equal."""
     at = uneven_step(distances)
     first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
     where = f"{table.path}"
@@ -173,7 +172,7 @@ def without_line(rows: Array) -> Array:
     return np.asarray(rows - rows.mean(axis=-1, keepdims=True) - slope[..., None] * x)
 
 
-def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -> Array:
+def fill_gaps(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -> Array:
     """Return heights [m], shape (points,) or (nx, ny), with all gaps (NaN) filled.
 
     Of the `steps` of a map along x and y only the ratio counts. The first point follows the last if
@@ -226,17 +225,17 @@ def filled(z: Array, steps: tuple[float, ...] = (), *, periodic: bool = False) -
     return result
 
 
-def filled_smoothly(z: Array) -> Array:
+def fill_gaps_smoothly(z: Array) -> Array:
     """Return heights [m], shape (points,), with gaps (NaN) filled by cubics without a kink.
 
     The cubics are monotone (F. N. Fritsch & R. E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238,
-    doi:10.1137/0717021), so that a gap makes no asperity here either; `filled` draws a straight
+    doi:10.1137/0717021), so that a gap makes no asperity here either; `fill_gaps` draws a straight
     line. At the ends the nearest height holds.
     """
     from scipy.interpolate import PchipInterpolator
 
     valid = np.flatnonzero(np.isfinite(z))
     if valid.size < 2 or valid.size == z.size:
-        return filled(z)
+        return fill_gaps(z)
     at = np.clip(np.arange(z.size), valid[0], valid[-1])
     return np.where(np.isnan(z), PchipInterpolator(valid, z[valid])(at), z)

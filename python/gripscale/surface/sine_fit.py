@@ -36,247 +36,59 @@ the same factors, count in the fit and are left out of the stack. Lags below cut
 decide, do not count. Where s_wavelength is given, whole waves end at cut_off or above it: the stack
 holds its own cut-off. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
 
-**The search.** The unknowns are natural logarithms of the first wavelength and amplitude and of the
-two magnification factors; each may be fixed, and the factors may be tied to each other or to a
-smallest wavelength. Least squares start from a fixed grid, so that equal input gives equal output.
+**Other stacks.** C_z is smooth and known within its band only. Stacks with other numbers of waves
+and other factors follow it as well. The curve determines their common properties; where they
+differ, the stack is a choice. With r the rms difference from the curve in decades, b the rms half
+width of its band over the same lags, and r_0 the least r of all stacks tried, a stack is as good if
+
+    r^2 <= r_0^2 + b^2.
+
+The search tries 2 to 12 waves from first wavelengths half to twice the fitted one down to the same
+last wave or cut-off, and fits all other unknowns.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import pairwise, product
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.surface.height_difference import (
-    HeightDifference,
-    find_plateau,
-    log_weights,
-    require_positive,
+from gripscale.surface.height_difference import HeightDifference, log_weights
+from gripscale.surface.sines import (
+    FACTOR_RANGE,
+    FIRST_WAVELENGTH,
+    S_WAVELENGTH,
+    ClosestWaves,
+    SineStack,
+    TargetCurve,
+    WaveTrial,
+    search,
 )
-from gripscale.surface.sines import SineStack
 
-FIRST_WAVELENGTH, FIRST_AMPLITUDE, S_WAVELENGTH, S_AMPLITUDE = range(4)
-
-FACTOR_RANGE = (1.5, 30.0)
-"""Smallest and largest magnification of wavelength tried."""
-
-AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
-"""Smallest and largest magnification of amplitude tried."""
-
-
-@dataclass(frozen=True, eq=False)
-class Target:
-    """The curve to match: lags [m], C_z [m^2], and its plateau [m^2]."""
-
-    lag: Array
-    value: Array
-    plateau: float
-
-    @classmethod
-    def of(
-        cls, hdc: HeightDifference, smallest: float, largest: float | None, unknowns: int
-    ) -> Target:
-        """Return the part of a curve from the smallest to the largest lag [m] that counts."""
-        require_positive(hdc)
-        plateau = find_plateau(hdc)
-        if largest is None:
-            largest = float(hdc.lag[-1]) if plateau is None else PLATEAU_COUNTED * plateau.lag
-        low = checks.positive("smallest_lag", smallest, unit="m") * (1.0 - 1e-9)
-        high = checks.positive("largest_lag", largest, unit="m") * (1.0 + 1e-9)
-        used = (hdc.lag >= low) & (hdc.lag <= high)
-        if used.sum() < max(unknowns, 1):
-            raise InputError(
-                "the height difference correlation must have at least "
-                f"{max(unknowns, 1)} lags to fit {unknowns} unknowns; got "
-                f"{used.sum()} from {low:g} m to {high:g} m"
-            )
-        highest = float(hdc.value[used].max())
-        level = highest if plateau is None else min(plateau.level, highest)
-        return cls(hdc.lag[used], hdc.value[used], level)
-
-    @cached_property
-    def weight(self) -> Array:
-        """Roots of the weights of the squared residuals, decades of lag counting alike."""
-        weight = log_weights(self.lag)
-        return np.asarray(np.sqrt(weight / weight.sum()))
-
-    @property
-    def reach(self) -> float:
-        """First lag [m] at which the curve is at half its plateau."""
-        return float(self.lag[np.argmax(self.value >= 0.5 * self.plateau)])
-
-
-@dataclass(frozen=True, eq=False)
-class Trial:
-    """The fixed ones of the four logarithms (NaN where free), and the ties of the others."""
-
-    fixed: Array
-    waves: int
-    single_factor: bool = False
-    last: float | None = None  # log of a wavelength at the end, which determines s_wavelength
-    beyond: float = 0.0  # how many factors s_wavelength it lies below the last wave
-    shorter: int = 0  # waves below the last one that the curve holds and the stack leaves out
-    first_range: tuple[float, float] | None = None  # limits of the first wavelength's log
-
-    @property
-    def steps(self) -> float:
-        """Factors s_wavelength from the first wave to `last`."""
-        return self.waves - 1 + self.beyond
-
-    @property
-    def free(self) -> list[int]:
-        """Indices of the logarithms to search for."""
-        tied = {S_WAVELENGTH, S_AMPLITUDE} if self.waves == 1 else set()
-        tied |= {S_AMPLITUDE} if self.single_factor else set()
-        tied |= {S_WAVELENGTH} if self.last is not None else set()
-        return [i for i in range(4) if np.isnan(self.fixed[i]) and i not in tied]
-
-    def fill(self, unknowns: Array) -> Array:
-        """Return all four logarithms from the free ones."""
-        p = self.fixed.copy()
-        p[self.free] = unknowns
-        if self.waves == 1:
-            p[2:] = np.where(np.isnan(p[2:]), 0.0, p[2:])
-        elif self.last is not None:
-            p[S_WAVELENGTH] = (p[FIRST_WAVELENGTH] - self.last) / self.steps
-        if self.single_factor:
-            p[S_AMPLITUDE] = p[S_WAVELENGTH]
-        return p
-
-    def bounds(self, target: Target) -> tuple[Array, Array]:
-        """Return limits of the free logarithms."""
-        limits = np.log(
-            [
-                (2.0 * target.lag[0], 400.0 * target.lag[-1]),
-                (1e-3 * np.sqrt(target.value.min()), 1e3 * np.sqrt(target.value.max())),
-                FACTOR_RANGE,
-                AMPLITUDE_FACTOR_RANGE,
-            ]
-        )
-        if self.first_range is not None:
-            limits[FIRST_WAVELENGTH] = self.first_range
-        if self.last is not None:
-            spans = self.last + self.steps * np.log(FACTOR_RANGE)
-            low, high = limits[FIRST_WAVELENGTH]
-            limits[FIRST_WAVELENGTH] = max(low, spans[0]), min(high, spans[1])
-        return limits[self.free, 0], limits[self.free, 1]
-
-    def starts(self, target: Target) -> list[Array]:
-        """Return a grid of starts: first wavelengths, last wavelengths, and Hurst exponents."""
-        starts = []
-        for first, last, hurst in product((2.5, 4.0, 6.5, 10.0, 16.0), (1.0, 3.0, 9.0), (0.6, 0.9)):
-            p = self.fixed.copy()
-            if np.isnan(p[FIRST_WAVELENGTH]):
-                p[FIRST_WAVELENGTH] = np.log(first * target.reach)
-            if np.isnan(p[S_WAVELENGTH]):
-                decades = p[FIRST_WAVELENGTH] - np.log(last * target.lag[0])
-                p[S_WAVELENGTH] = np.clip(decades / max(self.waves - 1, 1), *np.log(FACTOR_RANGE))
-            if np.isnan(p[S_AMPLITUDE]):
-                p[S_AMPLITUDE] = hurst * p[S_WAVELENGTH]
-            if np.isnan(p[FIRST_AMPLITUDE]):
-                # The plateau is sum A_i^2, nearly the whole geometric series A_1^2/(1 - 1/s_A^2).
-                share = 1.0 - np.exp(-2.0 * max(p[S_AMPLITUDE], 0.02))
-                p[FIRST_AMPLITUDE] = 0.5 * np.log(target.plateau * share)
-            starts.append(p[self.free])
-        return starts
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """The closest waves: their four logarithms, number, and rms residual in decades."""
-
-    logs: Array
-    waves: int
-    residual: float
-
-    @property
-    def last(self) -> float:
-        """Logarithm of the smallest wavelength."""
-        return float(self.logs[FIRST_WAVELENGTH] - (self.waves - 1) * self.logs[S_WAVELENGTH])
-
-    def stack(self, lag_range: tuple[float, float], beyond: float) -> SineStack:
-        """Return the waves; the roughness ends `beyond` factors below the last of them."""
-        order = np.arange(self.waves)
-        first_wavelength, first_amplitude, s_wavelength, s_amplitude = self.logs
-        end = first_wavelength - (order[-1] + beyond) * s_wavelength
-        return SineStack(
-            wavelength=np.exp(first_wavelength - order * s_wavelength),
-            amplitude=np.exp(first_amplitude - order * s_amplitude),
-            s_wavelength=float(np.exp(s_wavelength)) if self.waves > 1 else None,
-            s_amplitude=float(np.exp(s_amplitude)) if self.waves > 1 else None,
-            residual=self.residual,
-            lag_range=lag_range,
-            cut_off=float(np.exp(end)) if beyond else None,
-        )
-
-
-def fitted_curve(logs: Array, waves: int, lag: Array) -> Array:
-    """Return C_z [m^2] at lags [m], the first wave by its mean beyond a quarter wavelength."""
-    order = np.arange(waves)
-    limits = np.log(checks.LEAST), np.log(checks.MOST)  # beyond them squares are not finite
-    wavelength = np.exp(np.clip(logs[FIRST_WAVELENGTH] - order * logs[S_WAVELENGTH], *limits))
-    amplitude = np.exp(np.clip(logs[FIRST_AMPLITUDE] - order * logs[S_AMPLITUDE], *limits))
-    turns = lag[:, None] / wavelength
-    turns[:, 0] = np.minimum(turns[:, 0], 0.25)
-    return np.asarray(2.0 * np.sin(np.pi * turns) ** 2 @ amplitude**2)
-
-
-def search(target: Target, trial: Trial, refined: int = 10) -> Solution | None:
-    """Return the closest waves, refining the best `refined` starts; None if limits exclude all."""
-    from scipy.optimize import least_squares
-
-    target_logs = np.log10(target.value)
-
-    def residuals(unknowns: Array) -> Array:
-        curve = fitted_curve(trial.fill(unknowns), trial.waves + trial.shorter, target.lag)
-        return np.asarray(target.weight * (np.log10(np.maximum(curve, 1e-300)) - target_logs))
-
-    def distance(unknowns: Array) -> float:
-        return float(np.linalg.norm(residuals(unknowns)))
-
-    if not trial.free:
-        return Solution(trial.fill(np.zeros(0)), trial.waves, distance(np.zeros(0)))
-    low, high = trial.bounds(target)
-    if (low >= high).any():
-        return None
-    grid = trial.starts(target)
-    if S_AMPLITUDE in trial.free and np.isnan(trial.fixed[S_WAVELENGTH]):
-        # two factors must not do worse than one factor for both lengths
-        tied = search(target, replace(trial, single_factor=True), refined)
-        grid += [] if tied is None else [tied.logs[trial.free]]
-    starts = sorted((np.clip(q, low, high) for q in grid), key=distance)[:refined]
-    fits = [
-        least_squares(residuals, q, bounds=(low, high), xtol=1e-11, ftol=1e-11, gtol=1e-11)
-        for q in dict.fromkeys(tuple(q) for q in starts)  # fixed values make starts equal
-    ]
-    closest = min(fits, key=lambda fit: float(fit.cost))
-    return Solution(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))
-
-
-MOST_WAVES = 24
+MOST_SINE_WAVES = 24
 """Waves beyond which a stack is refused."""
 
-NUMBERS = range(2, MOST_WAVES + 1)
+_NUMBERS = range(2, MOST_SINE_WAVES + 1)
 """Numbers of waves tried where none is stated."""
 
-PLATEAU_COUNTED = 4.0
-"""Largest lag that counts by default, in lags at which the plateau begins."""
 
-CONSISTENT = 1.05
+_CONSISTENT = 1.05
 """C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little."""
 
-CUT_OFF_COUNTED = 0.25
+_CUT_OFF_COUNTED = 0.25
 """Smallest lag that counts by default, in wavelengths of the cut-off."""
 
-SHORTER_WAVES = 3
+_SHORTER_WAVES = 3
 """Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count."""
 
-AS_GOOD = 1.1
+_AS_GOOD = 1.1
 """Ratio of a residual to the least one up to which fewer waves are preferred."""
 
 
@@ -353,11 +165,11 @@ def fit_sines(
             f"against {np.exp(fixed[FIRST_WAVELENGTH]):g} m"
         )
     if smallest_lag is None:
-        smallest_lag = max(first_consistent_lag(hdc), CUT_OFF_COUNTED * (cut_off or 0.0))
-    target = Target.of(hdc, smallest_lag, largest_lag, int(np.isnan(fixed).sum()))
+        smallest_lag = max(first_consistent_lag(hdc), _CUT_OFF_COUNTED * (cut_off or 0.0))
+    target = TargetCurve.of(hdc, smallest_lag, largest_lag, int(np.isnan(fixed).sum()))
     if end is None:
-        waves = checks.whole("scales", scales, least=1, most=MOST_WAVES)
-        trial = Trial(fixed, waves, single_factor)
+        waves = checks.whole("scales", scales, least=1, most=MOST_SINE_WAVES)
+        trial = WaveTrial(fixed, waves, single_factor)
         solution = search(target, trial)
         limit = -np.inf if hdc.resolution_limit is None else float(np.log(hdc.resolution_limit))
         free = waves > 1 and np.isnan(fixed[S_WAVELENGTH])
@@ -369,15 +181,15 @@ def fit_sines(
             raise InputError(f"give two of scales, {end.name} and s_wavelength; got three")
         solution = _search_with_factor(target, fixed, single_factor, end)
     elif scales is not None:
-        waves = checks.whole("scales", scales, least=2, most=MOST_WAVES)
+        waves = checks.whole("scales", scales, least=2, most=MOST_SINE_WAVES)
         solution = search(target, end.trial(fixed, waves, single_factor))
     else:
         first, trials = float(fixed[FIRST_WAVELENGTH]), []
-        for waves in NUMBERS:
+        for waves in _NUMBERS:
             low, high = (end.spans(float(np.log(f)))[waves - 1][0] for f in FACTOR_RANGE)
             if np.isnan(first) or low <= first <= high:
                 trials.append(end.trial(fixed, waves, single_factor))
-        solution = _closest(target, trials, AS_GOOD)
+        solution = _closest(target, trials, _AS_GOOD)
     if solution is None:
         raise InputError(
             "no sine waves fit the given number, factors and wavelengths: s_wavelength must lie "
@@ -392,7 +204,7 @@ def as_fitted(sines: SineStack) -> SineStack:
     """Return the waves that count in a fit to C_z: with a cut-off these include shorter ones."""
     if sines.cut_off is None or sines.s_wavelength is None or sines.s_amplitude is None:
         return sines
-    order = np.arange(1, SHORTER_WAVES + 1)
+    order = np.arange(1, _SHORTER_WAVES + 1)
     return replace(
         sines,
         wavelength=np.append(sines.wavelength, sines.wavelength[-1] / sines.s_wavelength**order),
@@ -416,21 +228,21 @@ class _End:
     @property
     def shorter(self) -> int:
         """Waves that the measured curve holds beyond the end."""
-        return SHORTER_WAVES if self.beyond > 0.0 else 0
+        return _SHORTER_WAVES if self.beyond > 0.0 else 0
 
-    def trial(self, fixed: Array, waves: int, single_factor: bool) -> Trial:
+    def trial(self, fixed: Array, waves: int, single_factor: bool) -> WaveTrial:
         """Return the search for `waves` waves down to the end."""
-        return Trial(fixed, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
+        return WaveTrial(fixed, waves, single_factor, self.log, self.beyond, shorter=self.shorter)
 
     def spans(self, factor: float) -> list[tuple[float, float]]:
         """Return logs of the first wavelength at which 1, 2, ... waves reach the end."""
-        number = np.arange(1, MOST_WAVES + 2)
+        number = np.arange(1, MOST_SINE_WAVES + 2)
         logs = self.log + (number - 1 + self.beyond) * factor
         return list(pairwise(logs))
 
 
 def _fixed_logs(values: dict[str, float | None], single_factor: bool) -> Array:
-    """Return logs of the stated ones of the four unknowns, NaN for the others."""
+    """Return logarithms of the stated unknowns, NaN for the others."""
     logs = np.full(4, np.nan)
     for at, (name, value) in enumerate(values.items()):
         if value is None:
@@ -457,33 +269,33 @@ def first_consistent_lag(hdc: HeightDifference) -> float:
     for lag, value in zip(hdc.lag, hdc.value, strict=True):
         ratio = hdc.lag / lag
         multiple = (ratio > 1.5) & (np.abs(ratio - np.rint(ratio)) < 1e-6 * ratio)
-        if (hdc.value[multiple] <= CONSISTENT * ratio[multiple] ** 2 * value).all():
+        if (hdc.value[multiple] <= _CONSISTENT * ratio[multiple] ** 2 * value).all():
             return float(lag)
     return float(hdc.lag[0])  # not reached: the last lag has no multiples
 
 
 def _search_with_factor(
-    target: Target, fixed: Array, single_factor: bool, end: _End
-) -> Solution | None:
+    target: TargetCurve, fixed: Array, single_factor: bool, end: _End
+) -> ClosestWaves | None:
     """Search with s_wavelength fixed: as many waves as fit above the end."""
     factor, first = float(fixed[S_WAVELENGTH]), float(fixed[FIRST_WAVELENGTH])
     if not np.isnan(first):
         waves = 1 + int((first - end.log) / factor - end.beyond + 1e-9)
-        if waves > MOST_WAVES:
+        if waves > MOST_SINE_WAVES:
             raise InputError(
-                f"{end.name} must need at most {MOST_WAVES} waves; "
+                f"{end.name} must need at most {MOST_SINE_WAVES} waves; "
                 f"{np.exp(end.log):g} m needs {waves}"
             )
-        return search(target, Trial(fixed, waves, single_factor, shorter=end.shorter))
+        return search(target, WaveTrial(fixed, waves, single_factor, shorter=end.shorter))
     trials = [
-        Trial(fixed, n, single_factor, first_range=span, shorter=end.shorter)
+        WaveTrial(fixed, n, single_factor, first_range=span, shorter=end.shorter)
         for n, span in enumerate(end.spans(factor), start=1)
     ]
     return _closest(target, trials, 1.0)
 
 
-def _closest(target: Target, trials: list[Trial], as_good: float) -> Solution | None:
-    """Return the closest of all trials; of those as good, that with the fewest waves."""
+def _closest(target: TargetCurve, trials: list[WaveTrial], as_good: float) -> ClosestWaves | None:
+    """Return the trial with the fewest waves among those as good as the best."""
     solved = [(search(target, trial, refined=2), trial) for trial in trials]
     residuals = [(s.residual, trial) for s, trial in solved if s is not None]
     if not residuals:
@@ -491,3 +303,104 @@ def _closest(target: Target, trials: list[Trial], as_good: float) -> Solution | 
     limit = as_good * min(residual for residual, _ in residuals)
     good = [trial for residual, trial in residuals if residual <= limit]
     return search(target, min(good, key=lambda trial: trial.waves))
+
+
+_AMBIGUITY_WAVES = range(2, 13)
+"""Numbers of waves tried for the range of stacks."""
+_FIRST_WAVELENGTHS = np.geomspace(0.5, 2.0, 9)
+"""First wavelengths tried, over the fitted one."""
+
+
+class Span(NamedTuple):
+    """Smallest and largest of a quantity."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False)
+class SineAmbiguity:
+    """The stacks that follow C_z within its uncertainty."""
+
+    tried: int
+    """Stacks tried."""
+    band: float
+    """Rms half width of the band of 95 % nominal confidence of C_z [decades]; 0 if not known."""
+    stacks: tuple[SineStack, ...] = field(repr=False)
+    """The stacks that are as good as the best."""
+
+    @property
+    def waves(self) -> Span:
+        """Fewest and most waves."""
+        return self._span(len)
+
+    @property
+    def s_wavelength(self) -> Span:
+        """Smallest and largest magnification factor of wavelength."""
+        return self._span(lambda stack: stack.wavelength[0] / stack.wavelength[1])
+
+    @property
+    def first_wavelength(self) -> Span:
+        """Smallest and largest first wavelength [m]."""
+        return self._span(lambda stack: stack.wavelength[0])
+
+    @property
+    def first_amplitude(self) -> Span:
+        """Smallest and largest amplitude of the first wave [m]."""
+        return self._span(lambda stack: stack.amplitude[0])
+
+    @property
+    def rms_slope(self) -> Span:
+        """Smallest and largest rms slope of all waves together [-], on which friction depends."""
+        return self._span(lambda stack: stack.rms_slope)
+
+    def _span(self, quantity: Callable[[SineStack], float]) -> Span:
+        values = [float(quantity(stack)) for stack in self.stacks]
+        return Span(min(values), max(values))
+
+
+def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
+    """Return the other stacks that follow `hdc` within its uncertainty.
+
+    Raises `InputError` if `sines` has one wave, or was not fitted: it then has no range of lags.
+
+    Parameters
+    ----------
+    hdc : HeightDifference
+        The measured curve, with its band.
+    sines : SineStack
+        The waves fitted to it, which fix the range of lags, the first wavelength, and the cut-off
+        or the last wavelength.
+    """
+    if sines.lag_range is None or len(sines) < 2:
+        raise InputError(
+            "sines must be two waves or more, fitted to hdc; got "
+            f"{len(sines)}, {'not fitted' if sines.lag_range is None else 'fitted'}"
+        )
+    smallest_lag, largest_lag = sines.lag_range
+    end = sines.cutoff_wavelength
+    residuals, stacks = [], []
+    for waves in _AMBIGUITY_WAVES:
+        steps = waves - 1 if sines.cut_off is None else waves - 0.5
+        for first in _FIRST_WAVELENGTHS * float(sines.wavelength[0]):
+            if not FACTOR_RANGE[0] <= (first / end) ** (1.0 / steps) <= FACTOR_RANGE[1]:
+                continue
+            stack = fit_sines(
+                hdc,
+                scales=waves,
+                first_wavelength=float(first),
+                smallest_wavelength=end if sines.cut_off is None else None,
+                cut_off=sines.cut_off,
+                smallest_lag=smallest_lag,
+                largest_lag=largest_lag,
+            )
+            residuals.append(math.inf if stack.residual is None else stack.residual)
+            stacks.append(stack)
+    band = 0.0
+    used = (hdc.lag >= smallest_lag) & (hdc.lag <= largest_lag) & np.isfinite(hdc.upper)
+    if used.any():
+        half = np.log10(hdc.upper[used] / hdc.value[used])
+        band = float(np.sqrt(np.average(half**2, weights=log_weights(hdc.lag[used]))))
+    limit = math.hypot(min(residuals), band)
+    good = (stack for stack, r in zip(stacks, residuals, strict=True) if r <= limit)
+    return SineAmbiguity(len(stacks), band, tuple(good))

@@ -45,9 +45,9 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.profile import FEWEST_POINTS, Profile, of_one_step
-from gripscale.surface.resampling import filled, without_line
+from gripscale.surface.resampling import fill_gaps, without_line
 
-PER_DECADE = 10
+_PER_DECADE = 10
 """Wavenumbers a decade where a spectrum is averaged."""
 
 _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
@@ -95,7 +95,7 @@ class ProfileSpectrum(Checked, eq=False):
         counted = np.where(self.wavenumber <= last, self.wavenumber**2 * self.width, 0.0)
         return float(np.sqrt(self.density @ counted))
 
-    def averaged(self, per_decade: int = PER_DECADE) -> ProfileSpectrum:
+    def averaged(self, per_decade: int = _PER_DECADE) -> ProfileSpectrum:
         """Return the spectrum at fewer points, evenly spaced in log q where there are enough.
 
         The variance is kept exactly.
@@ -182,10 +182,10 @@ def first_of_bins(values: NDArray[Any], per_decade: int) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff(bins, prepend=-1.0))
 
 
-TAPERS = ("hann", "none")
+_TAPERS = ("hann", "none")
 """Weights of a window: with "hann" its straight line is subtracted before, else its mean."""
 
-WINDOWS = 4
+_WINDOWS = 4
 """Windows a tapered line is cut into by default; as many fit again between them."""
 
 
@@ -215,9 +215,9 @@ def profile_spectrum(
     """
     profiles = of_one_step(profile, "averaged")
     step = profiles[0].step
-    checks.one_of("taper", taper, TAPERS)
+    checks.one_of("taper", taper, _TAPERS)
     shortest = min(len(p) for p in profiles)
-    parts = WINDOWS if taper == "hann" else 1
+    parts = _WINDOWS if taper == "hann" else 1
     points = max(shortest // parts, FEWEST_POINTS)
     if window is not None:
         points = round(checks.positive("window", window, unit="m") / step)
@@ -226,28 +226,31 @@ def profile_spectrum(
                 f"window must be from {FEWEST_POINTS * step:g} m to {shortest * step:g} m long; "
                 f"got {window:g}"
             )
-    heights = [filled(p.z, periodic=taper == "none") for p in profiles]
-    powers = [_windowed_power(z, points, taper) for z in heights]
+    heights = [fill_gaps(p.z, periodic=taper == "none") for p in profiles]
+    weights = np.hanning(points + 1)[:-1] if taper == "hann" else np.ones(points)
+    powers = []
+    for z in heights:
+        windows = sliding_window_view(z, points)[:: points - points // 2]
+        if taper == "hann":
+            windows = without_line(windows)
+        else:
+            windows = windows - windows.mean(axis=1, keepdims=True)
+        power = np.mean(np.abs(np.fft.rfft(weights * windows)) ** 2, axis=0) / (weights @ weights)
+        power[1 : (points + 1) // 2] *= 2.0  # the highest wave of an even number has no mirror
+        powers.append(power)
     density = step / (2.0 * np.pi) * np.average(powers, axis=0, weights=[len(p) for p in profiles])
     q = 2.0 * np.pi / (points * step) * np.arange(1.0, points // 2 + 1)
     missing = sum(p.missing for p in profiles) / sum(len(p) for p in profiles)
     return ProfileSpectrum(q, density[1:], np.full(q.size, q[0]), missing)
 
 
-def _windowed_power(z: Array, points: int, taper: str) -> Array:
-    """Return the one-sided |F{w z}|^2 / sum(w^2), mean over windows that overlap by a half."""
-    windows = sliding_window_view(z, points)[:: points - points // 2]
-    if taper == "hann":
-        windows, weights = without_line(windows), np.hanning(points + 1)[:-1]
-    else:
-        windows, weights = windows - windows.mean(axis=1, keepdims=True), np.ones(points)
-    power = np.mean(np.abs(np.fft.rfft(weights * windows)) ** 2, axis=0) / (weights @ weights)
-    power[1 : (points + 1) // 2] *= 2.0  # the highest wave of an even number has no mirror image
-    return np.asarray(power)
-
-
 def map_spectrum(
-    z: ArrayLike, *, x_step: float, y_step: float, taper: str = "hann", per_decade: int = PER_DECADE
+    z: ArrayLike,
+    *,
+    x_step: float,
+    y_step: float,
+    taper: str = "hann",
+    per_decade: int = _PER_DECADE,
 ) -> ArealSpectrum:
     """Return the power spectrum of a height map, mean over directions.
 
@@ -278,8 +281,8 @@ def map_spectrum(
     if np.isnan(heights).all():
         raise InputError(f"z must have some heights; got {heights.size} points, all missing")
     each = checks.whole("per_decade", per_decade, least=1, most=1000)
-    checks.one_of("taper", taper, TAPERS)
-    whole = filled(heights, steps, periodic=taper == "none")
+    checks.one_of("taper", taper, _TAPERS)
+    whole = fill_gaps(heights, steps, periodic=taper == "none")
     whole = whole - whole.mean()
     windows = [np.ones(n) for n in whole.shape]
     if taper == "hann":
@@ -319,7 +322,7 @@ _SLOWEST_FALL = 1.0
 
 
 def areal_spectrum(
-    spectrum: ProfileSpectrum, *, hurst: float | None = None, per_decade: int = PER_DECADE
+    spectrum: ProfileSpectrum, *, hurst: float | None = None, per_decade: int = _PER_DECADE
 ) -> ArealSpectrum:
     """Return the spectrum of the isotropic surface whose lines have a measured one.
 

@@ -2,18 +2,17 @@
 
 A stretch is suspect where its heights stand off the others,
 
-    |z - line| > OFF s,    s = 1.4826 median |z - line|,
+    |z - line| > 6 s,    s = 1.4826 median |z - line|,
 
 about a line through the medians of pieces (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
 doi:10.1080/01621459.1968.10480934), which a plate does not pull, and its sides are steps, not
-slopes; or where it is smooth: the rms departure from its own line is below SMOOTH of that of the
+slopes; or where it is smooth: the rms departure from its own line is below 0.02 of that of the
 usual piece. Heights missing at its ends belong to it, as steel shines. What happens often belongs
 to the surface, as grooves and joints do.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,28 +22,28 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.core.units import in_mm
 from gripscale.surface.profile import Profile
 
-OFF = 6.0
+_OFF_THE_LINE = 6.0
 """Distance from the line, in robust standard deviations, that no road reaches."""
 
-SMOOTH = 0.02
+_SMOOTH_SHARE = 0.02
 """Roughness of two pieces in a row, over the usual one, below which they are a plate."""
 
-STEP = 0.5
+_SIDE_STEP = 0.5
 """Change of height at the side of a stretch, over its height, that is a step."""
 
-PIECES = 50
+_PIECES = 50
 """Pieces of a profile whose level and roughness are compared."""
 
-FEWEST = 16
+_FEWEST_HEIGHTS = 16
 """Heights that tell the roughness of a piece, and that a stretch off the line must have."""
 
-SHORTEST = 1 / 400
+_SHORTEST_SHARE = 1 / 400
 """Length of a plate, as a share of the profile: shorter are joints and cracks."""
 
-MOST = 6
+_MOST_STRETCHES = 6
 """Stretches beyond which they belong to the surface."""
 
-GUARD = 1 / 40
+_GUARD_SHARE = 1 / 40
 """Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it."""
 
 
@@ -73,18 +72,28 @@ def support_plates(profile: Profile) -> tuple[Support, ...]:
     """
     checks.instance("profile", profile, Profile)
     valid = np.flatnonzero(np.isfinite(profile.z))
-    if valid.size < PIECES * FEWEST:
+    if valid.size < _PIECES * _FEWEST_HEIGHTS:
         return ()
     x, z = profile.x[valid], profile.z[valid]
-    pieces = np.array_split(np.arange(valid.size), PIECES)
+    pieces = np.array_split(np.arange(valid.size), _PIECES)
     middles, levels = (np.array([np.median(part[at]) for at in pieces]) for part in (x, z))
-    i, j = np.triu_indices(PIECES, 1)
+    i, j = np.triu_indices(_PIECES, 1)
     slope = np.median((levels[j] - levels[i]) / (middles[j] - middles[i]))
     height = z - slope * x - np.median(levels - slope * middles)
     typical = 1.4826 * float(np.median(np.abs(height)))
-    off = _stepped(_runs_of(np.abs(height) > OFF * typical, FEWEST), height)
-    supports = tuple(_stretches(profile, valid, off | _smooth(x, z, pieces), height))
-    return supports if len(supports) <= MOST else ()
+    off = _stepped(_runs_of(np.abs(height) > _OFF_THE_LINE * typical, _FEWEST_HEIGHTS), height)
+    rough = np.array([_roughness(x[at], z[at]) for at in pieces])
+    smooth = _runs_of(rough < _SMOOTH_SHARE * np.median(rough), 2)
+    suspect = off | np.repeat(smooth, [at.size for at in pieces])
+    supports = []
+    for first, last in _edges(suspect):
+        # missing heights on the sides of a stretch belong to it
+        before = valid[first - 1] + 1 if first else 0
+        after = valid[last] - 1 if last < valid.size else len(profile) - 1
+        start, stop = float(profile.x[before]), float(profile.x[after])
+        if stop - start >= _SHORTEST_SHARE * profile.length:
+            supports.append(Support(start, stop, float(np.median(height[first:last]))))
+    return tuple(supports) if len(supports) <= _MOST_STRETCHES else ()
 
 
 def road_between(profile: Profile) -> tuple[float, float] | None:
@@ -96,7 +105,7 @@ def road_between(profile: Profile) -> tuple[float, float] | None:
     supports = support_plates(profile)
     if not supports:
         return None
-    guard = GUARD * profile.length
+    guard = _GUARD_SHARE * profile.length
     starts = [float(profile.x[0]), *(support.last + guard for support in supports)]
     stops = [*(support.first - guard for support in supports), float(profile.x[-1])]
     first, last = max(zip(starts, stops, strict=True), key=lambda part: part[1] - part[0])
@@ -122,23 +131,16 @@ def _runs_of(marked: Mask, least: int) -> Mask:
 
 def _stepped(marked: Mask, height: Array) -> Mask:
     """Return the marks of runs whose sides within the profile are steps."""
-    kept, way = np.zeros_like(marked), FEWEST // 2
+    kept, way = np.zeros_like(marked), _FEWEST_HEIGHTS // 2
     for first, last in _edges(marked):
         level = np.median(height[first:last])
         inner = (height[first : first + way], height[last - way : last])
         outer = (height[max(first - way, 0) : first], height[last : last + way])
         kept[first:last] = all(
-            not outside.size or (np.median(inside) - np.median(outside)) / level > STEP
+            not outside.size or (np.median(inside) - np.median(outside)) / level > _SIDE_STEP
             for inside, outside in zip(inner, outer, strict=True)
         )
     return kept
-
-
-def _smooth(x: Array, z: Array, pieces: list[np.ndarray]) -> Mask:
-    """Return which heights lie in pieces that are much smoother than the usual one."""
-    rough = np.array([_roughness(x[at], z[at]) for at in pieces])
-    smooth = _runs_of(rough < SMOOTH * np.median(rough), 2)
-    return np.repeat(smooth, [at.size for at in pieces])
 
 
 def _roughness(x: Array, z: Array) -> float:
@@ -146,15 +148,3 @@ def _roughness(x: Array, z: Array) -> float:
     centred = x - x.mean()
     slope = centred @ z / (centred @ centred)
     return float(np.std(z - slope * centred))
-
-
-def _stretches(
-    profile: Profile, valid: np.ndarray, suspect: Mask, height: Array
-) -> Iterator[Support]:
-    """Yield the suspect stretches, each with the missing heights on its sides."""
-    for first, last in _edges(suspect):
-        before = valid[first - 1] + 1 if first else 0
-        after = valid[last] - 1 if last < valid.size else len(profile) - 1
-        start, stop = float(profile.x[before]), float(profile.x[after])
-        if stop - start >= SHORTEST * profile.length:
-            yield Support(start, stop, float(np.median(height[first:last])))

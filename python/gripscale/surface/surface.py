@@ -12,13 +12,13 @@ import numpy as np
 from gripscale.core.errors import InputError
 from gripscale.surface.cleaning import CleaningReport
 from gripscale.surface.cut_off import (
-    CutOff,
     CutOffRule,
     SlopeByWavelength,
+    SurfaceCutOff,
     find_cut_off,
     slope_by_wavelength,
 )
-from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.plausibility import (
     doubt_warnings,
     extrapolation_notes,
@@ -26,7 +26,6 @@ from gripscale.surface.plausibility import (
     stack_notes,
 )
 from gripscale.surface.profile import HeightMap, Profile
-from gripscale.surface.self_affine import SelfAffineFit
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.texture import Heights, textures
@@ -37,9 +36,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Measured:
-    """Profiles as read and cleaned, what cleaning did, and the fit to their correlation.
+    """Profiles as read and cleaned, the cleaning reports, and the fit to their correlation.
 
-    Of a map the profiles are one line to be shown; its lines and itself are as cleaned.
+    For a map, `profiles` holds one line for figures; `map` and its lines are cleaned.
     """
 
     profiles: list[tuple[Profile, Profile]]
@@ -52,7 +51,7 @@ class Measured:
 
     @classmethod
     def of(cls, measured: Sequence[Profile] | HeightMap) -> Measured:
-        """Return profiles or a map as they stand: nothing cleaned, nothing fitted."""
+        """Return profiles or a map as they are, neither cleaned nor fitted."""
         if isinstance(measured, HeightMap):
             return cls([], [], None, "", measured)
         return cls([(line, line) for line in measured], [], None, "")
@@ -71,12 +70,12 @@ class Measured:
 
     @property
     def surfaces(self) -> list[Profile] | list[HeightMap]:
-        """What a contact can be solved on: the profiles as cleaned, or the map."""
+        """Surfaces for the contact solver: the cleaned profiles, or the map."""
         return self.cleaned if self.map is None else [self.map]
 
     @cached_property
     def slopes(self) -> SlopeByWavelength:
-        """Rms slope of what was measured, down to each wavelength."""
+        """Rms slope of the measurement down to each wavelength."""
         return slope_by_wavelength(self.heights)
 
     @cached_property
@@ -93,7 +92,7 @@ class Measured:
 
     @cached_property
     def notes(self) -> tuple[str, ...]:
-        """What reading changed and what is implausible, a sentence each."""
+        """Changes made by reading and implausible properties, a sentence each."""
         notes = []
         for raw, cleaned in self.profiles:
             warnings = profile_warnings(raw, cleaned, steep=self.map is None)
@@ -102,7 +101,7 @@ class Measured:
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
-        """Those of the notes that leave no answer to rely on: depths, sentinels, plates, units."""
+        """Notes that make the answer unreliable: depths, sentinels, plates, units."""
         return tuple(
             _about(raw, doubt)
             for raw, cleaned in self.profiles
@@ -113,12 +112,11 @@ class Measured:
         )
 
     def bare(self) -> Measured:
-        """Return what was measured, without how it was cleaned and what was fitted to it."""
+        """Return the measurement without its cleaning reports and fits."""
         return Measured.of(self.heights)
 
 
 def _about(profile: Profile, note: str) -> str:
-    """Return a note with the profile it is about."""
     return f"{profile.name}: {note}" if profile.name else note
 
 
@@ -133,22 +131,21 @@ class Surface:
     waves: SineStack | None
     """None for a measurement without them."""
     source: str
-    """Where the surface comes from."""
+    """Origin of the surface."""
     correlation: HeightDifference | None = None
-    """What they were fitted to, or None for waves stated by hand."""
+    """Curve to which the waves were fitted, or None for waves stated by hand."""
     fit: Mapping[str, Any] = field(default_factory=dict)
-    """Arguments of `fit_sines` they were fitted with."""
+    """Arguments of `fit_sines` for the waves."""
     measured: Measured | None = None
     """The measurement behind the correlation, or None for a synthetic surface."""
     counted: Mapping[str, Any] = field(default_factory=dict)
-    """Arguments of `height_difference` the correlation was found with: which heights and lags
-    count."""
+    """Arguments of `height_difference` for the correlation: heights and lags that count."""
     rule: CutOffRule | None = None
-    """By which the waves end where they do, or None for the last wave."""
+    """Rule for the end of the waves, or None for the last wave."""
     end: float | None = None
     """Shortest wavelength of the roughness [m]; None: where the waves end."""
     note: str = ""
-    """What was assumed when its file was read, as a sentence; empty if nothing was."""
+    """Assumption made while reading the file, as a sentence; empty if none was made."""
 
     @property
     def sines(self) -> SineStack:
@@ -163,8 +160,8 @@ class Surface:
         return self.sines.cutoff_wavelength if self.end is None else self.end
 
     @property
-    def cut_off(self) -> CutOff | None:
-        """Where the roughness ends and by which rule, or None if nothing was measured."""
+    def cut_off(self) -> SurfaceCutOff | None:
+        """End of the roughness and its rule, or None without a measurement."""
         if self.measured is None:
             return None
         end = self.cutoff_wavelength
@@ -181,7 +178,7 @@ class Surface:
         )
 
     def only(self, parts: Collection[SurfacePart]) -> Surface:
-        """Return these parts of the surface, without the way to them."""
+        """Return a surface with these parts only, without their origin."""
         waves = self.waves if "waves" in parts else None
         return Surface(
             waves and SineStack(waves.wavelength, waves.amplitude),
@@ -192,7 +189,7 @@ class Surface:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is to be known of the measurement and of where the waves end, a sentence each."""
+        """Notes on the measurement and on the end of the waves, a sentence each."""
         of_measurement = () if self.measured is None else self.measured.notes
         if self.correlation is None:
             return of_measurement
@@ -201,12 +198,12 @@ class Surface:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Those of the notes that leave no answer to rely on."""
+        """Notes that make the answer unreliable."""
         return () if self.measured is None else self.measured.doubts
 
     @property
     def extrapolated(self) -> tuple[str, ...]:
-        """Those of the notes on waves and roughness that the measurement does not carry."""
+        """Notes on waves and roughness beyond the resolution of the measurement."""
         if self.correlation is None:
             return ()
         return tuple(extrapolation_notes(self.sines, self.correlation))

@@ -11,7 +11,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import height_difference
-from gripscale.surface.profile import FEWEST_POINTS, MOST_POINTS, Profile
+from gripscale.surface.profile import FEWEST_POINTS, MOST_PROFILE_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.surface import Measured, Surface
@@ -51,9 +51,9 @@ def self_affine_profile(
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)
     # A period twice as long as needed, and ten cut-offs more, keeps the spectrum positive.
-    if x.size + 10.0 * cut_off / step > MOST_POINTS:
+    if x.size + 10.0 * cut_off / step > MOST_PROFILE_POINTS:
         raise InputError(
-            f"length + 10 xi_parallel must be at most {MOST_POINTS} steps; got xi_parallel "
+            f"length + 10 xi_parallel must be at most {MOST_PROFILE_POINTS} steps; got xi_parallel "
             f"{cut_off:g} m at steps of {x[1]:g} m"
         )
     half = 2 ** int(np.ceil(np.log2(x.size + 10.0 * cut_off / step)))
@@ -91,9 +91,9 @@ def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Pro
 def _points(length: float, step: float) -> Array:
     step = checks.positive("step", step, unit="m")
     points = round(checks.positive("length", length, unit="m") / step) + 1
-    if not FEWEST_POINTS <= points <= MOST_POINTS:
+    if not FEWEST_POINTS <= points <= MOST_PROFILE_POINTS:
         raise InputError(
-            f"length / step must give {FEWEST_POINTS} to {MOST_POINTS} points; got {points}"
+            f"length / step must give {FEWEST_POINTS} to {MOST_PROFILE_POINTS} points; got {points}"
         )
     return np.asarray(step * np.arange(points), dtype=np.float64)
 

@@ -15,6 +15,18 @@ code only if it is in use as one and lies ten times farther from all other heigh
 from each other: no texture has a height like that.
 
 Units are stated by the file or by the caller, never guessed.
+
+Maps in the surface data format (.sdf), ISO 25178-71, are text, too:
+
+aISO-1.0            version
+    NumPoints   = 512   points along x of each profile
+    NumProfiles = 256   profiles along y
+    Xscale      = 1e-6  distance of points [m], Yscale that of profiles
+    Zscale      = 1e-9  height of one count [m]
+    *                   the heights follow, profile by profile, in lines of any length
+    *                   end
+
+Names are taken in any case, with =, a colon or blanks before their value. BAD is a missing height.
 """
 
 from __future__ import annotations
@@ -42,25 +54,25 @@ from gripscale.surface.resampling import printed_grid
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
-CODES = np.array([*_NINES, *_WORDS])
+_CODES = np.array([*_NINES, *_WORDS])
 """Codes in use, without sign: nines, and the limits of the whole numbers instruments store."""
 
-BEYOND = 1e30
+_BEYOND = 1e30
 """Height, in any unit of length, beyond which every number is a code."""
 
-ALONE = 10.0
+_ALONE = 10.0
 """Least distance of a code from all heights, in the largest difference of two of them."""
 
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:
     """Return heights as printed, NaN where one is a code, and the code if there is one."""
-    suspect = np.isin(np.abs(heights), CODES) | (np.abs(heights) >= BEYOND)
+    suspect = np.isin(np.abs(heights), _CODES) | (np.abs(heights) >= _BEYOND)
     codes = np.unique(heights[suspect])
     rest = heights[np.isfinite(heights) & ~suspect]
     if codes.size != 1 or rest.size == 0:
         return heights, None
     code = float(codes[0])
-    if np.abs(rest - code).min() <= ALONE * np.ptp(rest):
+    if np.abs(rest - code).min() <= _ALONE * np.ptp(rest):
         return heights, None
     return np.where(suspect, np.nan, heights), code
 
@@ -97,9 +109,9 @@ def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> 
     return length_unit(table.path, part, named, name, unit, remedy=remedy)
 
 
-DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
-ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
-HEIGHT_TITLE = re.compile(
+_DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
+_ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
+_HEIGHT_TITLE = re.compile(
     r"^\W*(z\b|z_|height|depth|tiefe|profondeur|elev|relative.height|profile)", re.IGNORECASE
 )
 
@@ -151,7 +163,7 @@ def read_text_profile(
             missing="step",
         )
     table, columns = _read_table(
-        path, lines, "rows with two columns of numbers", (DISTANCE_TITLE, HEIGHT_TITLE)
+        path, lines, "rows with two columns of numbers", (_DISTANCE_TITLE, _HEIGHT_TITLE)
     )
     if columns is None and len(table.columns) != 2:
         raise FileError(
@@ -182,7 +194,7 @@ def read_text_profile(
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
-DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
+_DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
 """What a title says of heights that may be counted downwards."""
 
 
@@ -198,7 +210,7 @@ def is_captif(lines: Sequence[Line]) -> bool:
 def depth_doubts(table: TextTable, column: int) -> tuple[str, ...]:
     """Return the doubt that a column of heights holds depths, if its title says so."""
     title = table.columns[column].name
-    if not DEPTH.search(title):
+    if not _DEPTH.search(title):
         return ()
     words = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up"
     return (f'{words}: z_axis = "down" turns it over, z_axis = "up" confirms it',)
@@ -235,7 +247,6 @@ def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]
 
 
 def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str | None) -> Profile:
-    """Return the profile of one column of heights at equal steps [m]."""
     if column is None:
         raise InputError(
             f"step must be left out; {path} has more than one column, and states where its points "
@@ -258,7 +269,7 @@ def read_text_map(
     Raises `FileError`, which names the line if possible, if the file cannot be read or understood,
     `InputError` if an argument is unknown or contradicts the file.
     """
-    titles = (DISTANCE_TITLE, ACROSS_TITLE, HEIGHT_TITLE)
+    titles = (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE)
     expected = "rows of heights, or of x, y and z"
     table, columns = _read_table(path, read_lines(path), expected, titles)
     count = len(table.columns)
@@ -330,3 +341,74 @@ def _points(
     z = np.full(nx * ny, np.nan)
     z[at] = heights
     return axes[0], axes[1], in_si(z.reshape(nx, ny), units[2], "length")
+
+
+_COUNTS, _SCALES = ("NumPoints", "NumProfiles"), ("Xscale", "Yscale", "Zscale")
+_LONGEST_HEADER = 2**16
+_PAIR = re.compile(r"^\s*([A-Za-z]\w*)\s*[=:\s]\s*(.*?)\s*$")
+_BINARY = (b"bISO", b"bBCR")
+_MOST_POINTS = 10**9
+"""Points along an axis beyond which a header is taken as damaged."""
+
+
+def is_sdf_text(path: Path, raw: bytes) -> bool:
+    """Return whether a file is read here: by its suffix, unless it is the binary form."""
+    return path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
+
+
+def read_sdf_text(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
+    """Return x, y and heights [m] of shape (points along x, profiles), NaN where missing.
+
+    Raises `FileError` if the header lacks a number, or there are not as many heights as it states.
+    """
+    head = raw[:_LONGEST_HEADER].decode("latin-1")
+    header, start = _header(head)
+    numbers: dict[str, float] = {}
+    for name in (*_COUNTS, *_SCALES):
+        text = header.get(name.lower(), "")
+        try:
+            numbers[name] = float(text)
+        except ValueError as error:
+            raise FileError(
+                f"{path}: expected a map in SDF with the number {name} in its header; got "
+                f"{checks.short_repr(text) if text else 'none'}"
+            ) from error
+    for name in _COUNTS:
+        value = numbers[name]
+        if not (1 <= value <= _MOST_POINTS and value == int(value)):
+            raise FileError(f"{path}: expected a whole number as {name}; got {value:g}")
+    points, profiles = (int(numbers[name]) for name in _COUNTS)
+    for name in _SCALES:
+        if not numbers[name] > 0.0:
+            raise FileError(f"{path}: expected {name} above zero [m]; got {header[name.lower()]}")
+    cells = raw[start:].replace(b"*", b" ").replace(b"BAD", b"nan").split()
+    if len(cells) != points * profiles:
+        raise FileError(
+            f"{path}: expected {points} x {profiles} heights by its header; got {len(cells)}"
+        )
+    try:
+        counts = np.array(cells).astype(float)
+    except ValueError as error:
+        raise FileError(
+            f"{path}: expected numbers as heights ({checks.shortened(str(error))})"
+        ) from error
+    heights = numbers["Zscale"] * counts.reshape(profiles, points).T
+    x, y = (
+        numbers[name] * np.arange(size, dtype=float)
+        for name, size in (("Xscale", points), ("Yscale", profiles))
+    )
+    return np.asarray(x, float), np.asarray(y, float), np.asarray(heights, float)
+
+
+def _header(head: str) -> tuple[dict[str, str], int]:
+    """Return the pairs of the header by name in small letters, and where the heights begin."""
+    header: dict[str, str] = {}
+    start = 0
+    for line in head.splitlines(keepends=True):
+        pair = _PAIR.match(line)
+        if pair:
+            header[pair[1].lower()] = pair[2]
+        elif header and line.strip():
+            return header, start + (len(line) if line.strip() == "*" else 0)
+        start += len(line)
+    return header, start

@@ -36,28 +36,28 @@ from gripscale.core.arrays import Array
 from gripscale.core.units import in_mm
 from gripscale.surface.cleaning import subtract_form, subtract_trend
 from gripscale.surface.profile import HeightMap, Profile, profile_list
-from gripscale.surface.resampling import filled, without_line
+from gripscale.surface.resampling import fill_gaps, without_line
 
 if TYPE_CHECKING:
     import xarray as xr
 
-SEGMENT = 0.1
+_SEGMENT = 0.1
 """Length of a segment [m]."""
 
-SAMPLE, COARSEST = 0.5e-3, 1e-3
+_SAMPLE, _COARSEST = 0.5e-3, 1e-3
 """Steps to which a finer profile is averaged, and beyond which it has no profile depth [m]."""
 
-SHORTEST_WAVE = 2.4e-3
+_SHORTEST_WAVE = 2.4e-3
 """Wavelength at which the filter of the standard begins [m]."""
 
-PADDING = 9
+_PADDING = 9
 """Samples by which the filter continues a line at either end."""
 
-MOST_MISSING = 0.15
+_MOST_MISSING = 0.15
 """Share of missing heights beyond which a segment does not count: the standard allows 10 % of
 dropouts and 5 % of spikes."""
 
-QUANTITIES = {
+TEXTURE_NUMBERS = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
     "depth_segments": ("segments", "1", "segments of 100 mm in the mean profile depth"),
     "rms_height": ("Pq, Sq", "m", "root mean square height"),
@@ -73,7 +73,7 @@ QUANTITIES = {
 }
 """Symbols of profiles and maps, unit and meaning of each number."""
 
-NOTE = "depth_note"
+DEPTH_NOTE = "depth_note"
 """Why there is no mean profile depth, or empty."""
 
 
@@ -89,7 +89,7 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     Returns
     -------
     Dataset
-        Scalars by the names of `QUANTITIES` in SI units, with attributes `units`, `symbol` and
+        Scalars by the names of `TEXTURE_NUMBERS` in SI units, with attributes `units`, `symbol` and
         `long_name`. Profiles have no `rms_gradient` and `developed_area_ratio`, a map has no
         `rms_slope`: NaN. The mean profile depth of a map is that of its lines along x. It is NaN
         without a whole segment of 100 mm; the text `depth_note` then says why.
@@ -99,11 +99,13 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     InputError
         If `surface` is none of these.
     """
-    values = dict.fromkeys(QUANTITIES, np.nan)
+    values = dict.fromkeys(TEXTURE_NUMBERS, np.nan)
     if isinstance(surface, HeightMap):
         lines = surface.lines()
         level, _ = subtract_form(surface, order=1)
-        squares = _squared_gradients(level)
+        x, y = ((np.diff(level.z, axis=axis) / level.step[axis]) ** 2 for axis in (0, 1))
+        # the corners of all cells, NaN where a height is missing
+        squares = np.array([a + b for a in (x[:, :-1], x[:, 1:]) for b in (y[:-1], y[1:])])
         values |= _height_numbers(level.z) | {
             "rms_gradient": _mean(squares) ** 0.5,
             "developed_area_ratio": _mean(np.sqrt(1.0 + squares) - 1.0),
@@ -116,7 +118,15 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
         values["rms_slope"] = _mean(slopes**2) ** 0.5
     depths = np.concatenate([segment_depths(line) for line in lines])
     values |= {"mean_profile_depth": _mean(depths), "depth_segments": depths.size}
-    return _dataset(values, "" if depths.size else _no_depth(lines))
+    note = ""
+    if not depths.size:
+        if max(line.length for line in lines) < _SEGMENT:
+            note = f"shorter than {in_mm(_SEGMENT)}"
+        elif max(line.step for line in lines) > _COARSEST:
+            note = f"step above {in_mm(_COARSEST)}"
+        else:
+            note = f"more than {_MOST_MISSING:.0%} of heights missing"
+    return _dataset(values, note)
 
 
 Heights = Profile | Sequence[Profile] | HeightMap
@@ -130,20 +140,20 @@ def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
     """
     import xarray as xr  # slow to import: not for reading a surface
 
-    empty = _dataset(dict.fromkeys(QUANTITIES, np.nan), "not measured")
+    empty = _dataset(dict.fromkeys(TEXTURE_NUMBERS, np.nan), "not measured")
     parts = [empty if surface is None else texture(surface) for surface in surfaces.values()]
     return xr.concat(parts, dim=dim).assign_coords({dim: list(surfaces)})
 
 
 def _dataset(values: Mapping[str, float], note: str) -> xr.Dataset:
-    """Return numbers by the names of `QUANTITIES`, and the note, as a Dataset."""
+    """Return numbers by the names of `TEXTURE_NUMBERS`, and the note, as a Dataset."""
     import xarray as xr
 
     data = {
         name: ((), values[name], {"units": unit, "symbol": symbol, "long_name": text})
-        for name, (symbol, unit, text) in QUANTITIES.items()
+        for name, (symbol, unit, text) in TEXTURE_NUMBERS.items()
     }
-    return xr.Dataset(data).assign({NOTE: note})
+    return xr.Dataset(data).assign({DEPTH_NOTE: note})
 
 
 def segment_depths(profile: Profile) -> Array:
@@ -151,20 +161,20 @@ def segment_depths(profile: Profile) -> Array:
 
     Empty if the profile is shorter than a segment or its step exceeds 1 mm.
     """
-    step = max(profile.step, SAMPLE)
-    if step > COARSEST or len(profile) * profile.step < SEGMENT:
+    step = max(profile.step, _SAMPLE)
+    if step > _COARSEST or len(profile) * profile.step < _SEGMENT:
         return np.zeros(0)
     sample = np.floor(np.arange(len(profile)) * (profile.step / step) + 1e-6).astype(int)
-    samples = int(SEGMENT / step + 1e-6)
+    samples = int(_SEGMENT / step + 1e-6)
     whole = (sample[-1] + 1) // samples
     counts = np.bincount(sample)
-    heights = np.bincount(sample, filled(profile.z)) / counts
-    smooth = _without_short_waves(heights, step / SHORTEST_WAVE)
+    heights = np.bincount(sample, fill_gaps(profile.z)) / counts
+    smooth = _without_short_waves(heights, step / _SHORTEST_WAVE)
     missing = np.bincount(sample, np.isnan(profile.z)) / counts
     segments, gaps = (part[: whole * samples].reshape(whole, -1) for part in (smooth, missing))
     halves = np.array_split(without_line(segments), 2, axis=1)
     depths = np.mean([half.max(axis=1) for half in halves], axis=0)
-    return np.asarray(depths[gaps.mean(axis=1) <= MOST_MISSING])
+    return np.asarray(depths[gaps.mean(axis=1) <= _MOST_MISSING])
 
 
 def _without_short_waves(heights: Array, frequency: float) -> Array:
@@ -175,8 +185,8 @@ def _without_short_waves(heights: Array, frequency: float) -> Array:
     """
     from scipy.linalg import solve_banded
 
-    before = 2.0 * heights[0] - heights[PADDING:0:-1]
-    after = 2.0 * heights[-1] - heights[-2 : -PADDING - 2 : -1]
+    before = 2.0 * heights[0] - heights[_PADDING:0:-1]
+    after = 2.0 * heights[-1] - heights[-2 : -_PADDING - 2 : -1]
     values = np.concatenate([before, heights, after])
     warped = np.tan(np.pi * frequency)
     scale = 1.0 + np.sqrt(2.0) * warped + warped**2
@@ -186,16 +196,7 @@ def _without_short_waves(heights: Array, frequency: float) -> Array:
         start = values[0]  # before it the values are constant
         weighted = np.convolve(values - start, [1.0, 2.0, 1.0])[: values.size]
         values = solve_banded((2, 0), bands, warped**2 / scale * weighted)[::-1] + start
-    return values[PADDING:-PADDING]
-
-
-def _no_depth(lines: Sequence[Profile]) -> str:
-    """Return why lines have no mean profile depth."""
-    if max(line.length for line in lines) < SEGMENT:
-        return f"shorter than {in_mm(SEGMENT)}"
-    if max(line.step for line in lines) > COARSEST:
-        return f"step above {in_mm(COARSEST)}"
-    return f"more than {MOST_MISSING:.0%} of heights missing"
+    return values[_PADDING:-_PADDING]
 
 
 def _height_numbers(z: Array) -> dict[str, float]:
@@ -213,12 +214,6 @@ def _height_numbers(z: Array) -> dict[str, float]:
         "pit_depth": -bottom,
         "total_height": top - bottom,
     }
-
-
-def _squared_gradients(surface: HeightMap) -> Array:
-    """Return the squared gradients at the corners of all cells, NaN where a height is missing."""
-    x, y = ((np.diff(surface.z, axis=axis) / surface.step[axis]) ** 2 for axis in (0, 1))
-    return np.array([a + b for a in (x[:, :-1], x[:, 1:]) for b in (y[:-1], y[1:])])
 
 
 def _mean(values: Array) -> float:

@@ -1,6 +1,3 @@
-from .diffusion import ContactPressures as ContactPressures
-from .diffusion import DiffusionResult as DiffusionResult
-from .diffusion import diffusion as diffusion
 from .elastic import contact_fraction as contact_fraction
 from .elastic import contact_half_width as contact_half_width
 from .elastic import contact_pressure as contact_pressure
@@ -13,9 +10,9 @@ from .elastic import slab_compliance as slab_compliance
 from .elastic import step_relaxation_stress as step_relaxation_stress
 from .half_plane import HalfPlane as HalfPlane
 from .half_plane import solve_half_plane as solve_half_plane
+from .klueppel_heinrich import KlueppelHeinrich as KlueppelHeinrich
 from .klueppel_heinrich import KlueppelHeinrichResult as KlueppelHeinrichResult
 from .klueppel_heinrich import klueppel_heinrich as klueppel_heinrich
-from .models import KlueppelHeinrich as KlueppelHeinrich
-from .models import Persson as Persson
+from .persson import Persson as Persson
 from .persson import PerssonResult as PerssonResult
 from .persson import persson as persson

@@ -25,27 +25,45 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import ClassVar
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.model import Load
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
-from gripscale.surface.height_difference import HeightDifference, height_difference
+from gripscale.surface.height_difference import (
+    HeightDifference,
+    SelfAffineFit,
+    fit_self_affine,
+    height_difference,
+)
 from gripscale.surface.profile import Profile
-from gripscale.surface.self_affine import SelfAffineFit, fit_self_affine
-from gripscale.theory.persson import TheoryResult, Variable, divided, refined, running_integral
+from gripscale.surface.surface import Surface, SurfacePart
+from gripscale.theory.persson import (
+    TheoryResult,
+    Variable,
+    answer_of,
+    cleaned_profiles,
+    divided,
+    refine_intervals,
+    running_integral,
+)
 
-SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
-TOP_HEIGHT_FRACTION = 0.5
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+_SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
+_TOP_HEIGHT_FRACTION = 0.5
 """Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
 
-TOLERANCE = 1e-6
+_TOLERANCE = 1e-6
 """Relative error of the integral below which a result is converged."""
 
 _NODES = 33
@@ -70,7 +88,7 @@ class KlueppelHeinrichResult(TheoryResult):
 
     name: ClassVar[str] = "klueppel_heinrich"
     title: ClassVar[str] = "Hysteresis friction of rubber on a self-affine surface"
-    source: ClassVar[str] = SOURCE
+    source: ClassVar[str] = _SOURCE
     variables: ClassVar[Sequence[Variable]] = _VARIABLES
 
     rubber: Rubber
@@ -92,8 +110,8 @@ class KlueppelHeinrichResult(TheoryResult):
 
     @property
     def status(self) -> Status:
-        """`converged` if doubling the resolution changed friction by less than `TOLERANCE`."""
-        met = self.friction_error <= TOLERANCE * self.friction
+        """`converged` if doubling the resolution changed friction by less than `_TOLERANCE`."""
+        met = self.friction_error <= _TOLERANCE * self.friction
         return Status.CONVERGED if met else Status.TOLERANCE_NOT_MET
 
 
@@ -118,7 +136,7 @@ def klueppel_heinrich(
     rubber : Rubber
         The sliding rubber.
     surface : SelfAffineFit, HeightDifference or Profile(s)
-        Of profiles only the upper part counts, `TOP_HEIGHT_FRACTION`; a correlation is taken
+        Of profiles only the upper part counts, `_TOP_HEIGHT_FRACTION`; a correlation is taken
         as it is.
     pressure, speed : float
         Nominal pressure [Pa], above zero, and sliding speed [m/s]; at zero there is no friction.
@@ -133,7 +151,19 @@ def klueppel_heinrich(
         Length of the nominal contact [m]: recorded, without effect; the cut-off length of the
         surface by default.
     """
-    fit = surface if isinstance(surface, SelfAffineFit) else _fit(surface)
+    if not isinstance(surface, SelfAffineFit | HeightDifference):
+        profiles = [surface] if isinstance(surface, Profile) else surface
+        if (
+            not isinstance(profiles, Sequence)
+            or not profiles
+            or not all(isinstance(profile, Profile) for profile in profiles)
+        ):
+            raise InputError(
+                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
+                f"got {checks.short_repr(surface)}"
+            )
+        surface = height_difference(profiles, top_height_fraction=_TOP_HEIGHT_FRACTION)
+    fit = surface if isinstance(surface, SelfAffineFit) else fit_self_affine(surface)
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)
     depth = checks.positive("penetration_depth", penetration_depth, unit="m")
@@ -154,7 +184,7 @@ def klueppel_heinrich(
         work = 0.5 * ratio * depth / load.pressure * q * loss * strain_spectrum(q, fit)
         return (running_integral(work * q, log_q)[::intervals],)
 
-    (friction,), (error,) = refined(at, _COARSEST, _FINEST, TOLERANCE)
+    (friction,), (error,) = refine_intervals(at, _COARSEST, _FINEST, _TOLERANCE)
     return KlueppelHeinrichResult(rubber, fit, load, ratio, depth, wavelength, friction, error)
 
 
@@ -165,18 +195,34 @@ def strain_spectrum(q: Array, fit: SelfAffineFit) -> Array:
     return np.asarray(level * (q / first) ** (-(2.0 * fit.hurst + 1.0)))
 
 
-def _fit(surface: HeightDifference | Profile | Sequence[Profile]) -> SelfAffineFit:
-    """Return the self-affine fit of a correlation, or of the upper part of profiles."""
-    if not isinstance(surface, HeightDifference):
-        profiles = [surface] if isinstance(surface, Profile) else surface
-        if (
-            not isinstance(profiles, Sequence)
-            or not profiles
-            or not all(isinstance(profile, Profile) for profile in profiles)
-        ):
-            raise InputError(
-                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
-                f"got {checks.short_repr(surface)}"
-            )
-        surface = height_difference(profiles, top_height_fraction=TOP_HEIGHT_FRACTION)
-    return fit_self_affine(surface)
+class KlueppelHeinrich(Checked, Model):
+    """The theory of Klueppel and Heinrich for the upper part of the profiles."""
+
+    name: ClassVar[str] = "klueppel_heinrich"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
+
+    layer_ratio: float = checked(checks.positive)
+    """See `klueppel_heinrich` [-]."""
+    penetration_depth: float = checked(checks.positive, unit="m")
+    """See `klueppel_heinrich` [m]; the same at every load."""
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer as a Dataset; `on_progress` gets the `KlueppelHeinrichResult`.
+
+        Raises `InputError` if the surface was not measured or its upper part is not self-affine.
+        """
+        result = klueppel_heinrich(
+            rubber,
+            cleaned_profiles(surface, self.name),
+            pressure=load.pressure,
+            speed=load.speed,
+            layer_ratio=self.layer_ratio,
+            penetration_depth=self.penetration_depth,
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
+        )
+        return answer_of(replace(result, load=load), on_progress)

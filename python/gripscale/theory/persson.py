@@ -13,7 +13,7 @@ inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Mat
 Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
 contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from G = (M
 h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi). The running integrals use the trapezoidal rule on grids
-refined until a tolerance is met. `TheoryResult` is what the results of all theories share.
+refined until a tolerance is met. `TheoryResult` is the base of the results of all theories.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -29,17 +29,21 @@ import numpy as np
 from gripscale import model
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
+from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.model import NOT_CONVERGED, Load, of_curve
+from gripscale.model import NOT_CONVERGED, Load, Model, OnProgress, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
+from gripscale.surface.profile import Profile
 from gripscale.surface.spectrum import (
     ArealSpectrum,
     ProfileSpectrum,
     areal_spectrum,
     last_wavenumber,
+    profile_spectrum,
 )
+from gripscale.surface.surface import Surface, SurfacePart
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -51,7 +55,7 @@ Variable = tuple[str, Any, str, str]
 
 
 class TheoryResult:
-    """Friction down to each wavelength, and the Dataset of it: what all theories share."""
+    """Base of the results of theories: friction down to each wavelength and its Dataset."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -134,7 +138,7 @@ def running_integral(values: Array, x: Array) -> Array:
     return np.concatenate(([0.0], np.cumsum(steps)))
 
 
-def refined(
+def refine_intervals(
     at: Callable[[int], Values], first: int, most: int, tolerance: float
 ) -> tuple[Values, tuple[float, ...]]:
     """Return `at(intervals)` on a fine grid, and its change by the last doubling.
@@ -153,8 +157,8 @@ def refined(
         coarse = fine
 
 
-SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
-TOLERANCE = 1e-4
+_SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
+_TOLERANCE = 1e-4
 """Relative error of the integrals below which a result is converged."""
 
 _VARIABLES = (
@@ -169,7 +173,7 @@ _VARIABLES = (
 )
 """Variables of a result: name, dimension, unit, meaning."""
 
-COARSEST, FINEST = 4, 128
+_COARSEST, _FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
 
 _WIDEST = 0.25
@@ -188,7 +192,7 @@ class PerssonResult(TheoryResult):
 
     name: ClassVar[str] = "persson"
     title: ClassVar[str] = "Real contact area and friction of rubber on a randomly rough surface"
-    source: ClassVar[str] = SOURCE
+    source: ClassVar[str] = _SOURCE
     variables: ClassVar[Sequence[Variable]] = _VARIABLES
 
     rubber: Rubber
@@ -216,9 +220,9 @@ class PerssonResult(TheoryResult):
 
     @property
     def status(self) -> Status:
-        """`converged` if doubling the resolution changed both numbers by less than `TOLERANCE`."""
-        area = self.contact_fraction_error <= TOLERANCE * self.contact_fraction
-        friction = self.friction_error <= TOLERANCE * abs(self.friction)
+        """`converged` if doubling the resolution changed both numbers by less than `_TOLERANCE`."""
+        area = self.contact_fraction_error <= _TOLERANCE * self.contact_fraction
+        friction = self.friction_error <= _TOLERANCE * abs(self.friction)
         return Status.CONVERGED if area and friction else Status.TOLERANCE_NOT_MET
 
 
@@ -267,8 +271,8 @@ def persson(
     nodes = np.exp(filled_in(np.log(points), _WIDEST))
     load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
     integrals = _Integrals(rubber, spectrum, load, share, nodes)
-    (area, friction), (area_error, friction_error) = refined(
-        integrals.at_nodes, COARSEST, FINEST, TOLERANCE
+    (area, friction), (area_error, friction_error) = refine_intervals(
+        integrals.at_nodes, _COARSEST, _FINEST, _TOLERANCE
     )
     return PerssonResult(
         rubber=rubber,
@@ -323,3 +327,51 @@ def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[A
         stiff += width * np.abs(modulus / load.pressure) ** 2
         lossy += width * cosine * modulus.imag / load.pressure
     return stiff, lossy
+
+
+class Persson(Checked, Model):
+    """Persson's theory; the profiles are lines on an isotropic surface."""
+
+    name: ClassVar[str] = "persson"
+    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
+
+    smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
+    `SineStack.cutoff_wavelength`."""
+    gamma: float = checked(checks.not_negative, default=0.5)
+    """See `persson`."""
+    window: float | None = checked(checks.positive, unit="m", default=None)
+    """See `profile_spectrum` [m]."""
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer as a Dataset; `on_progress` gets the `PerssonResult`.
+
+        Raises `InputError` if the surface was not measured, or not down to the smallest wave.
+        """
+        result = persson(
+            rubber,
+            profile_spectrum(cleaned_profiles(surface, self.name), window=self.window),
+            pressure=load.pressure,
+            speed=load.speed,
+            smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
+            gamma=self.gamma,
+        )
+        return answer_of(replace(result, load=load), on_progress)
+
+
+def answer_of(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
+    """Call `on_progress` with a result and return its Dataset."""
+    if on_progress is not None:
+        on_progress(result)
+    return result.to_dataset()
+
+
+def cleaned_profiles(surface: Surface, name: str) -> list[Profile]:
+    """Return the cleaned profiles for a theory; `InputError` without any."""
+    if surface.measured is None:
+        raise InputError(
+            f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
+        )
+    return surface.measured.cleaned

@@ -1,6 +1,6 @@
 """The finite-strain block on one period of a measured profile: all its waves in one solution.
 
-The profile is made `gripscale.surface.period.one_period` and pressed into one block: no
+The profile is made `gripscale.surface.periodic.one_period` and pressed into one block: no
 separation of scales, no random phases, and no small strain.
 """
 
@@ -17,8 +17,8 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import Profile
-from gripscale.surface.period import one_period, without_short_waves
-from gripscale.surface.resampling import filled
+from gripscale.surface.periodic import one_period, without_short_waves
+from gripscale.surface.resampling import fill_gaps
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem
@@ -151,7 +151,7 @@ def solve_profile(
 def _heights(profile: Profile, smallest: float | None, periodic: bool) -> SampledProfile:
     """Return the heights of one period without waves below the smallest."""
     line = profile if periodic else one_period(profile, smallest)
-    period, z = len(line) * line.step, filled(line.z, periodic=True)
+    period, z = len(line) * line.step, fill_gaps(line.z, periodic=True)
     if smallest is not None:
         z = without_short_waves(Profile(line.x, z), smallest).z
     after, before = np.ptp(z), float(np.nanmax(profile.z) - np.nanmin(profile.z))

@@ -13,7 +13,7 @@ import scipy.stats
 from gripscale.conditions import LeGalKlueppelStress
 from gripscale.questions import Calibration, calibrate
 from gripscale.questions.calibration.calibration_law import Problem, best, family_of, points_of
-from gripscale.questions.calibration.profile_likelihood import Profile, threshold_of
+from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile, threshold_of
 
 from .synthetic import REFERENCE, TRUTH, measurement
 
@@ -45,7 +45,9 @@ def below_threshold(factor: float) -> dict[str, int]:
         problem = Problem(points, family_of("gaussian", points, REFERENCE))
         optimum = best(problem)
         for place, one in enumerate(problem.family.free):
-            excess, _ = Profile(problem, optimum, place).excess(one.scaled(TRUTH[one.name]))
+            excess, _ = LikelihoodProfile(problem, optimum, place).excess(
+                one.scaled(TRUTH[one.name])
+            )
             counts[one.name] += excess < threshold_of(optimum, spread_known=True)
     return counts
 
@@ -92,7 +94,7 @@ def test_an_interval_ends_where_the_profile_says() -> None:
     threshold = threshold_of(fit.optimum, spread_known=True)
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
     for place, one in enumerate(fit.problem.family.free):
-        profile = Profile(fit.problem, fit.optimum, place)
+        profile = LikelihoodProfile(fit.problem, fit.optimum, place)
         for end in (fit.estimates[place].low, fit.estimates[place].high):
             # the distance to an end is known to 1e-3, its square to twice that
             assert profile.excess(one.scaled(end))[0] == pytest.approx(threshold, rel=4e-3)

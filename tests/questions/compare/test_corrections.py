@@ -1,4 +1,4 @@
-"""Windows and maps as rungs: the same surfaces for both, and the solvers' own answers."""
+"""Windows as rungs: the same surfaces for both, and the solvers' own answers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 import gripscale as gs
 from gripscale.core.status import Status
 from gripscale.experiment import Task
-from gripscale.half_space import BlockOnProfile, solve_both_ways, surface_of_sines
+from gripscale.half_space import BlockOnProfile, surface_of_sines
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.questions.answer.samples import sample_numbers
@@ -19,6 +19,7 @@ from gripscale.questions.compare.ladder import LADDER, ComparisonSetup, chosen
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, SineStack, Surface, self_affine_profile
 from gripscale.theory import HalfPlane
+from studies.finite_strain_pairs import solve_both_ways
 from tests.samples import GENTLE_SINES as STACK
 
 RUBBER = Rubber(1e6, [9e6], [0.01])
@@ -63,30 +64,9 @@ def test_windows_are_the_same_for_both() -> None:
     drawn = [rung.draws(SUBJECT) for rung in (small, finite)]
     assert [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]]
     assert len({one.subject for one in drawn[0]}) == SUBJECT.windows
-    assert chosen([]) == [rung for rung in LADDER if rung.group not in ("map", "below")]
+    assert chosen([]) == [rung for rung in LADDER if rung.group != "below"]
     short = Surface(SineStack([0.3], [1e-3]), "", measured=MEASURED)
     assert small.draws(replace(SUBJECT, surface=short)) == []
-
-
-def test_maps_and_their_lines_are_of_the_same_seeds() -> None:
-    lines, whole = chosen(["map"])
-    assert whole.follows == lines.name
-    fine = Surface(SineStack([10e-3, 2e-4], [2e-4, 5e-6]), "", measured=MEASURED)
-    drawn = [rung.draws(replace(SUBJECT, surface=fine)) for rung in (lines, whole)]
-    assert (
-        [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]] == ["map 0", "map 1"]
-    )
-    assert drawn[0][0].model.smallest_wavelength == pytest.approx(4.0 * ROAD.step)
-
-
-def test_no_map_of_what_is_a_map_or_too_short() -> None:
-    whole = chosen(["map"])[-1]
-    short = Surface(SineStack([0.03], [1e-3]), "", measured=MEASURED)
-    x = np.arange(16) * 1e-4
-    measured = HeightMap(x, x, np.random.default_rng(1).normal(0.0, 1e-5, (16, 16)))
-    mapped = Surface(STACK, "", measured=Measured.of(measured))
-    for surface in (short, mapped, Surface(STACK, "")):
-        assert whole.draws(replace(SUBJECT, surface=surface)) == []
 
 
 def test_a_map_is_one_sample_of_the_direct_contact() -> None:

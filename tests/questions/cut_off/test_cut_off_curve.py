@@ -17,7 +17,6 @@ from gripscale.io import netcdf
 from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off
 from gripscale.questions.cut_off.question import cut_off
 from gripscale.report import write_report
-from tests.half_space.rough_cases import isotropic_heights
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
 
 SURFACE = 'files = ["road.txt"]\nscales = 3\ncut_off = "0.5 mm"'
@@ -163,21 +162,3 @@ def test_a_finer_measurement_is_read_and_named_as_a_file(folder):
     assert ("below_measurement", "road.txt") in read_case_file(path).case.named_files()
     result = cut_off(read_case(path), folder=folder / "finer", down_to=0.4e-3).data
     assert bool(result.curve_measured[-1])
-
-
-def test_a_map_is_continued_by_diffusion(tmp_path):
-    heights = 1e3 * isotropic_heights(128, length=0.0256, rms=2e-4)
-    np.savetxt(tmp_path / "map.txt", heights.T)
-    surface = (
-        'map = "map.txt"\nstep = ["0.2 mm", "0.2 mm"]\nz_unit = "mm"\nscales = 3\ncut_off = "1 mm"'
-    )
-    rubber = 'name = "styrene_butadiene"'
-    text = case_text(surface, rubber, HALF_PLANE, static=False)
-    (tmp_path / "case.toml").write_text(text)
-    case = read_case(tmp_path / "case.toml")
-    data = cut_off(case, folder=tmp_path / "result", down_to=1e-6).data
-    assert float(data.resolved) == pytest.approx(0.8e-3)
-    assert data.curve_measured.values.sum() == 3
-    assert float(data.cut_off[-1]) == pytest.approx(1e-6)
-    assert data.total_friction_from_dissipation == pytest.approx(float(data[FRICTION][-1]))
-    assert np.all(np.diff(data[AREA]) < 0.0)

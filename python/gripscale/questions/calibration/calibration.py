@@ -185,7 +185,9 @@ class Calibration:
             for way, end in zip((-1, 1), self.ends[at], strict=True):
                 away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
                 ends.append(float(np.clip(centre + way * away, *limits)))
-            values, excess = likelihood.Profile(self.problem, self.optimum, at).curve(*ends)
+            values, excess = likelihood.LikelihoodProfile(self.problem, self.optimum, at).curve(
+                *ends
+            )
             in_units = np.array([parameter.value(float(value)) for value in values])
             profiles[parameter.name] = in_units, excess / self._unit
         return profiles
@@ -260,7 +262,8 @@ def calibrate(
     def intervals(optimum: fit.Optimum) -> list[tuple[float, float]]:
         threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
         profiles = [
-            likelihood.Profile(problem, optimum, at) for at in range(len(problem.family.free))
+            likelihood.LikelihoodProfile(problem, optimum, at)
+            for at in range(len(problem.family.free))
         ]
         return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
 

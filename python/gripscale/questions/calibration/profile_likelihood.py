@@ -54,7 +54,7 @@ class BetterMinimumFound(Exception):
 
 
 @dataclass(frozen=True)
-class Profile:
+class LikelihoodProfile:
     """The profile of one parameter, in the numbers the search works with."""
 
     problem: Problem

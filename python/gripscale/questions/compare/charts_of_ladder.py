@@ -18,7 +18,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
 from gripscale.half_space.model import DirectContact
 
-ASIDE = ("windows", "map")
+ASIDE = ("windows",)
 """Groups of other surfaces, which only give the factors of the best estimate."""
 SEEN = 0.01
 """Share of friction or area from which on a wavelength is drawn: longer waves do nothing."""

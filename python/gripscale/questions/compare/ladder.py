@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -19,9 +19,8 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.half_space.continued import ContinuedContact
-from gripscale.half_space.finite_strain import spread_windows
 from gripscale.half_space.model import BlockOnProfile, DirectContact
-from gripscale.half_space.windows import random_phases, surface_of_sines
+from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.direct_contact import each_measured, with_single_measurement
@@ -34,11 +33,10 @@ from gripscale.surface import (
     fit_sines,
     height_difference,
 )
-from gripscale.surface.isotropic_maps import STEPS_IN_WAVE
-from gripscale.surface.line_statistics import FEWEST_PERIODS
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
 from gripscale.theory.half_plane import HalfPlane
-from gripscale.theory.models import KlueppelHeinrich, Persson
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
+from gripscale.theory.persson import Persson
 from gripscale.wave.kernel import WaveSolver
 
 
@@ -127,10 +125,6 @@ WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
 """Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
 (those of the roughness that the measurement has), and how many windows at most."""
 
-MAP, WAVES_IN_MAP, MAPS, LINES = 1.8, 128, 2, 10
-"""Synthetic maps: least length over the largest sine wave, length over the smallest wave that is
-kept, how many, and how many lines of each are solved each way."""
-
 
 def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     # its error must not hide what a few per cent of finite strain change; it takes a second
@@ -175,33 +169,13 @@ def _halving(count: int) -> list[int]:
     return [int(f"{number:0{bits}b}"[::-1], 2) for number in range(count)]
 
 
-def _on_maps(setup: ComparisonSetup, lines: int) -> Sequence[SampleSpec]:
-    """Return synthetic isotropic maps of the profiles, whole (0) or that many lines of each.
-
-    None of a surface that is a map, or whose profiles are too short.
-    """
-    from gripscale.half_space.maps import SyntheticMap
-
-    surface, sines = setup.surface, setup.surface.sines
-    if not setup.lines or setup.of_map:
-        return []
-    step = max(line.step for line in setup.lines)
-    smallest = max(
-        MAP * sines.wavelength[0] / WAVES_IN_MAP, sines.cutoff_wavelength, STEPS_IN_WAVE * step
-    )
-    if sum(line.length for line in setup.lines) < FEWEST_PERIODS * WAVES_IN_MAP * smallest:
-        return []
-    models = [
-        SyntheticMap(seed, float(smallest), lines, tolerance=setup.tolerance)
-        for seed in range(MAPS)
-    ]
-    return [SampleSpec(model, surface, f"map {seed}") for seed, model in enumerate(models)]
-
-
 Measurement = TypeVar("Measurement", Profile, HeightMap)
 
 WINDOWS = "windows"
 """The group of rungs that take a minute and more."""
+
+BELOW = "below"
+"""The group of roughness below the measurement, which is compared on request only."""
 
 LENGTH_OF_SINES = 10
 """Period of a surface of sines over its largest wave."""
@@ -214,21 +188,17 @@ POINTS_OF_A_CLASS = 256
 """Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
 
 
-ON_REQUEST = frozenset({"map", "below"})
-"""Groups of rungs that nothing but a comparison of them needs: synthetic maps, a minute each, and
-roughness below the measurement."""
-
-
 def chosen(names: Iterable[str]) -> list[Rung]:
     """Return the rungs of the given names and groups in the order of the ladder.
 
-    Without any all but those on request. Raises `InputError` for an unknown one.
+    Without names, return all but the roughness below the measurement. Raises `InputError` for an
+    unknown name.
     """
     wanted = set(names)
     groups = dict.fromkeys(rung.group for rung in LADDER)
     checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
     if not wanted:
-        return [rung for rung in LADDER if rung.group not in ON_REQUEST]
+        return [rung for rung in LADDER if rung.group != BELOW]
     return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
 
 
@@ -290,7 +260,7 @@ def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
 
 
 def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    if setup.continuation is None:
+    if setup.continuation is None or setup.of_map:
         return []
     profiles = each_measured(setup.surface)
     return [SampleSpec(setup.continuation, part, name) for name, part in profiles]
@@ -340,7 +310,6 @@ STEPS = {
     "persson": ("", DIRECT),
     "klueppel_heinrich": ("", DIRECT),
     "windows_finite_strain": ("finite strain", "windows_half_plane"),
-    "map": ("a map for its lines", "map_lines"),
 }
 """What changes from the rung that a rung follows, and that rung."""
 
@@ -361,13 +330,11 @@ LADDER: tuple[Rung, ...] = (
     _rung(
         ContinuedContact.name,
         "direct contact, continued below the measurement",
-        "below",
+        BELOW,
         _continued,
     ),
     _rung("persson", "Persson, isotropic surface", "theory", _persson),
     _rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", _klueppel_heinrich),
     _rung("windows_half_plane", "small-strain windows", WINDOWS, _windows_half_plane),
     _rung("windows_finite_strain", "finite-strain windows", WINDOWS, _windows_block),
-    _rung("map_lines", "lines of a synthetic map", "map", partial(_on_maps, lines=LINES)),
-    _rung("map", "synthetic map", "map", partial(_on_maps, lines=0)),
 )

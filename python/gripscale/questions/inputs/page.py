@@ -24,7 +24,7 @@ from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import Element, Facts, Section, number, percent
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
-from gripscale.surface.texture import NOTE, QUANTITIES
+from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
 
 if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
@@ -66,15 +66,15 @@ def slopes_table(slopes: SlopeByWavelength) -> Table:
 def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") -> Table:
     """Return the texture of surfaces along `dim`, without the numbers that none of them has."""
     columns = [Column(dim, data[dim].values.astype(str).tolist(), heading)]
-    for name, (symbol, unit, _) in QUANTITIES.items():
+    for name, (symbol, unit, _) in TEXTURE_NUMBERS.items():
         values = data[name].values.astype(float)
         if np.nan_to_num(values).any():
             printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
             form = whole if name == "depth_segments" else significant
             columns.append(Column(name, values, symbol, printed, size, format=form))
-    notes = [str(text) for text in data[NOTE].values]
+    notes = [str(text) for text in data[DEPTH_NOTE].values]
     if any(notes):
-        columns.append(Column(NOTE, notes, "no MPD", words=True))
+        columns.append(Column(DEPTH_NOTE, notes, "no MPD", words=True))
     return Table("texture", columns, "Texture: ISO 13473-1, ISO 21920-2 and ISO 25178-2")
 
 

@@ -33,8 +33,8 @@ from gripscale.surface import (
     fit_sines,
     height_difference,
 )
-from gripscale.surface.resampling import filled_smoothly
-from gripscale.surface.sine_fit import MOST_WAVES
+from gripscale.surface.resampling import fill_gaps_smoothly
+from gripscale.surface.sine_fit import MOST_SINE_WAVES
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult
@@ -202,7 +202,7 @@ class Inputs:
         else:
             return self.surface.measured
         if self.smooth_gaps:
-            lines = [replace(line, z=filled_smoothly(line.z)) for line in lines]
+            lines = [replace(line, z=fill_gaps_smoothly(line.z)) for line in lines]
         return Measured.of(lines)
 
     @property
@@ -340,7 +340,7 @@ def factor(text: Any) -> float:
 
 def count(text: Any) -> float:
     """Return a number of waves; raise `InputError` for what is none."""
-    return float(checks.whole("waves", plain_number(text), least=2, most=MOST_WAVES))
+    return float(checks.whole("waves", plain_number(text), least=2, most=MOST_SINE_WAVES))
 
 
 def _quantity(text: Any, kind: str, unit: str) -> float:

@@ -27,7 +27,7 @@ from gripscale.questions.uncertainty.sampled_inputs import (
 from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
-from gripscale.surface.sine_fit import FACTOR_RANGE
+from gripscale.surface.sines import FACTOR_RANGE
 
 
 class Coordinate(NamedTuple):

@@ -24,7 +24,7 @@ from gripscale.core.units import (
 )
 from gripscale.model import MOST_CLASSES
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
-from gripscale.surface.sine_fit import MOST_WAVES
+from gripscale.surface.sine_fit import MOST_SINE_WAVES
 
 QUANTITIES = {
     "speed": "speed",
@@ -35,7 +35,7 @@ QUANTITIES = {
 }
 """Axes of numbers, with the kind of quantity."""
 
-COUNTS = {"waves": MOST_WAVES, "pressure_classes": MOST_CLASSES}
+COUNTS = {"waves": MOST_SINE_WAVES, "pressure_classes": MOST_CLASSES}
 """Axes of whole numbers, with the largest."""
 
 NUMBERS = (*QUANTITIES, *COUNTS, "top_height_fraction")

@@ -10,14 +10,12 @@ import pytest
 import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.half_space import one_period, solve_both_ways, spread_windows, surface_of_sines
-from gripscale.half_space.grid import periodic_heights
-from gripscale.surface import Profile, SineStack, self_affine_profile
+from gripscale.half_space import surface_of_sines
+from gripscale.surface import SineStack
+from studies.finite_strain_pairs import solve_both_ways
+from tests.half_space.rough_cases import ZENER
 from tests.samples import GENTLE_SINES as GENTLE
 
-from .rough_cases import ZENER
-
-LINE = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
 LOAD = {"pressure": 5e4, "speed": 0.1}
 
 
@@ -25,14 +23,6 @@ LOAD = {"pressure": 5e4, "speed": 0.1}
 def pairs():
     lines = [surface_of_sines(GENTLE, 20e-3, seed) for seed in range(4)]
     return solve_both_ways(ZENER, lines, **LOAD)
-
-
-def test_one_period_is_what_the_direct_contact_sees():
-    period = one_period(LINE, 2e-3)
-    there = periodic_heights(LINE, smallest_wavelength=2e-3, periodic=False)
-    here = periodic_heights(period, smallest_wavelength=None, periodic=True)
-    assert here.grid.lengths == pytest.approx(there.grid.lengths, rel=1e-12)
-    np.testing.assert_allclose(here.on((800,)), there.on((800,)), atol=1e-12 * np.ptp(LINE.z))
 
 
 def test_gentle_lines_touch_as_small_strain_says(pairs):
@@ -83,21 +73,6 @@ def test_workers_change_nothing(pairs):
     for one, other in zip(alone.pairs, pairs.pairs, strict=True):
         assert one.block.friction == other.block.friction
         assert one.half_space.friction == other.half_space.friction
-
-
-def test_windows_are_spread_over_all_profiles():
-    other = Profile(LINE.x + 1.0, LINE.z)
-    found = spread_windows([LINE, other], 0.02, 5, 2e-3)
-    assert len(found) == 5
-    assert found[0].x[0] < 0.02
-    assert found[-1].x[0] > 1.15
-    assert len(spread_windows([LINE], 0.02, 1000, 2e-3)) == 10
-
-
-@pytest.mark.parametrize("most", [0, 2.5])
-def test_the_number_of_windows_is_a_whole_one(most):
-    with pytest.raises(InputError, match="most"):
-        spread_windows([LINE], 0.02, most, 2e-3)
 
 
 def test_no_lines():

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.half_space import map_over_lines, solve_map_and_lines, solve_windows
-from gripscale.surface import HeightMap, isotropic_maps, self_affine_profile
-
-from .rough_cases import WAVELENGTH, ZENER, grooves
+from gripscale.half_space import solve_windows
+from gripscale.surface import HeightMap, self_affine_profile
+from studies.isotropic_maps.construction import isotropic_maps
+from studies.isotropic_maps.map_factor import map_over_lines, solve_map_and_lines
+from tests.half_space.rough_cases import WAVELENGTH, ZENER, grooves
 
 AREA, FRICTION = "contact_fraction", "friction_from_dissipation"
 LINE = self_affine_profile(0.8, 4e-3, 4e-4, 0.2, 1e-4, 7)

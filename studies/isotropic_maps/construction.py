@@ -4,7 +4,7 @@ The amplitudes of a Gaussian map are those of the areal spectrum, its phases are
 brought to the measured distribution by rank, the spectrum back, in turns: the iterated amplitude
 adjusted Fourier transform (T. Schreiber & A. Schmitz, Phys. Rev. Lett. 77 (1996) 635,
 doi:10.1103/PhysRevLett.77.635), on a map. Maps with the statistics of the lines in every direction
-start from a Gaussian map (`gripscale.surface.line_statistics`).
+start from a Gaussian map (`studies.isotropic_maps.line_statistics`).
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.surface.line_statistics import (
+from gripscale.surface.profile import HeightMap, Profile, profile_list
+from gripscale.surface.spectrum import areal_spectrum, profile_spectrum
+from studies.isotropic_maps.line_statistics import (
     LineMatching,
     MeasuredLine,
     Square,
     Waves,
     periodic_lines,
 )
-from gripscale.surface.profile import HeightMap, Profile, profile_list
-from gripscale.surface.spectrum import areal_spectrum, profile_spectrum
 
 TURNS = 50
 """Turns of heights and spectrum; the last one sets the heights, so that these are exact."""
@@ -84,7 +84,7 @@ def isotropic_maps(
     A profile does not determine the surface it was measured on. "spectrum" and "heights" keep
     neither flat tops nor the place of the roughness. "lines" brings the lines of the map in every
     direction to the distributions of what some hundred filters answer on the measured lines, by
-    class of height (`gripscale.surface.line_statistics`): half a minute a map of 512 x 512
+    class of height (`studies.isotropic_maps.line_statistics`): half a minute a map of 512 x 512
     points on one core, and some seconds before the first.
 
     Raises `InputError` if an argument is out of its range, when the first map is asked for.

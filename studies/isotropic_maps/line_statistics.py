@@ -37,7 +37,7 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.surface.profile import Profile
-from gripscale.surface.resampling import filled
+from gripscale.surface.resampling import fill_gaps
 
 Waves = NDArray[Any]
 """Complex factors of the waves of a line or map, in single or double precision."""
@@ -208,7 +208,7 @@ def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredL
         )
     lines = []
     for profile in profiles:
-        z = filled(profile.z)
+        z = fill_gaps(profile.z)
         z = z - np.linspace(z[0], z[-1], z.size)
         waves = np.fft.rfft(z)
         q = np.asarray(2.0 * np.pi * np.fft.rfftfreq(z.size, profile.step), dtype=np.float64)

@@ -1,7 +1,19 @@
-"""The octaves of a periodic line, and random octaves below the last measured one.
+"""One period of a measured line: made from a profile, split into octaves, continued by random ones.
 
-The slope of a line is the sum of its octaves s_k, the waves between two wavelengths of which one is
-half the other. The local amplitude of an octave is the smoothed length of its analytic signal,
+**One period.** Gaps are filled, ends joined, and flanks made no steeper than rubber follows. The
+profile of a contact is the smallest one above the heights z without slopes above s (E. J. McShane,
+Bull. Amer. Math. Soc. 40 (1934) 837, doi:10.1090/S0002-9904-1934-05978-0),
+
+    e(x) = max_y (z(y) - s |x - y|),
+
+the upper envelope of cones on all points. A surface of rubber that follows a flank of slope s is
+stretched by up to sqrt(1 + s^2). The envelope keeps every summit, and every face below that slope;
+waves that are then cut off do not ring beside a step, by 9 % of its height (J. W. Gibbs, Nature 59
+(1899) 606).
+
+**Octaves.** The slope of a line is the sum of its octaves s_k, the waves between two wavelengths of
+which one is half the other. The local amplitude of an octave is the smoothed length of its analytic
+signal,
 
     a_k(x)^2 = G * |s_k + i H s_k|^2,
 
@@ -25,14 +37,80 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.surface.profile import Profile
+from gripscale.core.errors import InputError
+from gripscale.surface.profile import FEWEST_POINTS, RESOLVED_STEPS, Profile
+from gripscale.surface.resampling import fill_gaps
 
-MOST_ABOVE = 1.25
+_STEEPEST = 4.0
+"""Slope that rubber is taken to follow: stretched to 4.1, near the elongation at break of tread."""
+
+
+def one_period(
+    line: Profile, smallest_wavelength: float | None = None, *, steepest: float = _STEEPEST
+) -> Profile:
+    """Return a periodic line, for any model with `periodic=True`.
+
+    Missing heights are filled, the line through the end points subtracted, and flanks above a slope
+    of `steepest` [-] replaced by the smallest heights above the line without them; infinity keeps
+    all. Then waves shorter than `smallest_wavelength` [m], by default four steps, are left out.
+    The smallest wave has four points.
+
+    Raises `InputError` if `steepest` is not above zero, or `smallest_wavelength` is not from two
+    steps of the line to its length.
+    """
+    checks.instance("line", line, Profile)
+    slope = checks.positive("steepest", steepest, infinite=True)
+    step, period = line.step, len(line) * line.step
+    z = fill_gaps(line.z)
+    z = z - np.linspace(0.0, z[-1] - z[0], z.size, endpoint=False)
+    z -= z.mean()
+    if smallest_wavelength is None:
+        smallest = min(RESOLVED_STEPS * step, period)
+    else:
+        smallest = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+    if smallest < 2.0 * step * (1.0 - 1e-9):
+        raise InputError(
+            f"smallest_wavelength must be at least two steps of the line, {2.0 * step:.4g} m; "
+            f"got {smallest:.4g} m"
+        )
+    if not math.isinf(slope):
+        # the envelope over three periods, of which the middle one has both neighbours
+        periods = np.tile(z, 3)
+        ramp = slope * step * np.arange(periods.size)
+        behind = np.maximum.accumulate(periods + ramp) - ramp
+        before = (np.maximum.accumulate(periods[::-1] + ramp) - ramp)[::-1]
+        z = np.maximum(behind, before)[z.size : 2 * z.size]
+    whole = Profile(line.x, z, line.name, line.source)
+    return without_short_waves(whole, smallest)
+
+
+def without_short_waves(line: Profile, smallest_wavelength: float) -> Profile:
+    """Return a periodic line without shorter waves [m], with four points in the smallest left.
+
+    Raises `InputError` if that is longer than the period.
+    """
+    cut = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+    period = len(line) * line.step
+    # round-off must not drop a wave that is exactly the smallest
+    waves = math.floor(min(period / cut * (1.0 + 1e-9), len(line)))
+    if waves < 1:
+        raise InputError(
+            f"smallest_wavelength must be at most the period {period:g} m; got {cut:g} m"
+        )
+    spectrum = np.fft.rfft(line.z)[: waves + 1]
+    points = max(FEWEST_POINTS, 4 * (spectrum.size - 1))
+    z = np.fft.irfft(spectrum, points) * (points / len(line))
+    x = line.x[0] + np.linspace(0.0, period, points, endpoint=False)
+    return Profile(x, z, line.name, source=line.source)
+
+
+_MOST_ABOVE = 1.25
 """Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6
 intermittent surfaces lose a tenth of their friction, with 2.5 surfaces with edges gain a third."""
 
-ROUNDING = 1e-9
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +132,8 @@ class PeriodicLine:
     def between(self, longest: float, shortest: float) -> ComplexArray:
         """Return the waves shorter than `longest` and not shorter than `shortest` [m]."""
         q = self.wavenumber
-        above = q > 2.0 * np.pi / longest * (1.0 + ROUNDING)
-        return np.where(above & (q <= 2.0 * np.pi / shortest * (1.0 + ROUNDING)), self.waves, 0.0)
+        above = q > 2.0 * np.pi / longest * (1.0 + _ROUNDING)
+        return np.where(above & (q <= 2.0 * np.pi / shortest * (1.0 + _ROUNDING)), self.waves, 0.0)
 
     def down_to(self, shortest: float) -> PeriodicLine:
         """Return the line without waves shorter than `shortest` [m]."""
@@ -131,7 +209,7 @@ class Intermittency:
         log = self.coupling * line.amplitude(2.0 * longest, longest)
         log += self.scatter * smooth_noise()
         log -= log.mean()
-        limit = MOST_ABOVE * log.std()
+        limit = _MOST_ABOVE * log.std()
         q = np.maximum(line.wavenumber, line.wavenumber[1])
         noise = line.with_waves(scipy.fft.rfft(random.standard_normal(line.points)) * q**-1.5)
         heights = scipy.fft.irfft(noise.between(longest, shortest), line.points)

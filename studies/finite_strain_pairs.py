@@ -22,10 +22,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.parallel import Stopped, in_threads, worker_count
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.half_space.windows import windows
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile
-from gripscale.surface.period import one_period
 from gripscale.wave.problem import SampledProfile
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import ScaleResult
@@ -289,19 +287,3 @@ def solve_both_ways(
             if on_pair is not None:
                 on_pair(pair)
     return FiniteStrainPairs([pairs[index] for index in range(len(lines))])
-
-
-def spread_windows(
-    profiles: Sequence[Profile], length: float, most: int, smallest_wavelength: float
-) -> list[Profile]:
-    """Return at most `most` windows of the profiles, each made `one_period`.
-
-    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly; waves
-    shorter than `smallest_wavelength` [m] are left out. Raises `InputError` as `windows` does, or
-    if `most` is not a whole number from 1.
-    """
-    number = checks.whole("most", most, least=1, most=100_000)
-    lines = checks.instances("profiles", profiles, Profile)
-    every = [window for line in lines for window in windows(line, length)]
-    chosen = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
-    return [one_period(every[index], smallest_wavelength) for index in chosen]

@@ -5,8 +5,10 @@ import pytest
 from scipy import stats
 
 from gripscale.core.errors import InputError
-from gripscale.surface import Profile, clean, isotropic_maps, line_statistics, read_profile
-from gripscale.surface.line_statistics import (
+from gripscale.surface import Profile, clean, read_profile
+from studies.isotropic_maps import line_statistics
+from studies.isotropic_maps.construction import isotropic_maps
+from studies.isotropic_maps.line_statistics import (
     BELL,
     CLASSES,
     CURVATURE,
@@ -19,8 +21,7 @@ from gripscale.surface.line_statistics import (
     periodic_lines,
     scaled,
 )
-
-from .surface_cases import ROAD, ROAD_ONLY
+from tests.surface.surface_cases import ROAD, ROAD_ONLY
 
 SMALLEST = 1.6e-3
 POINTS = 128

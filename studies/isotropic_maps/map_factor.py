@@ -1,8 +1,8 @@
 """Synthetic isotropic maps of a measured surface: the factor from its lines to the surface.
 
 A line is solved in plane strain, as if the surface were grooves across the sliding direction. The
-maps are synthetic (`gripscale.surface.isotropic_maps`). Each is solved whole, sliding along x and
-along y, and so are single lines of it:
+maps are synthetic (`studies.isotropic_maps.construction`). Each map and single lines of it are
+solved, sliding along x and along y:
 
     factor = mean over maps (map) / mean over maps (lines of the map)
 """
@@ -10,38 +10,29 @@ along y, and so are single lines of it:
 from __future__ import annotations
 
 import math
-import threading
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gripscale import model
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.half_space.windows import WindowContacts, solve_windows
-from gripscale.model import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.rubber import Rubber
-from gripscale.rubber.extrapolation import Extrapolation, of_sum
-from gripscale.surface import HeightMap, Profile, Surface, SurfacePart, isotropic_maps
-from gripscale.surface.isotropic_maps import seed_numbers
+from gripscale.surface import HeightMap, Profile
 from gripscale.surface.profile import profile_list
+from studies.isotropic_maps.construction import isotropic_maps, seed_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import Load, OnProgress
-
 
 QUANTITIES = ("contact_fraction", "friction_from_dissipation")
 """Of a contact. This friction is accurate to a few per cent with four points in a wave."""
-KEPT = 16
-"""Maps kept in memory, for other speeds and for the lines of the same map."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +145,7 @@ def map_over_lines(
     rubber, pressure, speed
         As for `solve_rough_contact`.
     profile, smallest_wavelength, construction, points, seeds, on_batch
-        As for `gripscale.surface.isotropic_maps`.
+        As for `studies.isotropic_maps.construction`.
     lines : int
         Number of solved lines of each map in each of two directions, evenly spaced.
     tolerance : float
@@ -213,179 +204,33 @@ def solve_map_and_lines(
     `map_over_lines` and `solve_rough_contact`. Raises `InputError` if one is out of its range.
     """
     checks.instance("surface", surface, HeightMap)
-    whole = solve_whole(rubber, surface, workers=workers, **load)
-    of_lines = solve_lines_of(rubber, surface, lines=lines, tolerance=tolerance, **load)
-    return MapContact(whole.values, of_lines.values, whole.between_directions)
-
-
-class TwoWayContact(NamedTuple):
-    """Contact of a surface that slides along x and along y."""
-
-    values: dict[str, float]
-    """Means of the two; NaN if a contact did not converge."""
-    between_directions: dict[str, float]
-    """Along x over along y; NaN over zero."""
-    status: str
-    extrapolation: Extrapolation
-    cut_off_exponents: CutOffExponents
-
-
-def solve_whole(
-    rubber: Rubber, surface: HeightMap, *, workers: int | None = None, **load: Any
-) -> TwoWayContact:
-    """Return the contact of a square, periodic map with four points in the smallest wave.
-
-    Raises `InputError` as `solve_rough_contact`, and if the map is no square.
-    """
-    options = {"periodic": True, "tolerance": None, "workers": workers, **load}
-    return _both_ways(
-        [[solve_rough_contact(rubber, turned, **options)] for turned in _directions(surface)]
-    )
-
-
-def solve_lines_of(
-    rubber: Rubber, surface: HeightMap, *, lines: int, tolerance: float, **load: Any
-) -> TwoWayContact:
-    """Return the mean contact of lines of a square, periodic map, evenly spaced.
-
-    Raises `InputError` as `solve_rough_contact`, and if the map is no square.
-    """
     number = checks.whole("lines", lines, least=1, most=surface.z.shape[0])
-    rows = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
-    options = {"periodic": True, "tolerance": tolerance, **load}
-    return _both_ways(
-        [
-            [
-                solve_rough_contact(rubber, Profile(turned.x, turned.z[:, row]), **options)
-                for row in rows
-            ]
-            for turned in _directions(surface)
-        ]
-    )
-
-
-def _directions(surface: HeightMap) -> list[HeightMap]:
-    """Return a square map and the map turned, so that both slide along x."""
     if surface.z.shape[0] != surface.z.shape[1]:
         raise InputError(f"surface must have equal points each way; got {surface.z.shape}")
-    return [surface, HeightMap(surface.x, surface.y, surface.z.T)]
-
-
-def _both_ways(contacts: list[list[RoughContact]]) -> TwoWayContact:
-    along, across = (
-        {name: WindowContacts(group).mean(name) for name in (*QUANTITIES, "friction")}
-        for group in contacts
-    )
-    every = [contact for group in contacts for contact in group]
-    bad = [str(contact.status) for contact in every if not contact.converged]
-    return TwoWayContact(
+    rows = np.linspace(0, surface.z.shape[0], number, endpoint=False).astype(int)
+    along_y = HeightMap(surface.x, surface.y, surface.z.T)
+    whole, of_lines = [], []
+    for turned in (surface, along_y):
+        options = {"periodic": True, **load}
+        contact = solve_rough_contact(rubber, turned, tolerance=None, workers=workers, **options)
+        profiles = (Profile(turned.x, turned.z[:, row]) for row in rows)
+        contacts = [
+            solve_rough_contact(rubber, p, tolerance=tolerance, **options) for p in profiles
+        ]
+        whole.append(_means([contact]))
+        of_lines.append(_means(contacts))
+    along, across = whole
+    return MapContact(
         {name: 0.5 * (along[name] + across[name]) for name in along},
+        {name: 0.5 * (of_lines[0][name] + of_lines[1][name]) for name in along},
         {name: _ratio(along[name], across[name]) for name in along},
-        bad[0] if bad else "converged",
-        of_sum(
-            [contact.extrapolation for contact in every],
-            [contact.friction_from_dissipation for contact in every],
-        ),
-        NOT_CONVERGED
-        if bad
-        else of_mean(
-            [contact.cut_off_exponents for contact in every],
-            *([getattr(contact, name) for contact in every] for name in QUANTITIES),
-        ),
     )
+
+
+def _means(contacts: list[RoughContact]) -> dict[str, float]:
+    return {name: WindowContacts(contacts).mean(name) for name in (*QUANTITIES, "friction")}
 
 
 def _ratio(above: float, below: float) -> float:
     """Return the ratio, NaN over zero: friction at rest, or of a flat line."""
     return above / below if below else math.nan
-
-
-@dataclass(frozen=True)
-class SyntheticMap(model.Model):
-    """Model by an isotropic map of all cleaned profiles, see `gripscale.surface.isotropic_maps`.
-
-    The answer is the mean of sliding along x and along y.
-    """
-
-    name: ClassVar[str] = "synthetic_map"
-    needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement"})
-
-    seed: int
-    """Seed of the map."""
-    smallest_wavelength: float
-    """Smallest wave of the map [m]; its length is `points / 4` of them."""
-    lines: int = 0
-    """Number of solved lines along each axis; 0 solves the map itself."""
-    points: int = 512
-    """See `gripscale.surface.isotropic_maps`."""
-    construction: str = "lines"
-    """See `gripscale.surface.isotropic_maps`."""
-    tolerance: float = 0.05
-    """Estimated relative error of the lines; the map has four points in its smallest wave."""
-
-    def predict(
-        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
-    ) -> xr.Dataset:
-        """Return the answer; `on_progress` is called while the map is made.
-
-        Raises `InputError` if the surface has no profiles a map can be made from.
-        """
-        import xarray as xr
-
-        if surface.measured is None or surface.measured.map is not None:
-            raise InputError("a synthetic map is made from measured profiles; the surface has none")
-        smallest = self.smallest_wavelength
-        profiles = tuple(surface.measured.cleaned)
-        shared = _shared_map(profiles, self.seed, smallest, self.points, self.construction)
-        heights = shared.heights(on_progress)
-        solve = partial(solve_whole, workers=1)
-        if self.lines:
-            solve = partial(solve_lines_of, lines=self.lines, tolerance=self.tolerance)
-        contact = solve(
-            rubber, heights, pressure=load.pressure, speed=load.speed, smallest_wavelength=smallest
-        )
-        totals = {name: contact.values[name.removeprefix("total_")] for name in model.TOTALS}
-        data = xr.Dataset().assign_attrs(
-            title="Contact of a synthetic isotropic map",
-            synthetic=heights.source,
-            **provenance.attributes(),
-        )
-        return model.answer(
-            data,
-            totals,
-            contact.status,
-            self.name,
-            load,
-            contact.extrapolation,
-            contact.cut_off_exponents,
-        )
-
-
-@dataclass(eq=False)
-class _SharedMap:
-    """A map that the first caller makes, while other threads wait."""
-
-    profiles: tuple[Profile, ...]
-    seed: int
-    smallest_wavelength: float
-    points: int
-    construction: str
-    lock: threading.Lock = field(default_factory=threading.Lock)
-    made: HeightMap | None = None
-
-    def heights(self, on_progress: OnProgress) -> HeightMap:
-        with self.lock:
-            if self.made is None:
-                maps = isotropic_maps(
-                    list(self.profiles),
-                    smallest_wavelength=self.smallest_wavelength,
-                    construction=self.construction,
-                    points=self.points,
-                    seeds=[self.seed],
-                    on_batch=on_progress and (lambda seed, share: on_progress(share)),
-                )
-                self.made = next(iter(maps))
-            return self.made
-
-
-_shared_map = lru_cache(maxsize=KEPT)(_SharedMap)
