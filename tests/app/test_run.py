@@ -11,12 +11,12 @@ from typer.testing import CliRunner
 
 from gripscale.app.case import CaseState, VisitFolder
 from gripscale.app.commands import COMMANDS
-from gripscale.questions.registry import Form
 from gripscale.app.elements import Cards
 from gripscale.app.run_tabs import answer_elements, run_status
 from gripscale.app.runs import Run, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
+from gripscale.questions.registry import Form
 from tests.samples import ROOT
 
 SLOW = """\
@@ -140,9 +140,7 @@ def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> N
     assert [card.label for card in numbers.cards][:2] == ["shear stress τ_0", "width factor c"]
     assert numbers.basis[1].startswith("Answer: area term with shear stress τ_0 = 0.346 MPa")
     assert all(
-        option.value in dict(option.choices).values()
-        for option in command.options
-        if option.choices
+        option.value in dict(option.choices).values() for option in command.fields if option.choices
     )
 
 
@@ -158,9 +156,11 @@ def by_name(name: str) -> Form:
 def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
     """Words of the command lines, from what the commands print of themselves."""
     for command in COMMANDS:
-        help_text = CliRunner().invoke(app, [command.command, "--help"], env={"COLUMNS": "200"}).stdout
+        help_text = (
+            CliRunner().invoke(app, [command.command, "--help"], env={"COLUMNS": "200"}).stdout
+        )
         assert help_text.startswith("Usage: "), command.command
-        assert all(option.flag in help_text for option in command.options), command.title
+        assert all(option.flag in help_text for option in command.fields), command.title
     speeds = by_name("study")
     assert speeds.arguments({"speeds": "1,2"}) == ["--vary", "speed=1,2"]
     assert speeds.arguments({"speeds": " "}) == []

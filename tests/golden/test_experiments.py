@@ -15,6 +15,8 @@ from .experiments import Experiments
 from .instruction_set import instruction_set
 
 SAME, OTHER = 1e-12, 1e-5
+ZERO = 1e-9
+"""Numbers below this are zero to the residual of the solvers, and stay so."""
 
 COUNTED = ("iterations", "steps", "residual", "mismatch", "error", "passes", "grid_points")
 """Ends of names of numbers that belong to the way to a solution: other elsewhere."""
@@ -47,7 +49,7 @@ def test_no_result_has_moved(kept: Values, now: Values) -> None:
                 moved.append(f"{name}: {before.tolist()} became {after.tolist()}")
         elif same or not name.endswith(COUNTED):
             scale = float(np.max(np.abs(before), initial=0.0, where=np.isfinite(before)))
-            atol = (SAME if same else OTHER) * scale
+            atol = ZERO if scale < ZERO else (SAME if same else OTHER) * scale
             if not np.isclose(after, before, rtol=0.0, atol=atol, equal_nan=True).all():
                 change = np.nanmax(np.abs(after - before)) / (scale or 1.0)
                 moved.append(f"{name}: {change:.1e}")

@@ -150,9 +150,9 @@ def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path
 def test_what_is_not_there_is_one_sentence(
     case: Path, vary: dict[str, Any], error: type[Exception], words: str
 ) -> None:
+    file = read_case_file(case)
     with pytest.raises(error, match=words):
-        named = read_named_inputs(vary, read_case_file(case))
-        _ = Study(read_case(case), named).points
+        _ = Study(read_case(file), read_named_inputs(vary, file)).points
 
 
 def test_failed_chain_is_a_status(
