@@ -57,7 +57,12 @@ def input_doubts(
     """
     of_inputs = [text for each in inputs for text in doubt_sentences(each)]
     texts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
-    return {INPUT_DOUBTS: " ".join(texts)} if texts else {}
+    return {INPUT_DOUBTS: "\n".join(texts)} if texts else {}
+
+
+def input_doubts_of(data: xr.Dataset) -> list[str]:
+    """Return the sentences of the attribute `INPUT_DOUBTS` of an answer; none without it."""
+    return str(data.attrs.get(INPUT_DOUBTS, "")).splitlines()
 
 
 def doubt_sentences(measured: Doubtful) -> list[str]:

@@ -113,13 +113,14 @@ def test_the_surface_decides_what_predicts(case: Path, inputs: Path) -> None:
     measured = inputs / "of_a_profile.toml"
     measured.write_text('[surface]\nfiles = ["road.txt"]\nscales = 3\n', encoding="utf-8")
     text = case.read_text(encoding="utf-8")
-    rest = text[text.index("[rubber]") :]
+    rest = text[text.index("[rubber]") :].partition("[measured]")[0]
     measured.write_text(measured.read_text(encoding="utf-8") + rest, encoding="utf-8")
-    file = read_case_file(measured)
-    assert default_model(read_case(file)) == "direct"
-    assert default_model(read_case(file), {"speed": (0.1, 1.0), "surface": ("case",)}) == "direct"
-    assert default_model(read_case(file), {"surface": ("case", str(case))}) == "chain"
-    assert default_model(read_case(file), {"waves": (2, 3)}) == "chain"
+    read = read_case(measured)
+    waves = read_case(case).surface
+    assert default_model(read) == "direct"
+    assert default_model(read, {"speed": (0.1, 1.0), "surface": ("case",)}) == "direct"
+    assert default_model(read, {"surface": ("case", waves)}) == "chain"
+    assert default_model(read, {"waves": (2, 3)}) == "chain"
 
 
 def test_the_page_names_the_command_that_makes_it_again(

@@ -184,7 +184,7 @@ def calibrate(
     # its speeds have a doubt of their own
     loads = [replace(read.load, pressure=float(p)) for p in fitted.predicted.pressure]
     if far := speed_doubts(friction, speed):
-        data.attrs[INPUT_DOUBTS] = " ".join(far)
+        data.attrs[INPUT_DOUBTS] = "\n".join(far)
     of_friction = friction_doubts(friction, speed)
     inputs = record.inputs(read, loads=loads, friction_notes=of_friction)
     netcdf.save(data, target / "calibration.nc", {"inputs": inputs})

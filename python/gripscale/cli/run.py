@@ -161,7 +161,7 @@ def _run(
         emit(FileWritten(str(target / REPORT)))
         if solved:
             emit(FileWritten(str(target / SUMMARY)))
-    _print_older_page(console, chain, target)
+    _print_older_page(console, target)
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
@@ -228,14 +228,12 @@ def _solve(
     return effects
 
 
-def _print_older_page(console: Console, chain: ChainRun, target: Path) -> None:
-    """Say if a page of an earlier result stays beside this one."""
-    page, first = target / "report.html", next(iter(chain.predictions), None)
-    written = page.read_text(encoding="utf-8", errors="replace") if page.is_file() else None
-    if first is not None and written is not None and chain.key(first) not in written:
+def _print_older_page(console: Console, target: Path) -> None:
+    """Say if a page of an earlier run stays beside these results."""
+    page, case = target / "report.html", target / "case.toml"
+    if page.is_file() and page.stat().st_mtime < case.stat().st_mtime:
         words = shlex.join(["gripscale", "report", str(target)])
-        text = f"{page.name} in it is older and shows another result; `{words}` renews it"
-        terminal.print_wrapped(console, text)
+        terminal.print_wrapped(console, f"{page.name} in it is older; `{words}` renews it")
 
 
 def _inputs(case: Case) -> list[str]:

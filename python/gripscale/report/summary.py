@@ -16,7 +16,7 @@ import xarray as xr
 
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
-from gripscale.model import INPUT_DOUBTS, STATUS
+from gripscale.model import STATUS, input_doubts_of
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
@@ -94,7 +94,7 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
         if not str(name).endswith(LEFT_OUT) and set(variable.dims) <= set(rows.dims)
     }
     texts = {name: data.attrs.get(name, about.get(name)) for name in ABOUT}
-    texts[DOUBTS] = no_answer(data) if has_answer(data) else data.attrs.get(INPUT_DOUBTS)
+    texts[DOUBTS] = no_answer(data) if has_answer(data) else " ".join(input_doubts_of(data))
     for name, value in texts.items():
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):

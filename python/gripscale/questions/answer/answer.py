@@ -26,7 +26,7 @@ from gripscale.questions.answer.direct_contact import (
     direct_contact_totals,
     solve_direct_contact,
 )
-from gripscale.questions.answer.findings import case_notices, no_answer_notices
+from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines, basis_lines
 from gripscale.questions.answer.reliance import (
     answer_interval,
@@ -101,9 +101,7 @@ class Answer(Result):
     @cached_property
     def findings(self) -> Sequence[Finding]:
         """What may change the answer, the most important first."""
-        statement = [] if self.is_solved else [*no_answer_notices(None)]
-        direct = self.data if self.is_solved else None
-        return (*statement, *case_notices(direct, InputRecord(self.inputs)))
+        return tuple(case_notices(self.data if self.is_solved else None, InputRecord(self.inputs)))
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""

@@ -94,17 +94,20 @@ def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:
 
 def in_words(changed: dict[str, float]) -> str:
     """Return relative changes in words, such as `the friction changes by +38 %`."""
-    words = {"friction": "friction", "contact_fraction": "contact area"}
-    parts = [f"the {words[n]} by {'+-'[v < 0.0]}{percent(abs(v))}" for n, v in changed.items()]
-    return " and ".join(parts).replace(" by ", " changes by ", 1)
+    words = {"friction": "the friction", "contact_fraction": "the contact area"}
+    first, *others = [
+        (words[name], f"by {'+-'[change < 0.0]}{percent(abs(change))}")
+        for name, change in changed.items()
+    ]
+    return " and ".join([" changes ".join(first), *map(" ".join, others)])
 
 
 def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding]:
     """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
     parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
-    said = "" if direct is None else str(direct.attrs.get(model.INPUT_DOUBTS, ""))
-    inputs = [notice for notice in record.warnings() if notice.sentence not in said]
-    return ranked([*(notice for part in parts for notice in part), *inputs])
+    in_answer = set() if direct is None else set(model.input_doubts_of(direct))
+    inputs = [finding for finding in record.warnings() if finding.sentence not in in_answer]
+    return ranked([*(finding for part in parts for finding in part), *inputs])
 
 
 def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> Iterator[Finding]:
@@ -116,13 +119,14 @@ def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> I
     if direct is not None and has_answer(direct):
         held = float(direct.cutoff_wavelength)
         if held > 1.01 * end and CONTINUED_TO not in direct:
+            cure = (
+                ": `gripscale cut-off`, or down_to in [below_measurement], continues the roughness"
+            )
             yield Finding(
-                Severity.WARNING,
+                Severity.DOUBT,
                 f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
-                f"shorter than {in_mm(held, 3)}, two of their steps: `gripscale cut-off`, or "
-                "down_to in [below_measurement], continues the roughness.",
-                math.inf,
-                math.inf,
+                f"shorter than {in_mm(held, 3)}, two of their steps{'' if record.of_map else cure}.",
+                key="below_measurement.down_to",
             )
         end = held
         if not limit > 1.01 * end:

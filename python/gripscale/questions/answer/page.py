@@ -16,6 +16,7 @@ from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import significant
 from gripscale.questions.answer.best_estimate import IsotropicSurface
+from gripscale.questions.answer.findings import no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.reliance import (
     WORTH_NAMING,
@@ -161,7 +162,7 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
     return Page(
         f"Contact and friction: {case_name(data.attrs) or 'a case'}",
         next(iter(basis_lines(data)), ""),
-        findings,
+        [*no_answer_notices(data if is_solved(data) else None), *findings],
         list(answer_cards(data)) if is_solved(data) else [],
         [section for section in sections if section.elements],
         tuple(basis_lines(data)),

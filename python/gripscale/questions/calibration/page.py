@@ -13,7 +13,7 @@ import xarray as xr
 
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.table import Column, Table, digits, percent, significant
-from gripscale.model import INPUT_DOUBTS, STATUS, status_words
+from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.calibration import Estimate
 from gripscale.questions.calibration.calibration_text import HELD_UNITS, interval, written
 from gripscale.questions.calibration.page_of_measured import residual_table
@@ -42,7 +42,7 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
-    doubts = data.attrs.get(INPUT_DOUBTS)
+    doubts = " ".join(input_doubts_of(data))
     lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
     yield f"Answer: {lead} with {', '.join(values)} ({level} % intervals)."
     if not bool(data["area_term"].notnull().any()):

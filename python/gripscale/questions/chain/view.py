@@ -37,8 +37,13 @@ CONVERGED = "converged"
 
 def believed(data: xr.Dataset, name: str) -> str:
     """Return the name of the best there is of `contact_fraction` or `friction` in a study."""
+    return f"best_{name}" if is_estimated(data, name) else f"total_{name}"
+
+
+def is_estimated(data: xr.Dataset, name: str) -> bool:
+    """Return whether a study has a best estimate of `contact_fraction` or `friction`."""
     best = f"best_{name}"
-    return best if best in data and bool(data[best].notnull().any()) else f"total_{name}"
+    return best in data and bool(data[best].notnull().any())
 
 
 JUDGE = "direct contact of the profiles"

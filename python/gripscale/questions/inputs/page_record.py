@@ -61,6 +61,11 @@ class InputRecord:
         return not self.data.data_vars
 
     @property
+    def of_map(self) -> bool:
+        """Whether a map was measured."""
+        return "texture_of" in self.data and "map" in self.data["texture_of"].values
+
+    @property
     def bulk_modulus(self) -> float:
         """Bulk modulus of the rubber [Pa]."""
         return self.number("bulk_modulus_Pa")

@@ -11,10 +11,10 @@ import xarray as xr
 from gripscale.core.arrays import Array
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import significant
-from gripscale.model import ADHESIVE_FRICTION, INPUT_DOUBTS, STATUS, STEEP_SHARE
+from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
 from gripscale.questions.answer.best_estimate import IsotropicSurface
 from gripscale.questions.answer.reliance import WORTH_NAMING
-from gripscale.questions.chain.view import HEADINGS, SYMBOLS, believed
+from gripscale.questions.chain.view import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.report.elements import Card, percent
@@ -43,7 +43,7 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
     if not texts:
         yield "Answer: none; no prediction has a result."
         return
-    estimated = believed(data, "contact_fraction").startswith("best")
+    estimated = is_estimated(data, "contact_fraction")
     level = " (90 % intervals)" if estimated and _has_intervals(data) else ""
     by = "" if estimated else f" by the {_model(data)}, without an interval"
     yield f"Answer{by}: {'; '.join(texts)}{level}."
@@ -52,13 +52,13 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
 
 def study_basis(data: xr.Dataset) -> Iterator[str]:
     """Yield what the numbers of a study are for, what they are made of and what they rest on."""
-    if INPUT_DOUBTS in data.attrs:
-        yield f"not to be relied on: {data.attrs[INPUT_DOUBTS]}"
+    if doubts := input_doubts_of(data):
+        yield f"not to be relied on: {' '.join(doubts)}"
     status = data[STATUS]
     failed = int((status != "converged").sum())
     count = f"{status.size} predictions, {failed or 'none'} without a result"
     yield f"for {', '.join([*_held(data), count])}"
-    if believed(data, "contact_fraction").startswith("best"):
+    if is_estimated(data, "contact_fraction"):
         yield f"from {' × '.join(_factors(data))}"
         yield "; ".join(_rests_on(data))
     elif data.attrs.get("surface_measured") and data.attrs.get("model") == "chain":

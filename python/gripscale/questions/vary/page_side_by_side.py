@@ -14,7 +14,7 @@ from gripscale.charts.style import power_of_ten
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
-from gripscale.model import ADHESIVE_FRICTION, INPUT_DOUBTS, STATUS, status_words
+from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of, status_words
 from gripscale.questions.chain.view import CONVERGED, SYMBOLS
 from gripscale.questions.inputs.page import texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
@@ -138,8 +138,8 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
         top = f"{names[int(np.nanargmax(friction))]} has the most friction"
         head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
     yield f"Answer: {head}{level}."
-    if INPUT_DOUBTS in data.attrs:
-        yield f"  not to be relied on: {data.attrs[INPUT_DOUBTS]}"
+    if doubts := input_doubts_of(data):
+        yield f"  not to be relied on: {' '.join(doubts)}"
     if TEMPERATURE in data.attrs:
         pressure, speed = (
             display_unit_of(data.attrs, name).text(float(data.attrs[f"nominal_{name}"]))
