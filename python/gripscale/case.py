@@ -42,7 +42,7 @@ from gripscale.surface.cut_off import CutOffRule, find_cut_off
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
-WAVES = 8
+_WAVES = 8
 """Sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre."""
 
 RubberLike = Rubber | MasterCurve | MeasuredRubber
@@ -154,7 +154,7 @@ class Case:
         speed: float | str,
         footprint: float | str = 0.1,
         smallest_wavelength: float | str | None = None,
-        waves: int = WAVES,
+        waves: int = _WAVES,
         conditions: Conditions | None = None,
         load_time: LoadTime = "passage",
         static: bool = False,

@@ -113,7 +113,7 @@ class CutOffExponents:
     """Why one of them is not known; empty if both are."""
 
 
-AT_REST = "no friction at rest"
+_AT_REST = "no friction at rest"
 NO_AREA = "the model does not tell the contact area by wavelength"
 NO_SLIDING = "friction not above zero"
 NOT_TOLD = CutOffExponents(math.nan, math.nan, "the model does not tell it")
@@ -132,7 +132,7 @@ def between(
     mu = mu if moving else math.nan
     reasons = [
         NO_AREA if math.isnan(area) else "",
-        AT_REST if not moving else "",
+        _AT_REST if not moving else "",
         NO_SLIDING if math.isnan(mu) else "",
     ]
     return CutOffExponents(area, mu, next(filter(None, reasons), ""))
@@ -374,10 +374,10 @@ SAMPLING_ERRORS = {
     "total_friction_sampling_error": "relative standard error of the friction coefficient",
 }
 """Names of how well the measured surface stands for its road, where a model tells it."""
-FREEDOM = "total_freedom"
+_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
 BASIS = SAMPLING_ERRORS | {
-    FREEDOM: "degrees of freedom of the sampling errors",
+    _FREEDOM: "degrees of freedom of the sampling errors",
     STEEP_SHARE: "share of the friction from contact on slopes above 1",
     MISSING_SHARE: "share of the contact on heights that were missing and interpolated",
 }

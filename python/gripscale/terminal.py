@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from gripscale.report.failures import Failure
 
 
-BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
+BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
 
 PLAIN_WIDTH = 100
@@ -74,7 +74,7 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
         return stopped, STOPPED
     from gripscale.report.failures import explained
 
-    exit_code = NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
+    exit_code = _NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
     return explained(error), exit_code
 
 
@@ -157,7 +157,7 @@ def conclude(
             print_wrapped(console, f"note: no page; {error}")
     if failure:
         print_error(failure)
-        raise typer.Exit(NOT_CONVERGED)
+        raise typer.Exit(_NOT_CONVERGED)
 
 
 def finish(

@@ -13,7 +13,7 @@ from gripscale.core.errors import InputError
 
 __all__ = ["serve_app"]
 
-EXTRA = ("bokeh", "jinja2", "markupsafe", "panel", "param", "tomlkit")
+_EXTRA = ("bokeh", "jinja2", "markupsafe", "panel", "param", "tomlkit")
 
 
 def serve_app(
@@ -44,7 +44,7 @@ def serve_app(
     try:
         from gripscale.app.server import serve
     except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in EXTRA:
+        if (error.name or "").partition(".")[0] not in _EXTRA:
             raise
         raise InputError(
             f"the page needs {error.name}, which is not installed; "

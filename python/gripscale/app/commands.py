@@ -7,13 +7,13 @@ from gripscale.questions.registry import Field, Form, forms
 RUN = "run"
 
 
-MODELS = (("best for the surface", ""), ("direct contact", "direct"), ("chain", "chain"))
-SHEAR_STRESSES = (
+_MODELS = (("best for the surface", ""), ("direct contact", "direct"), ("chain", "chain"))
+_SHEAR_STRESSES = (
     ("gaussian in log speed", "gaussian"),
     ("constant", "constant"),
     ("Le Gal and Klüppel", "le_gal_klueppel"),
 )
-HELD_OUT = (("none", ""), ("each temperature", "temperature"), ("each decade of speed", "speed"))
+_HELD_OUT = (("none", ""), ("each temperature", "temperature"), ("each decade of speed", "speed"))
 SPEEDS = Field("--vary", "speeds", "0.003:30:log9", "speed=")
 COMMANDS = (
     Form(RUN, "Contact and friction", "The case as it is stated."),
@@ -50,9 +50,9 @@ COMMANDS = (
     Form("design", "Design of a compound", "Most friction for each rolling resistance."),
     Form("calibrate", "Area term",
             "Fitted to the measured friction of the case; drop it in the tab of the load.",
-            (Field("--model", "model", "", choices=MODELS),
-             Field("--law", "shear stress", "gaussian", choices=SHEAR_STRESSES),
-             Field("--hold-out", "held out in turn", "", choices=HELD_OUT))),
+            (Field("--model", "model", "", choices=_MODELS),
+             Field("--law", "shear stress", "gaussian", choices=_SHEAR_STRESSES),
+             Field("--hold-out", "held out in turn", "", choices=_HELD_OUT))),
     *forms(),
 )  # fmt: skip
 """In the order of the page."""

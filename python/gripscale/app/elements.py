@@ -21,7 +21,7 @@ from gripscale.charts.page_elements import Chart
 from gripscale.core.finding import Finding
 from gripscale.report.elements import Card, Code, Element, Text, open_and_folded, with_code
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ _WORKER = ThreadPoolExecutor(1, thread_name_prefix="gripscale app")
 """Reads files and prepares cases. One thread: netCDF's library must not be entered by two."""
 
 
-async def in_worker(work: Callable[[], T]) -> T:
+async def in_worker(work: Callable[[], _T]) -> _T:
     """Return the result of `work` from the worker thread; the page stays responsive."""
     return await asyncio.get_running_loop().run_in_executor(_WORKER, work)
 

@@ -178,7 +178,7 @@ def quantity_field(
     def edit() -> None:
         texts = [str(number.value or "").strip() for number in numbers]
         values: list[Any] = [
-            f"{text} {unit.value}" if NUMBER.fullmatch(text) else field_value(text)
+            f"{text} {unit.value}" if _NUMBER.fullmatch(text) else field_value(text)
             for text in texts
         ]
         value: Any = None
@@ -204,7 +204,7 @@ def quantity_field(
     return pn.Row(*numbers, unit, margin=0)
 
 
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 
 
 def _number_and_unit(value: Any, kind: str) -> tuple[str, str]:

@@ -319,11 +319,11 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         Column("run", [view.name for _, view, _ in compared]),
         Column("speed", speeds, words=False),
         *_best_columns([direct for _, _, direct in compared]),
-        Column("friction", friction, "μ", group=CHAIN),
-        Column("contact_fraction", area, "A_r/A_0", group=CHAIN),
+        Column("friction", friction, "μ", group=_CHAIN),
+        Column("contact_fraction", area, "A_r/A_0", group=_CHAIN),
     ]
     if np.isfinite(with_term).any():
-        columns.append(Column("with_area_term", with_term, "μ with the area term", group=CHAIN))
+        columns.append(Column("with_area_term", with_term, "μ with the area term", group=_CHAIN))
     columns += [
         Column("status", states),
         Column("changes", changes, "keys that differ from the first", words=True),
@@ -337,7 +337,7 @@ def _state(view: PredictionView, direct: xr.Dataset | None) -> str:
     return "complete" if view.complete else f"{view.waves} of {view.planned} waves"
 
 
-CHAIN = "chain of waves"
+_CHAIN = "chain of waves"
 """Over the numbers of the chain, beside the best estimates."""
 
 

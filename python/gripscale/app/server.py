@@ -25,7 +25,7 @@ from gripscale.case_file.examples import EXAMPLES
 from gripscale.core.errors import InputError
 from gripscale.io.folders import make_folder, require_writable
 
-TITLE = "gripscale"
+_TITLE = "gripscale"
 INTRO = (
     "<h1>gripscale</h1><p>Real contact area and friction of rubber on rough roads. "
     "All settings are in the case file shown on this page; <code>gripscale run</code> computes the "
@@ -103,7 +103,7 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     server = pn.serve(
         {"/": page},
         extra_patterns=[(rf"/{REPORTS}/([^/]+/runs/[^/]+/{REPORT})", ReportHandler, reports)],
-        title={"/": TITLE},
+        title={"/": _TITLE},
         address=HOST,
         port=port,
         websocket_origin=origins,

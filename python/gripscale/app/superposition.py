@@ -24,8 +24,8 @@ from gripscale.rubber import ShiftTable, write_shift_table
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.superposition import temperatures_in
 
-FILE = "shift_by_hand.csv"
-STEP = 0.05
+_FILE = "shift_by_hand.csv"
+_STEP = 0.05
 """Step of log10 a_T at an arrow of its field."""
 Redraw = Callable[[], Awaitable[None]]
 
@@ -56,7 +56,7 @@ def shift_form(state: CaseState, table: ShiftTable, redraw: Redraw) -> pn.Column
     """Return a field of log10 a_T for each sweep; a click makes them the shift of the case."""
     fields = [
         pn.widgets.FloatInput(
-            label=f"{kelvin - ZERO_CELSIUS:.1f} °C", value=round(float(value), 3), step=STEP,
+            label=f"{kelvin - ZERO_CELSIUS:.1f} °C", value=round(float(value), 3), step=_STEP,
             width=100,
         )
         for kelvin, value in zip(table.temperature, table.horizontal, strict=True)
@@ -66,8 +66,8 @@ def shift_form(state: CaseState, table: ShiftTable, redraw: Redraw) -> pn.Column
         values = np.array([field.value for field in fields], dtype=float)
         with state.refusals("rubber"), tempfile.TemporaryDirectory() as folder:
             changed = ShiftTable(table.temperature, values, vertical=table.vertical)
-            written = write_shift_table(Path(folder) / FILE, changed)
-            name = state.visit.store(FILE, written.read_bytes())
+            written = write_shift_table(Path(folder) / _FILE, changed)
+            name = state.visit.store(_FILE, written.read_bytes())
             state.set(("rubber", "vertical"), None)  # it would be found anew
             state.set(("rubber", "shift"), name)
         await redraw()

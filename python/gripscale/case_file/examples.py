@@ -53,7 +53,7 @@ def sweeps_text() -> str:
     return "\n".join(rows) + "\n"
 
 
-CASE = "case.toml"
+_CASE = "case.toml"
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
     target = Path(folder)
     # A case of the source tree seeks its data in the folder above.
     text = _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
-    contents = {CASE: text.encode("utf-8")}
+    contents = {_CASE: text.encode("utf-8")}
     contents |= {path: _packaged(path) for path in example.files}
     contents |= {path: make().encode("utf-8") for path, make in example.made}
     parent = nearest_existing(target)

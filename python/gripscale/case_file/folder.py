@@ -113,7 +113,7 @@ def _free_target(
     return next(filter(is_free, targets))
 
 
-FIGURES = (
+_FIGURES = (
     "profile",
     "correlation",
     "master_curve",
@@ -136,7 +136,7 @@ RESULTS = (
     "report.txt",
     "summary.xlsx",
     CASE,
-    *(f"figures/{name}.{kind}" for name in (*FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
+    *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 """Everything a run may write into its folder, beside copies of the files the case names."""
 

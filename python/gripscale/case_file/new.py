@@ -37,14 +37,14 @@ from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.sweeps import holds_sweeps
 
-LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
+_LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
 """What is taken where the caller states nothing."""
-HEAD = """\
+_HEAD = """\
 # Written by `gripscale new`. Quantities are texts with their unit; paths start at this file.
 # `gripscale keys` lists every key with its default and meaning.
 """
-WIDTH = 98
-COMMENT: dict[str, Any] = {
+_WIDTH = 98
+_COMMENT: dict[str, Any] = {
     "initial_indent": "# ",
     "subsequent_indent": "# ",
     "break_long_words": False,
@@ -243,7 +243,7 @@ def _name_in(directory: Path, file: Path) -> str:
 
 def _load_proposal(load: Mapping[str, str]) -> Proposal:
     proposal = Proposal()
-    for key, default in LOAD.items():
+    for key, default in _LOAD.items():
         if load.get(key) is not None:
             proposal.add(key, load[key])
         else:
@@ -259,12 +259,12 @@ def case_text(
 
     The doubts are those of the proposals and `further` ones; `results` is the folder of results.
     """
-    parts = [HEAD]
+    parts = [_HEAD]
     doubts = ranked(tables, further)
     if doubts:
         parts += ["# Doubts, the most important first:"]
         for number, doubt in enumerate(doubts, start=1):
-            parts += textwrap.wrap(f"{number}. {doubt.text}", WIDTH, **COMMENT)
+            parts += textwrap.wrap(f"{number}. {doubt.text}", _WIDTH, **_COMMENT)
         parts += [""]
     meanings = {
         (section.name, key.name): key.meaning for section in sections() for key in section.keys
@@ -275,7 +275,7 @@ def case_text(
         parts.append(f"[{name}]")
         for key, value in proposal.keys.items():
             reason = proposal.reasons.get(key) or meanings[name, key].rstrip(".")
-            parts += [*textwrap.wrap(reason, WIDTH, **COMMENT), f"{key} = {_toml(value)}"]
+            parts += [*textwrap.wrap(reason, _WIDTH, **_COMMENT), f"{key} = {_toml(value)}"]
         parts.append("")
     return "\n".join([*parts, "[output]", f"folder = {_toml(results)}", ""])
 
@@ -285,7 +285,7 @@ def _toml(value: Any) -> str:
     if isinstance(value, Mapping):
         pairs = ", ".join(f"{key} = {_toml(item)}" for key, item in value.items())
         return f"{{ {pairs} }}"
-    if isinstance(value, list) and sum(map(len, value)) > WIDTH // 2:
+    if isinstance(value, list) and sum(map(len, value)) > _WIDTH // 2:
         return "\n".join(["[", *(f"  {_toml(item)}," for item in value), "]"])
     return json.dumps(value, ensure_ascii=False)
 

@@ -34,11 +34,11 @@ from gripscale.surface.plausibility import has_likely_units
 from gripscale.surface.read import TEXT_SUFFIXES
 from gripscale.surface.supports import road_between, support_plates
 
-Measurement = TypeVar("Measurement")
+_Measurement = TypeVar("_Measurement")
 
-SCALES = 8
+_SCALES = 8
 """Waves of a surface that states none, as in `gripscale fit-surface`."""
-CUT_OFF = "instrument"
+_CUT_OFF = "instrument"
 """Where its roughness ends: where the measurement does."""
 ROOM = 293.15
 """Temperature taken where neither a file nor the caller states one [K]."""
@@ -83,7 +83,7 @@ class Proposal:
 
 
 LENGTHS = ("mm", "um", "m")
-SHORTEST, LONGEST = 1e-3, 20.0
+_SHORTEST, _LONGEST = 1e-3, 20.0
 """Lengths of profiles whose files state no unit [m]."""
 UNITS_OF_SURFACE = {"x_unit": LENGTHS[0], "z_unit": LENGTHS[0]}
 UNITS_OF_RUBBER = {
@@ -96,8 +96,8 @@ UNITS_OF_RUBBER = {
 
 
 def _read_with(
-    read: Callable[..., Measurement], path: Any, defaults: Mapping[str, str], **options: Any
-) -> tuple[Measurement, dict[str, str]]:
+    read: Callable[..., _Measurement], path: Any, defaults: Mapping[str, str], **options: Any
+) -> tuple[_Measurement, dict[str, str]]:
     """Return what a file holds, and the keys without which it cannot be read, by default.
 
     Raises what reading raises about anything but `defaults`.
@@ -142,9 +142,9 @@ def surface_proposal(
     if isinstance(surface, Profile):
         options |= units
         _add_crop(proposal, [read_profile(path, **options) for path in paths])
-    proposal.add("scales", SCALES, "sine waves of the chain")
+    proposal.add("scales", _SCALES, "sine waves of the chain")
     words = "roughness below what the measurement carries is left out; it may add friction"
-    proposal.add("cut_off", CUT_OFF, words, Weight.SCATTER)
+    proposal.add("cut_off", _CUT_OFF, words, Weight.SCATTER)
     return proposal
 
 
@@ -192,7 +192,7 @@ def _likely_units(
         surface = read(path, **options, **units)
         middle = surface.z.shape[-1] // 2
         line = surface.line(middle) if isinstance(surface, HeightMap) else surface
-        return SHORTEST <= line.length <= LONGEST and has_likely_units(line)
+        return _SHORTEST <= line.length <= _LONGEST and has_likely_units(line)
 
     choices = [
         dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))

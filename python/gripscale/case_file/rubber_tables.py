@@ -39,14 +39,14 @@ OF_ANY_RUBBER = {"file", "name", "bulk_modulus", "strain_energy", "extrapolate",
 """Keys of [rubber] that a named rubber may have."""
 
 
-FILES = "the name of a file, or a list of names"
+_FILES = "the name of a file, or a list of names"
 
 
 def _files(value: Any) -> Any:
     """Accept a name or a list of them."""
     names = value if isinstance(value, list) else [value]
     if value is not None and not (names and all(isinstance(name, str) for name in names)):
-        raise ValueError(f"expected {FILES}")
+        raise ValueError(f"expected {_FILES}")
     return value
 
 
@@ -85,7 +85,7 @@ class RubberSource(LayoutKeys):
     The file is a master curve, or sweeps at several temperatures to make one of.
     """
 
-    file: Annotated[str | list[str] | None, Reading(FILES, _files)] = None
+    file: Annotated[str | list[str] | None, Reading(_FILES, _files)] = None
     """A measured master curve, or sweeps at several temperatures, in one file or several."""
     name: Literal["styrene_butadiene"] | None = None
     """A rubber known by name, in place of a file."""

@@ -317,7 +317,7 @@ def by_kind(laws: Mapping[str, type], *, or_file: bool = False) -> Reading:
 
 
 COLUMN = "its name or its number from 1"
-COLUMNS = (
+_COLUMNS = (
     "three names or numbers from 1, of frequency, storage and loss modulus, or a table such as "
     "{ frequency = 1, storage = 2, loss_factor = 4 }"
 )
@@ -335,9 +335,9 @@ def _column(value: Any) -> str | int:
 def _columns(value: Any) -> dict[str, str | int]:
     """Accept three columns, or a table of them by quantity."""
     if not isinstance(value, dict | list):
-        raise ValueError(f"expected {COLUMNS}")
+        raise ValueError(f"expected {_COLUMNS}")
     return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
 
 
 Column = Annotated[str | int, Reading(COLUMN, _column)]
-Columns = Annotated[dict[str, str | int], Reading(COLUMNS, _columns)]
+Columns = Annotated[dict[str, str | int], Reading(_COLUMNS, _columns)]

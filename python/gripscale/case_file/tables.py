@@ -33,7 +33,7 @@ from gripscale.questions.uncertainty.options import (
 )
 from gripscale.rubber.strain_energy import NeoHookean
 
-CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
+_CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
 
 
 def _cut_off(value: Any) -> Any:
@@ -43,7 +43,7 @@ def _cut_off(value: Any) -> Any:
     return None if value is None else cut_off_rule(value)
 
 
-STEP = 'a length such as "0.1 mm", or a list of 2, along x and y'
+_STEP = 'a length such as "0.1 mm", or a list of 2, along x and y'
 
 
 def _step(value: Any) -> Any:
@@ -52,7 +52,7 @@ def _step(value: Any) -> Any:
         return None
     lengths = value if isinstance(value, list | tuple) else [value]
     if len(lengths) > 2 or not lengths:
-        raise ValueError(f"expected {STEP}")
+        raise ValueError(f"expected {_STEP}")
     numbers = [parse_quantity(length, "length") for length in lengths]
     if min(numbers) <= 0.0:
         raise ValueError("expected a value greater than zero")
@@ -96,7 +96,7 @@ class SurfaceTable(Table):
     """Channel of an instrument's file that has several of heights."""
     sheet: Column | None = None
     """Sheet of an Excel file, where several hold numbers."""
-    step: Annotated[Any, Reading(STEP, _step)] = None
+    step: Annotated[Any, Reading(_STEP, _step)] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
     crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
     """First and last distance to keep along x; all by default."""
@@ -124,7 +124,7 @@ class SurfaceTable(Table):
     """Number of waves."""
     smallest_wavelength: Length | None = None
     """Wavelength of the last wave."""
-    cut_off: Annotated[Any, Reading(CUT_OFF, _cut_off)] = None
+    cut_off: Annotated[Any, Reading(_CUT_OFF, _cut_off)] = None
     """Where the roughness ends, in place of smallest_wavelength."""
     s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     """Factor from one wavelength to the next, if given instead of fitted."""
@@ -401,7 +401,7 @@ class FinerTable(Table):
     """Unit of heights where the file does not name it."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
-    step: Annotated[Any, Reading(STEP, _step)] = None
+    step: Annotated[Any, Reading(_STEP, _step)] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
 
     @model_validator(mode="after")

@@ -36,7 +36,7 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult
 
-POINTS = 256
+_POINTS = 256
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class WaveHeat:
     @property
     def wavenumbers(self) -> Array:
         """Of the harmonics [rad/m]."""
-        return np.asarray(2.0 * math.pi / self.wavelength * np.arange(1.0, POINTS // 2))
+        return np.asarray(2.0 * math.pi / self.wavelength * np.arange(1.0, _POINTS // 2))
 
     @classmethod
     def of(cls, wave: ScaleResult, rubber: Rubber) -> WaveHeat:
@@ -67,10 +67,10 @@ class WaveHeat:
         frequency of the wave. The depth of the loss comes from the solver, if it reports one; else
         each harmonic has a mean depth of 3/2 over its wavenumber.
         """
-        steps = np.arange(POINTS) * wave.wavelength / POINTS
+        steps = np.arange(_POINTS) * wave.wavelength / _POINTS
         pressure = np.interp(steps, wave.x, wave.pressure, period=wave.wavelength)
-        spectrum = np.fft.rfft(np.asarray(pressure)) / POINTS
-        number = np.arange(1, POINTS // 2)
+        spectrum = np.fft.rfft(np.asarray(pressure)) / _POINTS
+        number = np.arange(1, _POINTS // 2)
         modulus = rubber.plane_strain_modulus(number * wave.angular_frequency)
         lost = np.zeros(spectrum.size)
         lost[1:-1] = np.abs(spectrum[1:-1]) ** 2 * modulus.imag / np.abs(modulus) ** 2

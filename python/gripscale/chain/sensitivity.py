@@ -50,11 +50,11 @@ from gripscale.wave.result import ScaleResult
 
 STEP = 0.05
 """Change of the logarithm of an input."""
-KELVIN_STEP = 2.0
+_KELVIN_STEP = 2.0
 """Change of the temperature [K]."""
 SETTINGS = {"residual_tolerance": 1e-6, "most_mismatch": 1e6, "fewest_contact_nodes": 1}
 """Of the waves solved again: no finer mesh, and five digits are enough."""
-SOURCE = "differences of solved waves"
+_SOURCE = "differences of solved waves"
 Change = Callable[[float], tuple[Sequence[Rubber], Load]]
 """The rubbers of all waves and the load, with an input changed by so much."""
 
@@ -166,7 +166,7 @@ class WaveDifferences:
             "temperature": np.full(2, math.nan),
         }
         if self.solved.rubber.shift is not None:
-            derivatives["temperature"] = self.by(warmer, KELVIN_STEP)
+            derivatives["temperature"] = self.by(warmer, _KELVIN_STEP)
         return derivatives
 
 
@@ -223,14 +223,14 @@ def wave_sensitivity(
         [result.cut_off_exponents.friction, result.cut_off_exponents.contact_fraction]
     )
     data = {
-        "friction": labelled((), result.friction, "1", "friction coefficient", SOURCE),
+        "friction": labelled((), result.friction, "1", "friction coefficient", _SOURCE),
         "contact_fraction": labelled(
-            (), result.contact_fraction, "1", "real over nominal contact area", SOURCE
+            (), result.contact_fraction, "1", "real over nominal contact area", _SOURCE
         ),
     }
     for at, quantity in enumerate(("friction", "contact_fraction")):
         of_one = {name: value[..., at] for name, value in both.items()}
-        data |= derivative_variables(quantity, of_one, SOURCE)
+        data |= derivative_variables(quantity, of_one, _SOURCE)
     return derivatives_dataset(
         data,
         bands,

@@ -31,15 +31,15 @@ from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, stretches
 from gripscale.core.arrays import Array
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
-LABELS = 70
+_LABELS = 70
 """Room for the numbers of the ordinates of linked figures [px], whose frames are aligned."""
-COLUMNS = 1000
+_COLUMNS = 1000
 """Pieces of an outline as the page is opened, a pixel each."""
 LEAST_EXPONENT = -5
 """Powers of ten below it are written as such; 0.0004 is shorter than what Bokeh makes of it."""
 LEAST_DECADES = 1000.0
 """From this ratio of largest to least on a log axis, Bokeh labels the decades."""
-AROUND = 75
+_AROUND = 75
 """Height of a figure around its frame [px]: abscissa and a line of the legend."""
 LEGEND_LINES = """\
 :host { width: max-content; max-width: 100%; }
@@ -51,16 +51,16 @@ PIXELS = 1.3
 """Pixels of a line on the page for each point of its width on paper."""
 LEAST_MARKER = 6.0
 """Size of a marker that a pointer can hit [px]."""
-LEAST_RANGE = 2.0
+_LEAST_RANGE = 2.0
 """Largest over smallest number of a logarithmic ordinate, so that there are numbers along it."""
 MOST_HOVERED = 2000
 """Points of a curve that tells its numbers under the pointer."""
 MOST_EXACT = 300
 """Points above which a curve is stored in single precision: enough to draw, half the size."""
 
-DASHES = {"dotted": [2, 4], "dashed": [6], "dashdot": [2, 4, 6, 4], "solid": []}
+_DASHES = {"dotted": [2, 4], "dashed": [6], "dashdot": [2, 4, 6, 4], "solid": []}
 """Lengths of dashes and gaps [px]."""
-MARKERS = {
+_MARKERS = {
     "o": "circle", ".": "circle", "s": "square", "^": "triangle", "v": "inverted_triangle",
     "D": "diamond", "P": "plus", "X": "x", "x": "x", "+": "cross", "<": "hex", "d": "diamond_cross",
     ">": "star", "*": "star", "h": "square_pin", "p": "triangle_pin", "|": "dash",
@@ -78,7 +78,7 @@ def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> p
     store = Store()
     figures = [_figure(panel, store, along=True) for panel in panels]
     for figure in figures:
-        figure.update(x_range=figures[0]["x_range"], min_border_left=LABELS, toolbar_location=None)
+        figure.update(x_range=figures[0]["x_range"], min_border_left=_LABELS, toolbar_location=None)
     alike = zip(*(figure["toolbar"]["tools"][:4] for figure in figures), strict=True)
     shared = [Part("ToolProxy", tools=list(tools)) for tools in alike]
     toolbar = Part("Toolbar", tools=[*shared, Part("SaveTool")], logo=None, active_drag=shared[1])
@@ -107,7 +107,7 @@ class Store:
 
 
 def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
-    figure = Part("Figure", height=None, frame_height=panel.height - AROUND,
+    figure = Part("Figure", height=None, frame_height=panel.height - _AROUND,
                   sizing_mode="stretch_width", match_aspect=panel.to_scale,
                   outline_line_color=None, renderers=[], toolbar=_toolbar(along), center=[],
                   right=[], above=[_legend()])  # fmt: skip
@@ -139,7 +139,7 @@ def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND, line_color=GREY,
-                   line_dash=DASHES["dashed"])  # fmt: skip
+                   line_dash=_DASHES["dashed"])  # fmt: skip
     if named := [point for point in points if point["name"]]:
         points = named
     if points:
@@ -226,7 +226,7 @@ def _limits(which: str, axis: Axis, values: Array) -> Part:
         values = values[values > 0.0]
         if which == "x" or not values.size:
             return Part("DataRange1d")
-        room = max(LEAST_RANGE * values.min() / values.max(), 1.2) ** 0.5
+        room = max(_LEAST_RANGE * values.min() / values.max(), 1.2) ** 0.5
         limited = {"start": float(values.min() / room), "end": float(values.max() * room)}
     return Part("DataRange1d", **{end: at for end, at in limited.items() if at is not None})
 
@@ -300,7 +300,7 @@ def _draw_series(figure: Part, series: Series, *, positive: bool) -> list[Part]:
         _draw_glyph(figure, source, bars, series.label, name)
     if series.dash:
         for part, dashed in stretches(np.broadcast_to(series.beyond, x.shape)):
-            dash = DASHES["dashed" if dashed else series.dash]
+            dash = _DASHES["dashed" if dashed else series.dash]
             lines.append(_draw_line(figure, x[part], y[part], series.label, name,
                                     line_width=width, line_dash=dash, **look))  # fmt: skip
     if series.marker:
@@ -310,7 +310,7 @@ def _draw_series(figure: Part, series: Series, *, positive: bool) -> list[Part]:
             if chosen.any():
                 source = columns({"x": x[chosen], "y": y[chosen]})
                 markers = _glyph(
-                    "Scatter", source, marker=MARKERS[series.marker], size=size,
+                    "Scatter", source, marker=_MARKERS[series.marker], size=size,
                     line_width=max(width, 1.0) if series.marker in "x+|" else 1.2,
                     angle=0.5 * np.pi if series.marker == "|" else 0.0,
                     fill_color=face, fill_alpha=series.alpha, **look,
@@ -327,7 +327,7 @@ def _glyph(kind: str, source: Part, **look: Any) -> Part:
 
 def _draw_outline(figure: Part, outline: Outline, store: Store) -> None:
     """Draw a curve in pieces; `templates/outlines.js` draws it anew as the reader zooms."""
-    x, y = outline.drawn(COLUMNS)
+    x, y = outline.drawn(_COLUMNS)
     names = [store.name(values) for values in (outline.x, outline.low, outline.high)]
     tags = ["outline", store.source(np.size(outline.x)), *names]
     source = columns({"x": _stored(x), "y": _stored(y)}, tags=tags)
@@ -370,7 +370,7 @@ def _draw_cross_line(figure: Part, line: CrossLine, panel: Panel) -> None:
     """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
     look: dict[str, Any] = {
         "line_color": line.colour,
-        "line_dash": DASHES[line.dash],
+        "line_dash": _DASHES[line.dash],
         "line_width": PIXELS * line.width,
     }
     if line.upright:

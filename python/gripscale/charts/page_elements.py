@@ -54,10 +54,10 @@ class Image:
     kind: ClassVar[str] = "image"
 
 
-AT_REST = "static_"
+_AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""
 
-WORDS = {
+_WORDS = {
     "best_friction_low": "its 90 %, from",
     "best_friction_high": "to",
     "best_contact_fraction_low": "its 90 %, from",
@@ -89,23 +89,23 @@ WORDS = {
 
 def words_of(data: xr.Dataset, name: str) -> str:
     """Return what a page calls a variable or an axis."""
-    if name.startswith(AT_REST):
-        return f"{words_of(data, name.removeprefix(AT_REST))}, at rest"
-    if name in WORDS:
-        return WORDS[name]
+    if name.startswith(_AT_REST):
+        return f"{words_of(data, name.removeprefix(_AT_REST))}, at rest"
+    if name in _WORDS:
+        return _WORDS[name]
     plain = name.replace("_", " ")
     if name in LABELS or name not in data.variables:
         return plain
     return str(data[name].attrs.get("long_name", plain))
 
 
-EVIDENCE = ("_error", "_half_width", "_uncertainty", "_low", "_high", "_freedom", "_share")
+_EVIDENCE = ("_error", "_half_width", "_uncertainty", "_low", "_high", "_freedom", "_share")
 """Ends of the names of numbers that say how well another one is known."""
 
 
 def is_evidence(name: str) -> bool:
     """Return whether a number of a study says how well another one is known, not what it is."""
-    return name.endswith(EVIDENCE)
+    return name.endswith(_EVIDENCE)
 
 
 def telling(variable: xr.DataArray) -> bool:

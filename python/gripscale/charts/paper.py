@@ -44,10 +44,10 @@ from gripscale.io.netcdf import write_whole
 DPI = 200
 """Pixels per inch of a PNG, and of what is rasterised in a PDF."""
 
-PIECES = 5000
+_PIECES = 5000
 """Pieces of an outline: several to a pixel, so that most gaps are still seen."""
 
-LETTER, KEY = 0.062, 0.5
+LETTER, _KEY = 0.062, 0.5
 """Width of a letter of a legend in the mean, and of a key with the gaps beside it [inch]."""
 
 MOST_MARKED = 1e7
@@ -92,7 +92,7 @@ DASHES: dict[str, Any] = {
 HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
 """Look of a band beyond the measured band."""
 
-STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
+_STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
     "x": ((8.0, (1, 2, 3, 5, 7)), (60.0, (1, 2, 5)), (1e3, (1, 3))),
     "y": (
         (3.0, (1, 1.2, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9)),
@@ -180,7 +180,7 @@ def _end_axis(axes: Axes, which: str, axis: Axis) -> None:
         axes.tick_params(axis=which, length=0)  # type: ignore[arg-type]
     elif axis.log:
         low, high = sorted(drawn.get_view_interval())
-        steps = next((steps for most, steps in STEPS[which] if high < most * low), (1,))
+        steps = next((steps for most, steps in _STEPS[which] if high < most * low), (1,))
         drawn.set_major_locator(LogLocator(subs=steps, numticks=axis.numbers or 12))
         drawn.set_major_formatter(lambda value, _: short_number(value))
         drawn.set_minor_locator(NullLocator())  # `_mark_between` draws them
@@ -193,7 +193,7 @@ def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
         case Series():
             _draw_series(axes, mark)
         case Outline():
-            _draw_series(axes, Series(*mark.drawn(PIECES), mark.colour, mark.label,
+            _draw_series(axes, Series(*mark.drawn(_PIECES), mark.colour, mark.label,
                                       width=mark.width, coarse=True))  # fmt: skip
         case Band():
             _draw_band(axes, mark)
@@ -343,7 +343,7 @@ def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
     def needed(columns: int) -> float:
         lengths = [len(spelled_out(label)) for label in labels]
         widest = [max(part, default=0) for part in np.array_split(lengths, columns)]
-        return float(LETTER * sum(widest) + KEY * columns)
+        return float(LETTER * sum(widest) + _KEY * columns)
 
     return next((columns for columns in range(most, 1, -1) if needed(columns) <= width), 1)
 

@@ -11,9 +11,9 @@ from typing import Annotated
 
 from gripscale.terminal import argument, command, print_wrapped, screen
 
-COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
+_COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
 CODE = re.compile(r"^(`{3,}|~{3,}).*?^\1", flags=re.MULTILINE | re.DOTALL)
-PICTURE = re.compile(r"^!\[([^\]]*)\]\([^)]*\)\s*$", flags=re.MULTILINE)
+_PICTURE = re.compile(r"^!\[([^\]]*)\]\([^)]*\)\s*$", flags=re.MULTILINE)
 
 
 def pages() -> dict[str, Traversable]:
@@ -46,8 +46,8 @@ def docs(
     name, _, heading = page.partition("#")
     name = name.removesuffix(".md")
     checks.allowed_names("page", [name], list(texts))
-    text = COMMENT.sub("", texts[name].read_text(encoding="utf-8"))
-    text = PICTURE.sub(r"*Figure: \1.*", text)
+    text = _COMMENT.sub("", texts[name].read_text(encoding="utf-8"))
+    text = _PICTURE.sub(r"*Figure: \1.*", text)
     if heading:
         text = _from_heading(text, heading)
     if sys.stdout.isatty():

@@ -21,7 +21,7 @@ export = typer.Typer(
     rich_markup_mode=None,
 )
 
-Result = Annotated[Path, argument("The .nc file of a result.", "RESULT.nc")]
+_Result = Annotated[Path, argument("The .nc file of a result.", "RESULT.nc")]
 
 
 @export.command("rubber")
@@ -88,7 +88,7 @@ def _band(text: str) -> tuple[float, float]:
 @export.command("tables")
 @command
 def tables(
-    result: Result,
+    result: _Result,
     output: Annotated[Path, option("Folder for the tables.", metavar="DIR")],
     format: Annotated[str, typer.Option(help="csv, or xlsx for one workbook.")] = "csv",
 ) -> None:
@@ -102,7 +102,7 @@ def tables(
 @export.command("mesh")
 @command
 def mesh(
-    result: Result,
+    result: _Result,
     wave: Annotated[int, typer.Option(help="Number of the wave, from 1.")],
     output: Annotated[Path, option("The file to write.", metavar="FILE.vtu")],
 ) -> None:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from gripscale.surface import Surface
 
 
-FIGURES = ("png", "pdf")
+_FIGURES = ("png", "pdf")
 """What figures of a command without a case are written as."""
 
 
@@ -201,7 +201,7 @@ def fit_surface(
         from gripscale.charts.write import surface_figures
 
         make_folder(output)
-        surface_figures(prepared, FigureFolder(output, FIGURES))
+        surface_figures(prepared, FigureFolder(output, _FIGURES))
         console.print()
         print_wrapped(console, f"Figures are in {output}")
 
@@ -287,7 +287,7 @@ def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     from gripscale.io.folders import make_folder, write_text
 
     make_folder(output)
-    rubber_figures(prepared, (), FigureFolder(output, FIGURES))
+    rubber_figures(prepared, (), FigureFolder(output, _FIGURES))
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
         print_wrapped(console, f"The figure is in {output}")

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from gripscale.questions.chain.run import ChainRun
 
 
-REPORT, REPORT_WIDTH = "report.txt", 110
+_REPORT, REPORT_WIDTH = "report.txt", 110
 """The text a run leaves, and the characters of its lines."""
 CLOSING = "Results, report and figures are in"
 
@@ -104,7 +104,7 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
 
 def _print_finished(console: Console, target: Path) -> None:
     """Print the report of a run that is finished."""
-    report = target / REPORT
+    report = target / _REPORT
     date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
     typer.echo(report.read_text(encoding="utf-8"))
     words = f"Finished {date}. Case, files and software are the same; nothing was solved "
@@ -152,13 +152,13 @@ def _run(
             target,
             parts,
             results=solved,
-            text=REPORT,
+            text=_REPORT,
             closing=CLOSING,
             opening=opening,
             width=REPORT_WIDTH,
             draw=draw_conditions,
         )
-        emit(FileWritten(str(target / REPORT)))
+        emit(FileWritten(str(target / _REPORT)))
         if solved:
             emit(FileWritten(str(target / SUMMARY)))
     _print_older_page(console, target)
@@ -183,7 +183,7 @@ def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answ
         terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
     result = chain.answer = answer(case, folder=target)
     lead, inputs = ["", *result.lines], ["", *_inputs(case)]
-    for line in (*lead, *warning_lines(result.findings, REPORT), *inputs):
+    for line in (*lead, *warning_lines(result.findings, _REPORT), *inputs):
         terminal.print_wrapped(console, line)
     return result, [header, *lead, *warning_lines(result.findings), *inputs]
 

@@ -36,7 +36,7 @@ from gripscale.rubber.softening import SofteningLaw, softened, softening_from_di
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
 
-HARMONICS = np.geomspace(1.0, 16.0, 12)
+_HARMONICS = np.geomspace(1.0, 16.0, 12)
 """Frequencies, over that of a wave, at which a Prony series is fitted to the softened moduli."""
 ROWS_AT_ONCE = 50_000
 
@@ -181,7 +181,7 @@ def rubber_under(
     if conditions.softening is not None:
         ratios = conditions.softening.factors(strain, kelvin)
         f, g, outside = float(ratios.storage), float(ratios.loss), bool(ratios.outside)
-        series = softened(solid, f, g, omega * HARMONICS if omega > 0.0 else ())
+        series = softened(solid, f, g, omega * _HARMONICS if omega > 0.0 else ())
         solid, misfit = series.rubber, series.misfit
     return RubberState(solid, f, g, misfit, outside, warm_outside)
 

@@ -62,7 +62,7 @@ class Iteration(Generic[S]):
     """Whether the solution converged."""
 
 
-Solve = Callable[[Array | None, S | None], Iteration[S]]
+_Solve = Callable[[Array | None, S | None], Iteration[S]]
 """Evaluates the state x, starting from the last solution if there is one."""
 
 
@@ -76,7 +76,7 @@ class FixedPoint(Generic[S]):
     converged: bool
 
 
-def solve_fixed_point(fine: Solve[S], coarse: Solve[S] | None) -> FixedPoint[S]:
+def solve_fixed_point(fine: _Solve[S], coarse: _Solve[S] | None) -> FixedPoint[S]:
     """Return the solution that agrees with the state it assumes.
 
     A `coarse` mesh that fails, or whose own fixed point is not found, is not used any more.
@@ -106,7 +106,7 @@ def solve_fixed_point(fine: Solve[S], coarse: Solve[S] | None) -> FixedPoint[S]:
 
 
 def _solve_on_fine_mesh(
-    fine: Solve[S], last: Iteration[S], count: int, coarse: int
+    fine: _Solve[S], last: Iteration[S], count: int, coarse: int
 ) -> FixedPoint[S]:
     """Iterate without a coarse mesh, after `count` fine and `coarse` coarse evaluations."""
     sequence, converged = AndersonSequence(last.value), False
@@ -167,7 +167,7 @@ class AndersonSequence:
 class _CoarseModel(Generic[S]):
     """The coarse mesh with its defect F - f added, as a model of the fine one."""
 
-    def __init__(self, evaluate: Solve[S], start: Iteration[S]) -> None:
+    def __init__(self, evaluate: _Solve[S], start: Iteration[S]) -> None:
         self.evaluate, self.last, self.count = evaluate, start, 1
         self.sequence = AndersonSequence(start.value)
         zero = np.zeros_like(start.value)
@@ -218,7 +218,7 @@ class _Defect:
         return _Defect(x, value, x - self.x, value - self.value)
 
 
-def _evaluated(solve: Solve[S], x: Array | None, start: S | None) -> Iteration[S] | None:
+def _evaluated(solve: _Solve[S], x: Array | None, start: S | None) -> Iteration[S] | None:
     """Return the evaluation at `x`, None if it has no usable solution."""
     try:
         iteration = solve(x, start)

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 LEAST, MOST = 1e-100, 1e100
 """Quantities beyond these are mistakes; within them no square or product of two overflows."""
@@ -213,7 +213,7 @@ def flag(name: str, value: Any) -> bool:
     return bool(value)
 
 
-def instance(name: str, value: Any, kind: type[T]) -> T:
+def instance(name: str, value: Any, kind: type[_T]) -> _T:
     """Return `value`; raise `InputError` unless it is an instance of `kind`."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
@@ -221,7 +221,7 @@ def instance(name: str, value: Any, kind: type[T]) -> T:
     return value
 
 
-def instances(name: str, values: Any, kind: type[T]) -> list[T]:
+def instances(name: str, values: Any, kind: type[_T]) -> list[_T]:
     """Return `values` as a list; raise `InputError` unless it holds instances of `kind` only."""
     if not isinstance(values, Sequence) or isinstance(values, str | bytes) or not values:
         raise InputError(
@@ -306,7 +306,7 @@ def _in(unit: str) -> str:
     return f" [{unit}]" if unit else ""
 
 
-def from_mapping(law: type[T], kind: str, values: Mapping[str, Any]) -> T:
+def from_mapping(law: type[_T], kind: str, values: Mapping[str, Any]) -> _T:
     """Return the dataclass `law` with parameters `values`; those with a default may be left out.
 
     Raises `InputError` that lists the parameters if one is missing or unknown.
@@ -323,7 +323,7 @@ def from_mapping(law: type[T], kind: str, values: Mapping[str, Any]) -> T:
     return law(**values)
 
 
-def of_kind(laws: Mapping[str, type[T]], name: str, values: Any) -> T:
+def of_kind(laws: Mapping[str, type[_T]], name: str, values: Any) -> _T:
     """Return the law of a mapping such as {"kind": "wlf", "c1": 8.0, "c2": 120.0}.
 
     Raises `InputError`, which calls it `name`, if it is no mapping, its kind is not one of `laws`

@@ -36,8 +36,8 @@ def held_back() -> Iterator[None]:
             before(*came[-1])
 
 
-T = TypeVar("T")
-Job = Callable[[threading.Event], T]
+_T = TypeVar("_T")
+Job = Callable[[threading.Event], _T]
 """Solves one task; stops between two steps once the event is set."""
 _here = threading.local()
 
@@ -83,7 +83,7 @@ def worker_count(workers: int | None) -> int:
     return cores() if share is None else share
 
 
-def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T], None, None]:
+def in_threads(jobs: Sequence[Job[_T]], workers: int) -> Generator[tuple[int, _T], None, None]:
     """Yield the index and the result of each job in the order of completion.
 
     If there are fewer jobs than workers, each job may use an equal share of the workers. After an
@@ -98,7 +98,7 @@ def in_threads(jobs: Sequence[Job[T]], workers: int) -> Generator[tuple[int, T],
 
     pool = ThreadPoolExecutor(workers, "gripscale", initializer=start_thread)
     try:
-        futures: dict[Future[T], int] = {
+        futures: dict[Future[_T], int] = {
             pool.submit(job, stop): index for index, job in enumerate(jobs)
         }
         for future in as_completed(futures):

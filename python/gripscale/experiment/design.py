@@ -43,10 +43,10 @@ CHANGES = {
 }
 """Names of what an effect changes, relative to the answer without it."""
 
-NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
+_NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
 """Numbers of the whole surface that an answer may have."""
 
-SURFACE = (*NUMBERS, WHY_NO_EXPONENT, STATUS, STATUS_WORD)
+SURFACE = (*_NUMBERS, WHY_NO_EXPONENT, STATUS, STATUS_WORD)
 """All an answer says of the whole surface."""
 
 

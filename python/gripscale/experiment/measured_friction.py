@@ -184,7 +184,7 @@ def _assumption(path: Path, word: str) -> str:
     )
 
 
-FAR = 30.0
+_FAR = 30.0
 """Ratio of measured speeds to that of the case beyond which another unit is likely."""
 
 
@@ -198,10 +198,10 @@ def speed_doubts(measured: MeasuredFriction, speed: float) -> list[str]:
     where = f"The measured speeds, {plain(low, 3)} to {plain(high, 3)} m/s, are"
     if high > most:
         return [f"{where} not all below {most:g} m/s: is their unit right?"]
-    if speed > 0.0 and (low > FAR * speed or high < speed / FAR):
+    if speed > 0.0 and (low > _FAR * speed or high < speed / _FAR):
         side = "above" if low > speed else "below"
         return [
-            f"{where} all more than {FAR:g} times {side} that of the case, {plain(speed, 3)} m/s: "
+            f"{where} all more than {_FAR:g} times {side} that of the case, {plain(speed, 3)} m/s: "
             "is their unit right?"
         ]
     return []

@@ -56,7 +56,7 @@ class Progress:
 
 
 OnTask = Callable[[Progress], None]
-Solve = Callable[[list[Task]], Generator[Solved, None, None]]
+_Solve = Callable[[list[Task]], Generator[Solved, None, None]]
 Pick = Callable[[xr.Dataset, Task], xr.Dataset]
 """Reduces the answer of a task to what is kept in memory."""
 
@@ -118,7 +118,7 @@ class Bench:
         missing = [task for key, (_, task) in wanted.items() if key not in answers]
         count = worker_count(self.workers)
         with ExitStack() as ending:
-            solve: Solve = partial(_in_threads, workers=count)
+            solve: _Solve = partial(_in_threads, workers=count)
             if missing and self.client == PROCESSES:
                 solve = partial(_in_processes, workers=min(count, len(missing)))
             elif missing and self.client is not None:
@@ -212,7 +212,7 @@ CONNECT_SECONDS = 10
 
 
 @contextmanager
-def cluster(client: Any, workers: int) -> Iterator[Solve]:
+def cluster(client: Any, workers: int) -> Iterator[_Solve]:
     """Give a function that solves tasks on a cluster.
 
     Parameters

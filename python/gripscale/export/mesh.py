@@ -313,7 +313,7 @@ def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: s
     element.text = base64.b64encode(length + content).decode("ascii")
 
 
-NUMBERS = (
+_NUMBERS = (
     "wavelength",
     "amplitude",
     "pressure_received",
@@ -381,7 +381,7 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
         "contact_pressure": contact_pressure.ravel(),
     }
     data = {"PointData": point_data, "CellData": cell_data}
-    numbers = {name: float(getattr(result, name)) for name in NUMBERS}
+    numbers = {name: float(getattr(result, name)) for name in _NUMBERS}
     return write_vtu(file_path(path), _vectors(x, z), element_nodes(block), data, numbers)
 
 

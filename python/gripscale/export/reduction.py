@@ -20,9 +20,9 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import Rubber
 
-MARGIN = 10.0**0.5
+_MARGIN = 10.0**0.5
 """How far the times reach beyond the band, as a ratio."""
-PER_DECADE = 20
+_PER_DECADE = 20
 """Frequencies at which the moduli are compared."""
 MOST_TERMS = 200
 
@@ -83,9 +83,9 @@ def reduced(
     count = max(inside, 1)
     if terms is not None:
         count = checks.whole("terms", terms, least=1, most=MOST_TERMS)
-    ends = (1.0 / (MARGIN * high), MARGIN / low)
+    ends = (1.0 / (_MARGIN * high), _MARGIN / low)
     times = np.geomspace(*ends, count) if count > 2 else np.geomspace(*ends, count + 2)[1:-1]
-    omega = np.geomspace(low, high, max(2, round(PER_DECADE * math.log10(high / low))))
+    omega = np.geomspace(low, high, max(2, round(_PER_DECADE * math.log10(high / low))))
     exact = rubber.complex_modulus(omega)
     phase = 1j * omega[:, None] * times
     columns = np.column_stack([np.ones_like(omega), phase / (1.0 + phase)])

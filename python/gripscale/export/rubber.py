@@ -33,7 +33,7 @@ from gripscale.rubber import (
     fit_wlf,
 )
 
-WIDTH = 76
+_WIDTH = 76
 """Characters in a line of comment: Abaqus reads 256, people read fewer."""
 
 
@@ -111,7 +111,7 @@ def comment(remarks: list[str], mark: str) -> list[str]:
         for remark in remarks
         for line in textwrap.wrap(
             "".join(letter if " " <= letter <= "~" else "?" for letter in remark),
-            WIDTH,
+            _WIDTH,
             subsequent_indent="  ",
             break_on_hyphens=False,
         )
@@ -136,7 +136,7 @@ def label(rubber: Rubber, name: str | None) -> str:
     return name
 
 
-LEAST_SHARE = 1e-7
+_LEAST_SHARE = 1e-7
 """Relaxed over instantaneous modulus below which 1 - sum g_i has lost its digits."""
 
 
@@ -164,11 +164,11 @@ def coefficients(rubber: Rubber) -> dict[tuple[int, int], float]:
 def prony_shares(rubber: Rubber) -> Array:
     """Return g_i = E_i / (E_inf + sum E_j) [-], shape (terms,).
 
-    Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `LEAST_SHARE` of the sum.
+    Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `_LEAST_SHARE` of the sum.
     """
-    if rubber.equilibrium_modulus < LEAST_SHARE * rubber.glassy_modulus:
+    if rubber.equilibrium_modulus < _LEAST_SHARE * rubber.glassy_modulus:
         raise InputError(
-            f"equilibrium_modulus must be at least {LEAST_SHARE:g} of E_inf + sum E_i where the "
+            f"equilibrium_modulus must be at least {_LEAST_SHARE:g} of E_inf + sum E_i where the "
             "program takes it as 1 - sum g_i; got "
             f"{rubber.equilibrium_modulus / rubber.glassy_modulus:.3g} of it"
         )

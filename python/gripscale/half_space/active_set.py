@@ -50,15 +50,15 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
-Index = NDArray[np.intp]
+_Index = NDArray[np.intp]
 OnIteration = Callable[[int, int], None]
 """Called with the number of an iteration and of the points that are to change sides."""
 
-REACH = 1
+_REACH = 1
 """Steps along each axis to the neighbours that the extension uses."""
 FAR = 2.0
 """Weight of all farther points, over that of a neighbour along an axis."""
-SHORTEST, LONGEST = 60, 240
+_SHORTEST, _LONGEST = 60, 240
 """Most products of a run of GMRES, doubled after each run that does not reach its target. As many
 vectors of the points in contact are kept. Very lossy rubber needs some hundred."""
 REDUCTION = 1e-4
@@ -84,7 +84,7 @@ before the iteration ends."""
 class Extension:
     """Points around a contact, and the weights that extend a gap to them."""
 
-    around: Index
+    around: _Index
     """As indices of the flattened grid."""
     weights: scipy.sparse.csr_array
     """From the points in contact, in single precision, shape (around, in contact)."""
@@ -92,7 +92,7 @@ class Extension:
     @classmethod
     def of(cls, active: Mask) -> Extension:
         """Return the extension from the points `active` of a periodic grid."""
-        steps = range(-REACH, REACH + 1)
+        steps = range(-_REACH, _REACH + 1)
         near = active
         for axis in range(active.ndim):
             near = near | np.logical_or.reduce([np.roll(near, by, axis) for by in steps if by])
@@ -112,7 +112,7 @@ class Extension:
                 continue
             neighbour = np.zeros_like(around)
             for n, by_step, by in zip(active.shape, moved, step, strict=True):
-                neighbour = neighbour * n + by_step[by + REACH]
+                neighbour = neighbour * n + by_step[by + _REACH]
             column = order[neighbour]
             row = np.flatnonzero(column >= 0).astype(np.int32)
             rows.append(row)
@@ -144,7 +144,7 @@ class ClosedGap:
 class PointsInContact:
     """The projected operator on some points of a grid."""
 
-    def __init__(self, response: Response, where: Index) -> None:
+    def __init__(self, response: Response, where: _Index) -> None:
         self._response = response
         self._where = where
         active = np.zeros(response.grid.points, dtype=bool)
@@ -188,7 +188,7 @@ class PointsInContact:
 
 def close_gap(
     response: Response,
-    where: Index,
+    where: _Index,
     height: Array,
     start: Array,
     displacement: Array,
@@ -205,7 +205,7 @@ def close_gap(
     """
     points = PointsInContact(response, where)
     pressure = start.copy()
-    size, most = float(np.linalg.norm(pressure)), SHORTEST
+    size, most = float(np.linalg.norm(pressure)), _SHORTEST
     for run in range(RUNS + 1):
         residual = points.missing(height - displacement[where])
         norm = float(np.linalg.norm(residual))
@@ -216,7 +216,7 @@ def close_gap(
         correction, reduction = gmres(points, residual / np.float32(norm), target, most)
         short = points.products - before == most
         if short:
-            most = min(2 * most, LONGEST)
+            most = min(2 * most, _LONGEST)
         pressure += norm * correction
         pressure += (start.sum() - pressure.sum()) / len(pressure)
         if short and len(where) <= FEW:
@@ -228,7 +228,7 @@ def close_gap(
     return ClosedGap(pressure, displacement, norm / size, points.products)
 
 
-def _eliminated(response: Response, where: Index, height: Array, load: float) -> Array:
+def _eliminated(response: Response, where: _Index, height: Array, load: float) -> Array:
     """Return the pressure by elimination, with the rigid approach and the load as a border."""
     size, shape = len(where), response.grid.shape
     position = np.unravel_index(where, shape)

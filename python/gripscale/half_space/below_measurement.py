@@ -202,7 +202,7 @@ class ContactByCutOff:
             return xr.Variable("cut_off", values, {"units": unit, "long_name": text})
 
         data = {"measured": over(self.octaves_below == 0.0, "1", "whether all waves were measured")}
-        for name, text in CURVES.items():
+        for name, text in _CURVES.items():
             data[name] = over(self.values(name), "1", text)
         for name in ("contact_fraction", "friction_from_dissipation"):
             for end, sign in (("lower", -1.0), ("upper", 1.0)):
@@ -234,7 +234,7 @@ class ContactByCutOff:
         return xr.Dataset(data, {"cut_off": coordinate}, attributes | provenance.attributes())
 
 
-CURVES = {
+_CURVES = {
     "contact_fraction": "real over nominal contact area",
     "friction": "friction coefficient from the contact traction",
     "friction_from_dissipation": "friction coefficient from the energy lost in the rubber",

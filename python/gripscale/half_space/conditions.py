@@ -33,7 +33,7 @@ from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
-ROUND_OFF = 1e-12
+_ROUND_OFF = 1e-12
 """Share of the friction below which the heat of an octave is neglected."""
 
 
@@ -75,7 +75,7 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     for which in range(int(octave.max()) + 1):
         loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
         total = float(loss.sum())
-        if total > ROUND_OFF * float(lost.sum()):
+        if total > _ROUND_OFF * float(lost.sum()):
             density = np.abs(_forward_field(grid, np.sqrt(loss) * phase)) ** 2
             mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
@@ -179,11 +179,11 @@ class GridSequenceResult:
     levels: KnownLevels
 
 
-Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
+_Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
 
 
 def solve_coupled_contact(
-    solve: Solve, quick: Solve, rubber: Rubber, conditions: Conditions, time: float
+    solve: _Solve, quick: _Solve, rubber: Rubber, conditions: Conditions, time: float
 ) -> RoughContact:
     """Return the contact whose strains and temperatures are those of its rubber.
 
@@ -210,7 +210,7 @@ def solve_coupled_contact(
 class _ContactEvaluation:
     """Evaluates a state: solves the contact with the rubber it makes, and keeps the grids."""
 
-    solve: Solve
+    solve: _Solve
     rubber: Rubber
     conditions: Conditions
     time: float

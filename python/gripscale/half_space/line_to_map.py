@@ -32,7 +32,7 @@ from gripscale.core.errors import InputError
 from gripscale.surface import Profile, Surface
 from gripscale.surface.profile import profile_list
 
-PIECE = 16.0
+_PIECE = 16.0
 """Length of the lines the law was measured on, in largest waves; longer waves count as a slope."""
 _TINY = 1e-12
 EXCEEDED = 0.01
@@ -107,7 +107,7 @@ def upper_height(profile: Profile | Sequence[Profile], largest_wavelength: float
     largest_wavelength : float
         Largest wave that counts as roughness [m].
     """
-    longest = PIECE * checks.positive("largest_wavelength", largest_wavelength, unit="m")
+    longest = _PIECE * checks.positive("largest_wavelength", largest_wavelength, unit="m")
     ratios = []
     for line in profile_list(profile):
         for piece in np.array_split(line.z, max(1, round(line.length / longest))):

@@ -40,11 +40,11 @@ SHARES = {
 STRETCH, LEAST_WAVES, MOST_OF_LINE = 4e-3, 20.0, 0.25
 """Length of a stretch that shows some stones [m], the least in smallest waves and the most in
 lengths of the line."""
-PIECES = 2**15
+_PIECES = 2**15
 """Pieces of a trace: 1.2 MB in single precision."""
 FIELD = 256
 """Most blocks of the field of a map along a side."""
-SOURCE = "gripscale direct contact"
+_SOURCE = "gripscale direct contact"
 
 
 def shares_by_slope(contact: RoughContact) -> xr.Dataset:
@@ -75,7 +75,7 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     for (name, text), amount in zip(SHARES.items(), amounts, strict=True):
         sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
         share = sums / amount.sum() if amount is not force else sums / total
-        data[name] = labelled("slope", share, "1", text, SOURCE)
+        data[name] = labelled("slope", share, "1", text, _SOURCE)
     ends = labelled("slope", np.array(SLOPES), "1", "lower end of |dh/dx|", "input")
     return xr.Dataset(data, {"slope": ends})
 
@@ -148,7 +148,7 @@ def contact_trace(
     contact: RoughContact,
     *,
     stretch: float | None = None,
-    pieces: int = PIECES,
+    pieces: int = _PIECES,
     derivative: Array | None = None,
 ) -> xr.Dataset:
     """Return a contact along a line as charts draw it, in pieces.
@@ -210,10 +210,10 @@ def contact_trace(
         by_height = np.add.reduceat(column, first) / (step * (last - first + 1))
         columns["by_height"] = (by_height, "1/m^2")
     data = {
-        name: labelled("piece", values.astype(np.float32), unit, name.replace("_", " "), SOURCE)
+        name: labelled("piece", values.astype(np.float32), unit, name.replace("_", " "), _SOURCE)
         for name, (values, unit) in columns.items()
     }
-    data["x"] = labelled("piece", 0.5 * (x[first] + x[last]), "m", "middle of the piece", SOURCE)
+    data["x"] = labelled("piece", 0.5 * (x[first] + x[last]), "m", "middle of the piece", _SOURCE)
     end = firsts[0] + points - 1
     for name, value, unit in (
         ("start", x[firsts[0]], "m"),
@@ -225,7 +225,7 @@ def contact_trace(
             "1",
         ),
     ):
-        data[f"stretch_{name}"] = labelled((), value, unit, f"{name} of the stretch", SOURCE)
+        data[f"stretch_{name}"] = labelled((), value, unit, f"{name} of the stretch", _SOURCE)
     if line.column is not None:
         data |= _field(contact, float(contact.y[line.column]))
     return xr.Dataset(data)
@@ -282,8 +282,10 @@ def _field(contact: RoughContact, section: float) -> dict[str, xr.Variable]:
     pressure = np.maximum.reduceat(np.maximum.reduceat(contact.pressure, edges[0], 0), edges[1], 1)
     field = np.where(pressure > 0.0, pressure, math.nan).astype(np.float32)
     return {
-        "section": labelled((), section, "m", "y of the section", SOURCE),
-        "field_pressure": labelled(("block_x", "block_y"), field, "Pa", "largest pressure", SOURCE),
-        "field_x": labelled("block_x", contact.x[edges[0]], "m", "begin of the block", SOURCE),
-        "field_y": labelled("block_y", contact.y[edges[1]], "m", "begin of the block", SOURCE),
+        "section": labelled((), section, "m", "y of the section", _SOURCE),
+        "field_pressure": labelled(
+            ("block_x", "block_y"), field, "Pa", "largest pressure", _SOURCE
+        ),
+        "field_x": labelled("block_x", contact.x[edges[0]], "m", "begin of the block", _SOURCE),
+        "field_y": labelled("block_y", contact.y[edges[1]], "m", "begin of the block", _SOURCE),
     }

@@ -182,7 +182,7 @@ class Response:
         return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
 
 
-LEAST, MOST = 1e-12, 1e15
+_LEAST, _MOST = 1e-12, 1e15
 """Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single
 precision,
 where products must stay within 1e-38 to 1e38. A number beyond these limits has the wrong unit."""
@@ -208,9 +208,9 @@ def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float)
         )
     _within("pressure", pressure, "Pa")
     frequency = body.speed * float(grid.along.max())
-    if frequency > MOST:
+    if frequency > _MOST:
         raise InputError(
-            f"speed must be at most {MOST / grid.along.max():.3g} m/s, {MOST:g} rad/s on the "
+            f"speed must be at most {_MOST / grid.along.max():.3g} m/s, {_MOST:g} rad/s on the "
             f"smallest wave of this surface; got {body.speed:g} m/s"
         )
     modulus = np.abs(body.modulus(grid))
@@ -219,5 +219,5 @@ def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float)
 
 
 def _within(name: str, value: float, unit: str) -> None:
-    if not LEAST <= value <= MOST:
-        raise InputError(f"{name} must be from {LEAST:g} to {MOST:g} {unit}; got {value:g}")
+    if not _LEAST <= value <= _MOST:
+        raise InputError(f"{name} must be from {_LEAST:g} to {_MOST:g} {unit}; got {value:g}")

@@ -105,11 +105,11 @@ STEEP = 0.5
 VERY_STEEP = 1.0
 """Slope of flanks where neither small strain nor a laser is to be trusted."""
 
-SOURCE = "gripscale direct contact"
-SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
+_SOURCE = "gripscale direct contact"
+_SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Shares of the contact whose pressures a Dataset holds."""
 
-NUMBERS = {
+_NUMBERS = {
     "contact_fraction": ("1", "real over nominal contact area"),
     "contact_fraction_error": ("1", "its estimated error of the grid"),
     "friction": ("1", "friction coefficient from the contact traction"),
@@ -335,9 +335,9 @@ class RoughContact:
             if grid.settled and 0 <= index < order.size:
                 fraction[index] = grid.contact_fraction
         columns = {
-            "friction": (friction, "1", "friction of the octave", SOURCE),
-            "running_friction": (np.cumsum(friction), "1", "friction down to the octave", SOURCE),
-            "contact_fraction": (fraction, "1", "contact fraction without shorter waves", SOURCE),
+            "friction": (friction, "1", "friction of the octave", _SOURCE),
+            "running_friction": (np.cumsum(friction), "1", "friction down to the octave", _SOURCE),
+            "contact_fraction": (fraction, "1", "contact fraction without shorter waves", _SOURCE),
             "wavelength": (
                 self.smallest_wavelength * 2.0**order,
                 "m",
@@ -357,9 +357,9 @@ class RoughContact:
         data: dict[str, xr.Variable] = {}
 
         def add(name: str, dims: Any, values: Any, unit: str, text: str) -> None:
-            data[name] = labelled(dims, values, unit, text, SOURCE)
+            data[name] = labelled(dims, values, unit, text, _SOURCE)
 
-        for name, (unit, text) in NUMBERS.items():
+        for name, (unit, text) in _NUMBERS.items():
             add(name, (), float(getattr(self, name)), unit, text)
         for table, holder in (
             (OUTSIDE_BAND, self.extrapolation),
@@ -375,7 +375,7 @@ class RoughContact:
             values = [float(getattr(grid, name)) for grid in self.grids]
             add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
         data |= {name: self.shares_by_slope[name].variable for name in BY_SLOPE}
-        pressures = self.pressure_quantiles(SHARES)
+        pressures = self.pressure_quantiles(_SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]
         add("patch_size", "patch", self.patches, "m" if len(axes) == 1 else "m2", "patches")
@@ -391,7 +391,7 @@ class RoughContact:
         return xr.Dataset(
             data,
             coords={
-                "share": list(SHARES),
+                "share": list(_SHARES),
                 "slope": list(SLOPES),
                 "wavelength": octaves["wavelength"].variable,
             },

@@ -73,7 +73,7 @@ AREA_STEP = 0.2
 """Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
 too few points of a grid in and out of contact."""
 MOST_ITERATIONS = 60
-SOURCE = "gripscale adjoint of the direct contact"
+_SOURCE = "gripscale adjoint of the direct contact"
 
 
 @dataclass(frozen=True)
@@ -385,7 +385,7 @@ def sensitivity(
     bands = Bands.of(contact, per_decade, shift)
     axes = ("x", "y")[: contact.height.ndim]
     data = {
-        name: labelled((), value, "1", text, SOURCE)
+        name: labelled((), value, "1", text, _SOURCE)
         for name, value, text in (
             (
                 "friction",
@@ -401,7 +401,7 @@ def sensitivity(
     if contact_fraction:
         data |= derivative_variables("contact_fraction", _area_derivatives(contact, bands))
     data["d_friction_d_height"] = labelled(
-        axes, adjoint.by_height, "1/m", "d friction / d height of a point", SOURCE
+        axes, adjoint.by_height, "1/m", "d friction / d height of a point", _SOURCE
     )
     coordinates = {
         axis: labelled(axis, getattr(contact, axis), "m", axis, "input") for axis in axes
@@ -426,7 +426,7 @@ def derivatives_dataset(
     data: dict[str, xr.Variable], bands: Bands, **attributes: str | float
 ) -> xr.Dataset:
     """Return derivatives as a Dataset over the `frequency` of bands."""
-    centre = labelled("frequency", bands.centre, "rad/s", "centre of the band", SOURCE)
+    centre = labelled("frequency", bands.centre, "rad/s", "centre of the band", _SOURCE)
     return xr.Dataset(data, {"frequency": centre}, {**attributes, **provenance.attributes()})
 
 
@@ -492,7 +492,7 @@ def _area_derivatives(contact: RoughContact, bands: Bands) -> Derivatives:
 
 
 def derivative_variables(
-    quantity: str, derivatives: Derivatives, source: str = SOURCE
+    quantity: str, derivatives: Derivatives, source: str = _SOURCE
 ) -> dict[str, xr.Variable]:
     """Return derivatives of "friction" or "contact_fraction" by their names in a Dataset."""
     symbol = quantity.replace("_", " ")

@@ -29,10 +29,10 @@ from gripscale.surface.resampling import fill_gaps
 
 LEAST_VALID = 0.5
 """Share of heights that a window must have."""
-POINTS_IN_WAVE = 8
-MOST_POINTS = 10_000_000
+_POINTS_IN_WAVE = 8
+_MOST_POINTS = 10_000_000
 
-Measurement = TypeVar("Measurement", Profile, HeightMap)
+_Measurement = TypeVar("_Measurement", Profile, HeightMap)
 
 
 @dataclass(frozen=True)
@@ -188,11 +188,11 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
             f"got {period:g} m"
         )
     counts = np.rint(period / stack.wavelength)
-    points = max(64, POINTS_IN_WAVE * int(counts.max()))
-    if points > MOST_POINTS:
+    points = max(64, _POINTS_IN_WAVE * int(counts.max()))
+    if points > _MOST_POINTS:
         raise InputError(
-            f"length over the smallest wavelength must be at most {MOST_POINTS // POINTS_IN_WAVE}; "
-            f"got {int(counts.max())}"
+            "length over the smallest wavelength must be at most "
+            f"{_MOST_POINTS // _POINTS_IN_WAVE}; got {int(counts.max())}"
         )
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     position = np.arange(points) / points
@@ -203,7 +203,7 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
     return Profile(position * period, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
 
 
-def random_phases(surface: Measurement, seed: int) -> Measurement:
+def random_phases(surface: _Measurement, seed: int) -> _Measurement:
     """Return a periodic surface with the spectrum of `surface` and random phases.
 
     Missing heights are filled and ends joined as `solve_rough_contact` does. The height difference

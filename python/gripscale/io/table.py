@@ -39,7 +39,7 @@ WIDEST_HEAD, WIDEST_WORDS = 14, 30
 """Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
 LONGEST_HEAD = 40
 """Characters up to which a narrow page may break a heading between any two words."""
-NARROW = 4
+_NARROW = 4
 """Columns of a table that fits beside a figure."""
 
 
@@ -294,7 +294,7 @@ class Table:
     @property
     def narrow(self) -> bool:
         """Whether it fits beside a figure."""
-        return len(self.columns) <= NARROW and not any(column.as_words for column in self.columns)
+        return len(self.columns) <= _NARROW and not any(column.as_words for column in self.columns)
 
     def __html__(self) -> str:
         """Return the table as HTML, all texts escaped."""

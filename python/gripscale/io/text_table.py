@@ -37,18 +37,18 @@ Line = tuple[int, str]
 """A line with its number in the file, from 1."""
 
 MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
-NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 SEPARATORS = ("\t", ";", ",", None)
 """Separators of the cells of a line, in the order they are tried; None: blanks."""
-COMMENT = ("#", "%", "!")
+_COMMENT = ("#", "%", "!")
 
 
 def parse_number(cell: str) -> float | None:
     """Return the number in a cell, NaN for a missing value, or None if there is neither."""
     if cell.lower() in MISSING:
         return float("nan")
-    return float(cell) if NUMBER.fullmatch(cell) else None
+    return float(cell) if _NUMBER.fullmatch(cell) else None
 
 
 def is_row(line: str) -> bool:
@@ -65,12 +65,12 @@ def is_row_of(cells: list[str]) -> bool:
 
 def is_comment(line: str) -> bool:
     """Return whether a line is a comment."""
-    return line.lstrip().startswith(COMMENT)
+    return line.lstrip().startswith(_COMMENT)
 
 
 def is_number(cell: str) -> bool:
     """Return whether a cell holds a number, with either decimal sign."""
-    return bool(NUMBER.fullmatch(cell) or COMMA_NUMBER.fullmatch(cell))
+    return bool(_NUMBER.fullmatch(cell) or COMMA_NUMBER.fullmatch(cell))
 
 
 def fits(cell: str) -> bool:
@@ -87,7 +87,7 @@ def cells_of(line: str, separator: str | None) -> list[str]:
 EXCEL = (".xlsx", ".xlsm")
 """Suffixes of Excel files."""
 
-Rows = list[tuple[object, ...]]
+_Rows = list[tuple[object, ...]]
 
 
 def is_excel(path: Path) -> bool:
@@ -95,7 +95,7 @@ def is_excel(path: Path) -> bool:
     return path.suffix.lower() in EXCEL
 
 
-def read_sheets(path: Path) -> dict[str, Rows]:
+def read_sheets(path: Path) -> dict[str, _Rows]:
     """Return the rows of each sheet by its name, in the order of the file.
 
     Raises `FileError` if openpyxl is missing (`pip install 'gripscale[export]'`), or the file is no
@@ -250,7 +250,7 @@ class TextTable:
         cells = self._cells(column)
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
-        numbers = filter(NUMBER.fullmatch, cells)  # others are marks of missing values
+        numbers = filter(_NUMBER.fullmatch, cells)  # others are marks of missing values
         exponents = (Decimal(cell).as_tuple().exponent for cell in numbers)
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
@@ -466,7 +466,7 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
 def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
     """Return the decimal sign that all numbers of the file use."""
     first: dict[str, tuple[int, str]] = {}
-    for sign, form in ((",", COMMA_NUMBER), (".", NUMBER)):
+    for sign, form in ((",", COMMA_NUMBER), (".", _NUMBER)):
         for at, row in enumerate(rows):
             cell = next((cell for cell in row if sign in cell and form.fullmatch(cell)), None)
             if cell is not None:
@@ -502,7 +502,7 @@ def _columns(
 
 def _titles(line: str, count: int) -> list[str] | None:
     """Return the line cut into `count` titles, or None if it cannot be."""
-    line = line.strip(" ").lstrip("".join(COMMENT)).strip(" ")
+    line = line.strip(" ").lstrip("".join(_COMMENT)).strip(" ")
     for text in (line, line.strip(" \t;,")):
         for separator in _TITLE_SEPARATORS:
             cells = [cell.strip().strip('"').strip() for cell in re.split(separator, text)]

@@ -15,7 +15,7 @@ from gripscale.io.table import Table
 if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet
 
-MOST_ROWS = 1_048_576
+_MOST_ROWS = 1_048_576
 """Rows of an Excel sheet, its heading included."""
 MOST_LETTERS = 32_767
 """Letters of an Excel cell."""
@@ -40,9 +40,9 @@ def write_workbook(tables: Sequence[Table], path: Path) -> Path:
     titles = _sheet_titles([table.name for table in tables])
     sheets = [[table.titles, *table.rows()] for table in tables]
     for title, rows in zip(titles, sheets, strict=True):
-        if len(rows) > MOST_ROWS:
+        if len(rows) > _MOST_ROWS:
             raise InputError(
-                f"tables must have at most {MOST_ROWS - 1} rows for xlsx; got {len(rows) - 1} in "
+                f"tables must have at most {_MOST_ROWS - 1} rows for xlsx; got {len(rows) - 1} in "
                 f"{title}: csv has no limit"
             )
 

@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
 KIND = "kind"
 """Attribute of a saved result: the question it answers."""
-INPUTS = "inputs"
+_INPUTS = "inputs"
 """Group of a saved result: the record of the inputs of its case."""
-WIDTH = 100
+_WIDTH = 100
 """Characters of a line of a printed result."""
 
 
@@ -123,7 +123,7 @@ class Result(ABC):
 
         Raises `FileError` if it cannot be written.
         """
-        groups = {INPUTS: self.inputs} if self.inputs.variables or self.inputs.attrs else {}
+        groups = {_INPUTS: self.inputs} if self.inputs.variables or self.inputs.attrs else {}
         return netcdf.save(self.data, path, groups)
 
     def to_dataset(self) -> xr.Dataset:
@@ -136,7 +136,7 @@ class Result(ABC):
 
         return pd.DataFrame({column.name: list(column.values) for column in self.table().columns})
 
-    def text(self, width: int = WIDTH) -> str:
+    def text(self, width: int = _WIDTH) -> str:
         """Return the answer, the findings and the tables as text with lines of a width."""
         above = [*self.lines, *warning_lines(self.findings)]
         below = list(self.parts())
@@ -156,19 +156,19 @@ class Result(ABC):
         return f"<p><b>{lead}</b></p><ul>{rest}</ul>{folded if findings else ''}"
 
 
-MOST_OPEN = 3
+_MOST_OPEN = 3
 """Findings that a terminal opens with; the others are in a file beside the result."""
 
 
 def warning_lines(findings: Sequence[Finding], rest: str = "") -> Iterator[str]:
     """Yield ranked findings as lines; with `rest`, a file that has them all, the first only.
 
-    These are `MOST_OPEN`, and all that leave open whether the answer is that of another case.
+    These are `_MOST_OPEN`, and all that leave open whether the answer is that of another case.
     """
     if findings:
         yield "Warnings, by what they change:"
     doubts = sum(finding.effect == float("inf") for finding in findings)
-    count = max(MOST_OPEN, doubts) if rest else len(findings)
+    count = max(_MOST_OPEN, doubts) if rest else len(findings)
     yield from (f"  {finding.sentence}" for finding in findings[:count])
     if len(findings) > count:
         yield f"  ... and {len(findings) - count} more in {rest}"
@@ -193,5 +193,5 @@ def load(path: str | Path) -> Any:
     if result is None:
         expected = ", ".join(registry.kinds())
         raise FileError(f"{path} holds no result of a question ({expected})")
-    inputs = tree.children.get(INPUTS, xr.DataTree()).to_dataset(inherit=False)
+    inputs = tree.children.get(_INPUTS, xr.DataTree()).to_dataset(inherit=False)
     return result(tree.to_dataset(), inputs)

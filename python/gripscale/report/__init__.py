@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["write_page", "write_report"]
 
-EXTRA = ("bokeh", "jinja2", "markupsafe")
+_EXTRA = ("bokeh", "jinja2", "markupsafe")
 
 
 def write_report(result: str | Path, output: str | Path | None = None) -> Path:
@@ -70,7 +70,7 @@ def _page_libraries() -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in EXTRA:
+        if (error.name or "").partition(".")[0] not in _EXTRA:
             raise
         raise InputError(
             f"a report needs {error.name}, which is not installed; "

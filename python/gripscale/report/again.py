@@ -8,7 +8,7 @@ from typing import Any
 from gripscale.core.provenance import versions
 from gripscale.report.elements import Code, Element, Facts, Section, Text
 
-KEY = "prediction_key"
+_KEY = "prediction_key"
 """Attribute of a result: the key of its prediction."""
 
 
@@ -21,7 +21,7 @@ def rerun_section(attrs: dict[object, object]) -> Section:
     """Return versions, and the command that made the result with its case file."""
     names = sorted(str(name) for name in attrs if str(name).startswith("version_"))
     solved = [(name.removeprefix("version_"), str(attrs[name])) for name in names]
-    solved += [("Key of the result", str(attrs[KEY]))] if KEY in attrs else []
+    solved += [("Key of the result", str(attrs[_KEY]))] if _KEY in attrs else []
     here = ", ".join(f"{name} {version}" for name, version in versions().items())
     elements: list[Element] = [Facts("Solved with", [*solved, ("This page written by", here)])]
     if "case" in attrs:

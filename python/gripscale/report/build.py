@@ -20,14 +20,14 @@ from gripscale.report.head import with_answer
 from gripscale.report.pages import page_of
 from gripscale.report.source import read_result
 
-REPORT = "report.html"
+_REPORT = "report.html"
 
 
 def build(result: Path, output: Path | None) -> Path:
     """Write the report of `result` to `output`, by default into the folder of the result."""
     source = read_result(result)
     if output is None:
-        output = (result if result.is_dir() else result.parent) / REPORT
+        output = (result if result.is_dir() else result.parent) / _REPORT
     return write(with_answer(page_of(source), source), output)
 
 

@@ -87,7 +87,7 @@ class Card:
     bad: bool = False
 
 
-MOST_OPEN = 3
+_MOST_OPEN = 3
 """Findings that a page or a terminal opens with; further warnings are folded."""
 
 
@@ -95,7 +95,7 @@ def open_and_folded(notices: Sequence[Finding]) -> tuple[list[Finding], list[Fin
     """Return what a page opens with, errors and the first few warnings, and the rest."""
     errors = [notice for notice in notices if notice.severity == Severity.ERROR]
     warnings = [notice for notice in notices if notice.severity != Severity.ERROR]
-    room = max(0, MOST_OPEN - len(errors))
+    room = max(0, _MOST_OPEN - len(errors))
     return errors + warnings[:room], warnings[room:]
 
 

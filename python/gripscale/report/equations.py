@@ -16,7 +16,7 @@ from typing import Any
 
 from gripscale.report.elements import Equation
 
-LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
+_LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
 
 _POINTS = 14.0
 """Size of the letters [pt]."""
@@ -28,7 +28,7 @@ _EQUATIONS = [
         r"C_z(l) = \langle ( z(x+l) - z(x) )^2 \rangle",
         "Height difference correlation of the measured profile, over all pairs of valid heights a "
         "lag l apart.",
-        f"{LW}, equation 5",
+        f"{_LW}, equation 5",
     ),
     (
         "self-affine",
@@ -36,7 +36,7 @@ _EQUATIONS = [
         r"\quad \mathrm{for}\  l < \xi_\parallel , \qquad \xi_\perp^2 \quad \mathrm{beyond}",
         "A self-affine surface up to its cut-off; H = 3 − D. It describes the surface; the chain "
         "does not use it.",
-        f"{LW}, equation 6",
+        f"{_LW}, equation 6",
     ),
     (
         "sines",
@@ -44,7 +44,7 @@ _EQUATIONS = [
         r"\lambda_{i+1} = \dfrac{\lambda_i}{s_\lambda} , \quad A_{i+1} = \dfrac{A_i}{s_A}",
         "Superposed sine waves of unrelated phase, fitted in log C_z with two magnification "
         "factors.",
-        f"{LW}, figure 4",
+        f"{_LW}, figure 4",
     ),
     (
         "prony",
@@ -85,13 +85,13 @@ _EQUATIONS = [
         r"p_{i+1} = p_i \dfrac{\lambda_i}{a_i}",
         "The mean pressure in the contact of one wave is what the next one receives; a is the "
         "contact length on the mean plane.",
-        f"{LW}, equation 1",
+        f"{_LW}, equation 1",
     ),
     (
         "area",
         r"\dfrac{A_r}{A_0} = \prod_i \dfrac{a_i}{\lambda_i}",
         "Real over nominal contact area.",
-        f"{LW}, equation 2",
+        f"{_LW}, equation 2",
     ),
     (
         "friction",
@@ -100,7 +100,7 @@ _EQUATIONS = [
         "Friction: each wave's from the horizontal contact traction, and independently from the "
         "energy W lost in the rubber per wavelength slid (and unit width). Their mismatch is the "
         "discretisation's own error.",
-        f"{LW}, equation 3; balance of energy",
+        f"{_LW}, equation 3; balance of energy",
     ),
 ]
 

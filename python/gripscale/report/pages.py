@@ -57,17 +57,17 @@ METHOD = (
     "a rubber block at finite strain is pressed and slid. The next wave receives the pressure in "
     "its contact."
 )
-PICTURE = (
+_PICTURE = (
     "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
     "that rise in the sliding direction. The page holds the lowest and highest values of pieces of "
     "the surface, and every point where most of the friction is made."
 )
-EVIDENCE = (
+_EVIDENCE = (
     "The two friction coefficients of a wave are found independently, from the traction in the "
     "contact and from the energy lost in the rubber; by the balance of energy they are equal. "
     "Their difference is the error of the discretisation."
 )
-LADDER = (
+_LADDER = (
     "All models use the same measurements. From each model to the next one assumption is given up. "
     "A factor relates a model to the one before, a theory to the direct contact of the measured "
     "profile. Spread is the standard deviation over the samples, error the estimate of the model "
@@ -77,7 +77,7 @@ STALE = (
     "The comparison in this folder belongs to another version of the case and is left out; run "
     "`gripscale compare` again."
 )
-EFFECTS = (
+_EFFECTS = (
     "The case with all effects of its conditions, without each effect in turn, and without any. "
     "A change is the change by the effects that are left out."
 )
@@ -94,7 +94,7 @@ CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
 )
-OF_ANOTHER = Finding(Severity.WARNING, uncertainty.OF_ANOTHER, topic=Topic.SOURCE)
+_OF_ANOTHER = Finding(Severity.WARNING, uncertainty.OF_ANOTHER, topic=Topic.SOURCE)
 SENSITIVITY = (
     "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
     "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
@@ -152,7 +152,7 @@ def run_page(run: Run) -> Page:
     return _page(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
-        [*notices.notices(run), *([OF_ANOTHER] if stale else [])],
+        [*notices.notices(run), *([_OF_ANOTHER] if stale else [])],
         [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
             Section(
@@ -188,7 +188,7 @@ def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
     if not (pictures := contact_pictures(direct, record.data)):
         return []
     first, *others = pictures
-    return [Text(PICTURE), first, *comparison.slopes_table(direct), *others]
+    return [Text(_PICTURE), first, *comparison.slopes_table(direct), *others]
 
 
 def surface_elements(record: InputRecord, waves: SineStack | None = None) -> list[Element]:
@@ -264,7 +264,7 @@ def judgement_elements(run: Run) -> list[Element]:
 
 def effects_elements(results: list[xr.Dataset]) -> list[Element]:
     """Return the answers of each model with and without each effect; nothing without any."""
-    return [Text(EFFECTS), side_by_side.effects_table(*results)] if results else []
+    return [Text(_EFFECTS), side_by_side.effects_table(*results)] if results else []
 
 
 def _comparison(run: Run) -> list[Element]:
@@ -284,7 +284,7 @@ def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
     names = ("errors", "solution", "mesh")
     return [
         *(errors or [Finding(Severity.GOOD, "Every wave converged.")]),
-        Text(EVIDENCE),
+        Text(_EVIDENCE),
         *(tables[name] for name in names if name in tables),
         *verification_charts(run.by_wave),
     ]
@@ -374,7 +374,7 @@ def comparison_page(compared: Compared) -> Page:
             *notices.friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
             *_of_ladder(compared.ladder),
             *(element for element in elements if isinstance(element, Finding)),
-            *([OF_ANOTHER] if stale else []),
+            *([_OF_ANOTHER] if stale else []),
         ],
         [*comparison.ladder_cards(compared.ladder), *uncertainty.uncertainty_cards(sampled)],
         [
@@ -396,7 +396,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
     """Return tables, best estimate and figures of what there is; nothing if there is nothing."""
     if not compared.parts:
         return []
-    elements: list[Element] = [Text(LADDER)]
+    elements: list[Element] = [Text(_LADDER)]
     for data in compared.parts:
         for where, failure in comparison.failures(data):
             placed = replace(failure, sentence=f"{where}: {failure}")

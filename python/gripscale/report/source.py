@@ -25,7 +25,7 @@ from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_u
 from gripscale.questions.vary.axis import dimensions
 from gripscale.questions.vary.effects import stored_effects
 
-PREDICTIONS = ("dynamic", "static")
+_PREDICTIONS = ("dynamic", "static")
 COMPARISON = "comparison"
 """Folder of a comparison in that of the run, and the name of its file."""
 OVER = "over_*.nc"
@@ -180,7 +180,7 @@ def read_result(path: Path) -> Source:
 
 
 def _read_folder(folder: Path) -> Source:
-    paths = [folder / f"{name}.nc" for name in PREDICTIONS]
+    paths = [folder / f"{name}.nc" for name in _PREDICTIONS]
     trees = {path.stem: _checked(path) for path in paths if path.is_file()}
     if trees:
         run = replace(_run(trees), compared=_comparisons(folder / COMPARISON))

@@ -39,7 +39,7 @@ ABOUT = (
     *("rubber_source", "surface_source", "rubbers", "surfaces", "case_file", "command"),
 )
 """Attributes of results that are columns, of a result without them those of the others."""
-UNITS = {"nominal_pressure": "Pa", "nominal_speed": "m/s", "footprint": "m"}
+_UNITS = {"nominal_pressure": "Pa", "nominal_speed": "m/s", "footprint": "m"}
 LEFT_OUT = ("prediction_key", "seconds")
 
 
@@ -99,7 +99,7 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):
             values = np.full(rows.size, value, object)
-            columns[name] = Column(name, values, unit=UNITS.get(name, ""))
+            columns[name] = Column(name, values, unit=_UNITS.get(name, ""))
     return columns
 
 

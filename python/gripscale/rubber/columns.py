@@ -171,12 +171,12 @@ PAIRS = (
     ("magnitude", "phase"),
 )
 """Two that state the modulus, the first choice first."""
-QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
+_QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
 """What a column of a file of moduli may hold."""
 THREE = ("frequency", "storage", "loss")
 """What three columns without names hold, in this order."""
 
-Columns = Mapping[str, str | int] | Sequence[str | int]
+_Columns = Mapping[str, str | int] | Sequence[str | int]
 """Columns by quantity, or three of them; each by its title or its number from 1."""
 
 
@@ -196,7 +196,7 @@ class FileLayout(Checked):
     What the file says itself need not be stated; what is stated goes before it.
     """
 
-    columns: Columns | None = None
+    columns: _Columns | None = None
     """Titles, or numbers from 1, of frequency, storage and loss; or a mapping to them from
     `frequency`, `temperature`, `strain` and two of `storage`, `loss`, `loss_factor` and
     `magnitude`. Without it recognised titles count."""
@@ -227,7 +227,7 @@ class FileLayout(Checked):
         if columns is None:
             return {}
         if isinstance(columns, Mapping):
-            checks.allowed_names("quantity in columns", columns, QUANTITIES)
+            checks.allowed_names("quantity in columns", columns, _QUANTITIES)
             return columns
         if (
             not isinstance(columns, Sequence)
@@ -238,7 +238,7 @@ class FileLayout(Checked):
         ):
             raise InputError(
                 "columns must be three different names or numbers from 1 for frequency, storage "
-                f"and loss, or map quantities ({', '.join(QUANTITIES)}) to them; "
+                f"and loss, or map quantities ({', '.join(_QUANTITIES)}) to them; "
                 f"got {checks.short_repr(columns)}"
             )
         return dict(zip(THREE, columns, strict=True))
@@ -252,7 +252,7 @@ class FileLayout(Checked):
 
     def suffices(self, table: TextTable) -> bool:
         """Return whether frequency and modulus are in a table; `InputError` as `column`."""
-        quantities = {name for name in QUANTITIES if self.column(table, name) is not None}
+        quantities = {name for name in _QUANTITIES if self.column(table, name) is not None}
         return "frequency" in quantities and any(quantities.issuperset(pair) for pair in PAIRS)
 
     def column(self, table: TextTable, wanted: str) -> int | None:

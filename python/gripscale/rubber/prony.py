@@ -156,7 +156,7 @@ def _rounded(values: Array) -> Array:
 
 
 _FEWEST_ROWS = 4
-SMOOTHING = 0.1
+_SMOOTHING = 0.1
 _SHRINKAGE = 10.0
 """Weight of slow relaxations beyond the data over that of the smoothing."""
 BEYOND, _MOST_DECADES = 2.0, 20.0
@@ -176,7 +176,7 @@ def fit_prony(
     bulk_modulus: float = BULK_MODULUS,
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = BEYOND,
-    smoothing: float = SMOOTHING,
+    smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> Rubber:
     """Return the Prony series of a master curve.
@@ -233,7 +233,7 @@ def fit_prony_report(
     bulk_modulus: float = BULK_MODULUS,
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = BEYOND,
-    smoothing: float = SMOOTHING,
+    smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> tuple[Rubber, PronyFit]:
     """Return the Prony series of a master curve and the report on it.
@@ -258,7 +258,7 @@ def fit_prony_report(
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
-    plain = Prior(SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
+    plain = Prior(_SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
     coarse = max(4, min(round(2.0 * master.decades), 60))
     screening = maxwell_fit.screen(
         curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold

@@ -42,8 +42,8 @@ Deformation = Literal["tension", "shear"]
 DEFORMATIONS = ("tension", "shear")
 UNIAXIAL_OF_SHEAR = 1.0 / np.sqrt(3.0)
 
-SMOOTHING, KEEPING = 0.03, 0.02
-LEAST = 1.0 / 3.0
+_SMOOTHING, KEEPING = 0.03, 0.02
+_LEAST = 1.0 / 3.0
 """Smallest multiplier of E_inf over f."""
 
 
@@ -123,11 +123,11 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
     rows = np.vstack([real / (f * whole.real)[:, None], imaginary / (g * whole.imag)[:, None]])
     count = rows.shape[1]
     weight = np.tile(np.sqrt(at[0] / at), 2)
-    steps = SMOOTHING * np.diff(np.eye(count), axis=0)
+    steps = _SMOOTHING * np.diff(np.eye(count), axis=0)
     system = np.vstack([weight[:, None] * rows, steps, KEEPING * np.eye(count)])
     right = np.concatenate([weight, np.zeros(count - 1), np.full(count, KEEPING * f)])
     least = np.zeros(count)
-    least[0] = LEAST * f
+    least[0] = _LEAST * f
     multiplier = nnls(system, right - system @ least)[0] + least
     misfit = np.abs(rows @ multiplier - 1.0).reshape(2, -1)
     in_order = np.empty(count)

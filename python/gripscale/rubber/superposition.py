@@ -36,7 +36,7 @@ _BACK = 0.5
 _LEAST_SHARE = 0.1
 """Least overlap that is tried, over the shorter of the two sweeps."""
 
-Points = tuple[Array, Array]
+_Points = tuple[Array, Array]
 """x of shape (rows,) rising, y of shape (moduli, rows)."""
 
 
@@ -75,7 +75,7 @@ def start(rows: Rows, lifted: bool) -> tuple[Array, Array]:
     return total[:, 0], total[:, 1]
 
 
-def difference(cold: Points, warm: Points) -> Array:
+def difference(cold: _Points, warm: _Points) -> Array:
     """Return y of the colder sweep less the warmer at the rows of both in the overlap.
 
     Shape (moduli, rows).
@@ -91,7 +91,7 @@ def difference(cold: Points, warm: Points) -> Array:
     )
 
 
-def _distance(cold: Points, warm: Points, noise: Array, lifts: Array) -> tuple[float, float]:
+def _distance(cold: _Points, warm: _Points, noise: Array, lifts: Array) -> tuple[float, float]:
     """Return by how much the colder sweep is to be shifted against the warmer one."""
     weight = lifts / noise**2
     spans = np.ptp(cold[0]), np.ptp(warm[0])
@@ -206,7 +206,7 @@ def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Arra
     return np.where(np.abs(nearest - temperatures) <= tolerance, nearest, temperatures)
 
 
-def overlap(colder: float, warmer: float, cold: Points, warm: Points) -> Overlap:
+def overlap(colder: float, warmer: float, cold: _Points, warm: _Points) -> Overlap:
     """Return how two shifted sweeps at two temperatures [K] meet; their y are E', E'', E''/E'."""
     width = float(min(cold[0][-1], warm[0][-1]) - max(cold[0][0], warm[0][0]))
     apart = difference(cold, warm) if width >= 0.0 else np.empty((3, 0))

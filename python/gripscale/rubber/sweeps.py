@@ -38,7 +38,7 @@ TOLERANCE = 1.0
 """Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
 _WIDEST = 3.0
 """Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
-ROW = ("temperature", "frequency", "storage", "loss")
+_ROW = ("temperature", "frequency", "storage", "loss")
 """The columns of measured rows."""
 
 
@@ -94,7 +94,7 @@ class Sweeps(Checked, eq=False):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        columns = {name: getattr(self, name) for name in ROW}
+        columns = {name: getattr(self, name) for name in _ROW}
         checks.same_length(1, **columns)
         order = np.lexsort((self.frequency, _groups(self.temperature, self.tolerance)))
         self._set(**{name: column[order] for name, column in columns.items()})
@@ -123,7 +123,7 @@ class Sweeps(Checked, eq=False):
     def __iter__(self) -> Iterator[Sweep]:
         """Yield the sweeps, the coldest first."""
         for rows in self._rows():
-            kelvin, *columns = (getattr(self, name)[rows] for name in ROW)
+            kelvin, *columns = (getattr(self, name)[rows] for name in _ROW)
             yield Sweep(float(kelvin.mean()), *columns)
 
     def between(self, lowest: float, highest: float) -> Sweeps:
@@ -135,7 +135,7 @@ class Sweeps(Checked, eq=False):
         low, high = checks.not_negative("lowest", lowest), checks.positive("highest", highest)
         kept = (self.frequency >= low) & (self.frequency <= high)
         if kept.any():
-            return replace(self, **{name: getattr(self, name)[kept] for name in ROW})
+            return replace(self, **{name: getattr(self, name)[kept] for name in _ROW})
         raise InputError(
             f"lowest and highest [Hz] must enclose a measured frequency; got {low:g} and {high:g}"
         )
@@ -275,7 +275,7 @@ def sweeps_from_ramps(
         temperatures with a nominal one in between.
     """
     units = ("K", "Hz", "Pa", "Pa")
-    columns = zip(ROW, (temperature, frequency, storage, loss), units, strict=True)
+    columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)
     rows = {name: checks.in_limits(name, values, unit=unit) for name, values, unit in columns}
     checks.same_length(1, **rows)
     step = checks.positive("step", step, unit="K")
@@ -297,7 +297,7 @@ def sweeps_from_ramps(
 def _at_steps(rows: dict[str, Array], chosen: Mask, step: float) -> Array:
     """Return temperature, frequency, E' and E'' of one frequency at nominal temperatures."""
     order = np.argsort(rows["temperature"][chosen], kind="stable")
-    kelvin, frequency, storage, loss = (rows[name][chosen][order] for name in ROW)
+    kelvin, frequency, storage, loss = (rows[name][chosen][order] for name in _ROW)
     celsius = kelvin - ZERO_CELSIUS
     first, last = np.ceil(celsius[0] / step - 1e-9), np.floor(celsius[-1] / step + 1e-9)
     nominal = step * np.arange(first, last + 1.0)

@@ -26,7 +26,7 @@ from gripscale.wave.kernel import face_of
 from gripscale.wave.problem import Mesh, Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
-SOLVED = (
+_SOLVED = (
     Status.CONVERGED,
     Status.TOLERANCE_NOT_MET,
     Status.FRICTIONS_DISAGREE,
@@ -131,7 +131,7 @@ class FiniteStrainBlock(Checked):
         if solution.judged_by is None:
             if not math.isfinite(solution.friction):
                 why = "nothing was solved"
-            elif solution.status not in SOLVED:
+            elif solution.status not in _SOLVED:
                 why = f"the solution ended early, {solution.status}"
             else:
                 why = f"no coarser mesh than {solution.columns} columns was solved"

@@ -16,7 +16,7 @@ from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveProblem
 from gripscale.wave.result import ScaleResult
 
 Solution = _kernel.Solution
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 @lru_cache(maxsize=1)
@@ -118,7 +118,7 @@ def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel
     }
 
 
-def _checked_call(call: Callable[[], T]) -> T:
+def _checked_call(call: Callable[[], _T]) -> _T:
     """Return what the kernel returns; its refusals are `InputError`s."""
     try:
         return call()

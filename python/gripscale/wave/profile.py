@@ -24,7 +24,7 @@ from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
-COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
+_COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 """Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
 COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
@@ -32,7 +32,7 @@ ROW_GROWTH = 1.12
 """Ratio of heights of neighbouring rows, at most one as wide as high at the surface."""
 
 
-ROUND_OFF = 1e-12
+_ROUND_OFF = 1e-12
 """Range of the heights after filtering, over that before, below which only round-off remains."""
 
 
@@ -108,15 +108,15 @@ def solve_profile(
     checks.flag("periodic", periodic)
     heights = _heights(profile, smallest_wavelength, periodic)
     if columns is None:
-        if FEWEST_PER_WAVE * heights.waves > COLUMNS[-1]:
-            least = FEWEST_PER_WAVE * heights.wavelength / COLUMNS[-1]
+        if FEWEST_PER_WAVE * heights.waves > _COLUMNS[-1]:
+            least = FEWEST_PER_WAVE * heights.wavelength / _COLUMNS[-1]
             raise InputError(
                 f"smallest_wavelength must be at least {least:.4g} m, {FEWEST_PER_WAVE} of "
-                f"{COLUMNS[-1]} columns; got waves down to "
+                f"{_COLUMNS[-1]} columns; got waves down to "
                 f"{heights.wavelength / heights.waves:.4g} m"
             )
         wanted = COLUMNS_PER_WAVE * heights.waves
-        columns = next((count for count in COLUMNS if count >= wanted), COLUMNS[-1])
+        columns = next((count for count in _COLUMNS if count >= wanted), _COLUMNS[-1])
     if rows is None:
         count = checks.positive("columns", columns)
         growth = float(kernel.default_settings()["row_exponent"])
@@ -133,7 +133,7 @@ def solve_profile(
         max_iterations=max_iterations,
         residual_tolerance=residual_tolerance,
     )
-    thorough = {"rescue_columns": COLUMNS[-1]}
+    thorough = {"rescue_columns": _COLUMNS[-1]}
     block = replace(block, settings={**block.settings, **thorough, **(settings or {})})
     problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
     load = problem.load
@@ -155,7 +155,7 @@ def _heights(profile: Profile, smallest: float | None, periodic: bool) -> Sample
     if smallest is not None:
         z = without_short_waves(Profile(line.x, z), smallest).z
     after, before = np.ptp(z), float(np.nanmax(profile.z) - np.nanmin(profile.z))
-    if after <= ROUND_OFF * before:
+    if after <= _ROUND_OFF * before:
         raise InputError(
             "profile must have waves left without its tilt and those below smallest_wavelength; "
             f"got heights within {after:.3g} m of each other, {before:.3g} m before"

@@ -225,7 +225,7 @@ class ScaleResult:
 LW = "Lind & Wangenheim 2014, IMECE2014-37998"
 CHAIN = "gripscale chain"
 SOLVER = "gripscale solver of one wave"
-WAVES = "input: sine waves of the surface"
+_WAVES = "input: sine waves of the surface"
 RUBBER = "input: rubber, at the fundamental frequency"
 
 
@@ -249,8 +249,8 @@ class Field(NamedTuple):
 
 
 FIELDS = (
-    Field("wavelength", "m", "wavelength", WAVES),
-    Field("amplitude", "m", "amplitude, half peak-to-valley", WAVES),
+    Field("wavelength", "m", "wavelength", _WAVES),
+    Field("amplitude", "m", "amplitude, half peak-to-valley", _WAVES),
     Field("pressure_received", "Pa", "mean pressure on the wave", f"{LW}, equation 1"),
     Field("sliding_speed", "m/s", "sliding speed", "input: load", "speed"),
     Field("load_time", "s", "time the wave is loaded", CHAIN),

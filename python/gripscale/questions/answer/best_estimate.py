@@ -238,7 +238,7 @@ def _numbers(
     }
 
 
-WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
+_WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
 OF_A_POINT = {
     "": "best estimate of the {}",
     "_low": "low end of the 90 % interval of the {}",
@@ -307,5 +307,5 @@ def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
         best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
         for end, text in OF_A_POINT.items():
             part = best[f"best_{name}{end}"].reset_coords(drop=True)
-            kept[f"best_{name}{end}"] = part.assign_attrs(attributes(text.format(WORDS[name])))
+            kept[f"best_{name}{end}"] = part.assign_attrs(attributes(text.format(_WORDS[name])))
     return kept

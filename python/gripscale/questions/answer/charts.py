@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 MOST_DRAWN = 2
 """Profiles of a result that are drawn, of each of which a page holds 1.6 MB."""
-AROUND, LEAST_AROUND, LEAST_SHARE = 8.0, 1.2, 0.125
+_AROUND, LEAST_AROUND, _LEAST_SHARE = 8.0, 1.2, 0.125
 """Length of the drawn stretch over that of its contact: as long as the stretch with most friction
 allows, and the least; and its least share of that stretch."""
 DRAPED = 0.3
@@ -48,10 +48,10 @@ FLATTEST, LOWEST = 0.15, 0.2
 """Least height of the stretch to scale and what it shows below its contact, over its length."""
 PAGE = 420
 """Width of half a page [px]."""
-ROW, FIELD_ROW, BELOW, HEAD = 1.15, 2.9, 0.32, 1.1
+_ROW, FIELD_ROW, _BELOW, _HEAD = 1.15, 2.9, 0.32, 1.1
 """Heights of a frame over the whole line, of the field of a map, of the numbers below a frame, and
 of the legend [inch]."""
-INSIDE = 0.94
+_INSIDE = 0.94
 """Width of a frame over that of the figure, at most: a panel to scale is as wide as the others."""
 
 
@@ -99,7 +99,7 @@ def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None)
     """Describe a trace on paper, its stretch of a length [m] or as short as the contact allows."""
     trace = _around_contact(trace, length)
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
-    heights = [FIELD_ROW] * len(fields) + [ROW] * len(lines) + [_drawn_height(close)]
+    heights = [FIELD_ROW] * len(fields) + [_ROW] * len(lines) + [_drawn_height(close)]
     return _sheet([*fields, *lines, close], heights, title)
 
 
@@ -149,13 +149,13 @@ def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
 def height_figure(trace: xr.Dataset, name: str) -> Figure:
     """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
     close, worth = height_panels(trace, name)
-    sheet = _sheet([worth, close], [ROW, _drawn_height(close)], name)
+    sheet = _sheet([worth, close], [_ROW, _drawn_height(close)], name)
     return draw.on_paper(replace(sheet, layout={**sheet.layout, "sharex": True}))
 
 
 def _sheet(panels: list[Panel], heights: list[float], title: str) -> Sheet:
     """Return panels of these heights [inch] below each other."""
-    height = sum(heights) + BELOW * len(panels) + HEAD
+    height = sum(heights) + _BELOW * len(panels) + _HEAD
     look: dict[str, Any] = {"legend_columns": 4, "legend_title": title}
     return Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look)
 
@@ -164,7 +164,7 @@ def _drawn_height(close: Panel) -> float:
     """Return the height [inch] of a panel to scale over the width of the figure."""
     ends = close.y.low, close.y.high, close.x.low, close.x.high
     low, high, start, end = (float(each or 0.0) for each in ends)
-    return INSIDE * WIDE * (high - low) / (end - start)
+    return _INSIDE * WIDE * (high - low) / (end - start)
 
 
 def _word(name: str) -> str:
@@ -196,7 +196,7 @@ def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Datase
     first, last = contact[[0, -1]] if contact.size else (start, end)
     if length is None:
         extent, most = last - first, end - start
-        length = max(min(AROUND * extent, most), LEAST_AROUND * extent, LEAST_SHARE * most)
+        length = max(min(_AROUND * extent, most), LEAST_AROUND * extent, _LEAST_SHARE * most)
     coarse = x[inside & (np.gradient(x) > 1.01 * np.diff(x).min())]
     lowest = x[np.searchsorted(x, coarse[coarse < first].max(initial=x[0]), "right")]
     highest = x[np.searchsorted(x, coarse[coarse > last].min(initial=x[-1])) - 1]

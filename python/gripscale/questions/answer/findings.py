@@ -125,7 +125,8 @@ def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> I
             yield Finding(
                 Severity.DOUBT,
                 f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
-                f"shorter than {in_mm(held, 3)}, two of their steps{'' if record.of_map else cure}.",
+                f"shorter than {in_mm(held, 3)}, two of their steps"
+                f"{'' if record.of_map else cure}.",
                 key="below_measurement.down_to",
             )
         end = held

@@ -42,7 +42,7 @@ from gripscale.questions.answer.intervals import LogError
 QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
 """Totals every sample has, as `gripscale.model.TOTALS` without `total_`."""
 
-ROUNDING = 1e-6
+_ROUNDING = 1e-6
 """Relative difference below which two wavelengths are the same."""
 
 SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
@@ -127,13 +127,13 @@ def curve_at(
     finite = np.isfinite(values) & np.isfinite(wavelength)
     if not finite.any():
         return np.full(at.size, np.nan)
-    first = wavelength[0] * (1.0 + ROUNDING)
+    first = wavelength[0] * (1.0 + _ROUNDING)
     waves, values = wavelength[finite], values[finite]
     if stepped:
-        count = (waves[None, :] >= at[:, None] * (1.0 - ROUNDING)).sum(axis=1)
+        count = (waves[None, :] >= at[:, None] * (1.0 - _ROUNDING)).sum(axis=1)
         return np.asarray(np.append(SMOOTH[name], values)[count])
     between = np.interp(-np.log(at), -np.log(waves), values)
-    between = np.where(at > waves[0] * (1.0 + ROUNDING), np.nan, between)
+    between = np.where(at > waves[0] * (1.0 + _ROUNDING), np.nan, between)
     return np.where(at > first, SMOOTH[name], between)
 
 
@@ -144,8 +144,8 @@ def octaves(longest: float, shortest: float, end: float) -> Array:
     """
     if math.isnan(longest):
         return np.empty(0)
-    first = np.floor(np.log2(longest / end) + ROUNDING)
-    last = np.floor(np.log2(shortest / end) + ROUNDING)
+    first = np.floor(np.log2(longest / end) + _ROUNDING)
+    last = np.floor(np.log2(shortest / end) + _ROUNDING)
     return np.asarray(end * 2.0 ** np.arange(first, last - 1.0, -1.0))
 
 

@@ -274,7 +274,7 @@ def calibrate(
     )
 
 
-MODELS = ("direct", "chain")
+_MODELS = ("direct", "chain")
 """Models whose hysteresis an area term can be put beside."""
 
 
@@ -317,7 +317,7 @@ def calibrate_case(
         extrapolation and a point excites the rubber beyond its measured frequencies.
     """
     if model is not None:
-        checks.one_of("model", model, MODELS)
+        checks.one_of("model", model, _MODELS)
     fit.check_names(law, fixed or ())
     model = model or default_model(case)
     friction = measured or measured_of(case)
@@ -345,7 +345,7 @@ def measured_of(case: Case) -> MeasuredFriction:
     return case.friction
 
 
-SOURCE = "gripscale calibrate"
+_SOURCE = "gripscale calibrate"
 
 ESTIMATE = {
     "estimate": "best value of the parameter, in its unit",
@@ -355,7 +355,7 @@ ESTIMATE = {
 }
 """Numbers of a parameter, with their meaning."""
 
-HELD_OUT = {
+_HELD_OUT = {
     "points": "measured points left out",
     "rms_inside": "rms residual of the points that were fitted",
     "rms_outside": "rms error at the points left out",
@@ -374,7 +374,7 @@ def calibration_dataset(calibration: Calibration) -> xr.Dataset:
     data: dict[str, xr.Variable] = measured_variables(measured)
 
     def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
-        data[name] = labelled(dims, values, unit, text, SOURCE)
+        data[name] = labelled(dims, values, unit, text, _SOURCE)
 
     at = "measurement"
     add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
@@ -406,7 +406,7 @@ def calibration_dataset(calibration: Calibration) -> xr.Dataset:
     text = "rise of the sum of squares, NaN where another parameter has no room"
     add("profile_excess", steps, excess, text)
     if calibration.held_out:
-        for name, text in HELD_OUT.items():
+        for name, text in _HELD_OUT.items():
             column = [getattr(group, name) for group in calibration.held_out]
             add("left_out" if name == "value" else name, "left_out", column, text)
     names = [estimate.name for estimate in estimates]

@@ -262,8 +262,8 @@ def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:
 
 BEST_STARTS = 3
 """Starts, of all that are tried, from which the search goes on to its end."""
-TOLERANCE = 1e-8
-AT_LIMIT = 1e-3
+_TOLERANCE = 1e-8
+_AT_LIMIT = 1e-3
 """Share of the range of a parameter within which it is at a limit."""
 
 
@@ -304,7 +304,7 @@ class Problem:
         """Return whether a parameter has gone as far as it is sought; zero itself is no limit."""
         pairs = zip(self.family.free, theta, strict=True)
         return any(
-            abs(x - end) < AT_LIMIT * (parameter.limits[1] - parameter.limits[0])
+            abs(x - end) < _AT_LIMIT * (parameter.limits[1] - parameter.limits[0])
             for parameter, x in pairs
             for end, value in zip(parameter.limits, (parameter.low, parameter.high), strict=True)
             if value != 0.0
@@ -342,9 +342,9 @@ def refined(problem: Problem, start: Array) -> Optimum:
         problem.residuals,
         np.clip(start, low, high),
         bounds=(low, high),
-        xtol=TOLERANCE,
-        ftol=TOLERANCE,
-        gtol=TOLERANCE,
+        xtol=_TOLERANCE,
+        ftol=_TOLERANCE,
+        gtol=_TOLERANCE,
     )
     return Optimum(solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))
 

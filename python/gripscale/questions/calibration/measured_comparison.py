@@ -264,7 +264,7 @@ def predicted_of(data: xr.Dataset) -> Predicted:
     )
 
 
-SOURCE = "gripscale residuals"
+_SOURCE = "gripscale residuals"
 
 
 def residuals(
@@ -332,7 +332,7 @@ def residuals(
         "rms_difference_in_spread": ("model", rms(relative), f"rms of {about}, over its spread"),
     }
     data = {
-        name: labelled(dims, values, "1", text, SOURCE)
+        name: labelled(dims, values, "1", text, _SOURCE)
         for name, (dims, values, text) in columns.items()
     }
     return xr.Dataset(data | measured_variables(measured), coords={"model": list(predicted)})

@@ -35,9 +35,9 @@ from gripscale.questions.calibration.measured_comparison import rms
 
 LEVEL = 0.9
 """Share of measurements like this one whose interval holds the true value."""
-REACH = 2.0
+_REACH = 2.0
 """How much further each step of a search for an end goes."""
-FINE = 1e-3
+_FINE = 1e-3
 """Relative accuracy of the distance to an end."""
 LESS = 1e-6
 """Relative decrease of the sum of squares beyond which another minimum has been met."""
@@ -103,7 +103,7 @@ class LikelihoodProfile:
                 return self._crossing({near: (below, others), far: (excess, met)}, threshold)
             if far == limit:
                 return way * math.inf
-            near, below, others, step = far, excess, met, REACH * step
+            near, below, others, step = far, excess, met, _REACH * step
 
     def curve(self, low: float, high: float) -> tuple[Array, Array]:
         """Return values from `low` to `high` and E there, each from its neighbour's others.
@@ -134,7 +134,7 @@ class LikelihoodProfile:
                 solved[scaled] = self.excess(scaled, start)
             return math.sqrt(solved[scaled][0]) - math.sqrt(threshold)
 
-        fine = FINE * abs(far - self.centre)
+        fine = _FINE * abs(far - self.centre)
         end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
         above(end)
         if self.problem.holding(self.index, end).at_limit(solved[end][1]):

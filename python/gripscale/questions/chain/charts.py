@@ -438,9 +438,9 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     )
 
 
-HEIGHT, ROW = 1.5, 0.32
+_HEIGHT, _ROW = 1.5, 0.32
 """Of the figure without rows, and of each [inch]."""
-INSIDE = 0.45
+_INSIDE = 0.45
 """Share of the longest bar; in one longer than that its number stands inside."""
 SHARE = 0.6
 """Share of the height of a row that the bars of all models take."""
@@ -492,7 +492,7 @@ def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
     return Sheet(
         panels,
         len(panels),
-        height=HEIGHT + ROW * len(names) * max(len(results), 1.5),
+        height=_HEIGHT + _ROW * len(names) * max(len(results), 1.5),
         legend_columns=len(results),
         legend_title="\n".join(filter(None, [title, PER_CENT])),
         gap=0.04,
@@ -518,7 +518,7 @@ def _effect_bars(
             continue
         text = f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged"
         x, y = float(np.nan_to_num(value)), float(at)
-        if value > INSIDE * longest:
+        if value > _INSIDE * longest:
             yield Note(x, y, text, "white", (-3.0, 0.0), "right")
         else:  # a short bar may end just before the dotted line, which then passes behind
             yield Note(x, y, text, INK, (3.0, 0.0), boxed=True)

@@ -17,7 +17,7 @@ from gripscale.charts.paper import DASHES, DPI, ROUND, RULES
 from gripscale.charts.style import BLUE, FAINT, GREY, INK, ORANGE
 from gripscale.core.arrays import Array
 
-LINE = 0.12
+_LINE = 0.12
 """Of a title beyond its third line [inch]."""
 FOR_WORDS = 0.2
 """Wavelengths left free above a wave without a mesh."""
@@ -27,7 +27,7 @@ PRESSURE = 0.42
 """Height of a panel of pressure over its width."""
 LEFT, RIGHT, BETWEEN = 0.6, 0.22, 0.42
 """Beside the panels: for the labels of the first, at the end, for numbers between two [inch]."""
-HEAD, MIDDLE, FOOT, LAST = 0.5, 0.2, 0.22, 0.22
+_HEAD, MIDDLE, FOOT, LAST = 0.5, 0.2, 0.22, 0.22
 """Of a row of panels: its titles, between pressure and block, numbers; below the last [inch]."""
 
 
@@ -47,7 +47,7 @@ def _draw(sheet: Blocks) -> Figure:
     width = LEFT + RIGHT + columns * inside + (columns - 1) * BETWEEN
     rows = max(math.ceil(len(blocks) / columns), 1)
     low, high = _window(blocks)
-    head = HEAD + LINE * max((block.caption.count("\n") - 2 for block in blocks), default=0)
+    head = _HEAD + _LINE * max((block.caption.count("\n") - 2 for block in blocks), default=0)
     row_height = head + inside * (PRESSURE + high - low) + MIDDLE + FOOT
     height = rows * row_height + LAST
     figure = Figure(figsize=(width, height), dpi=DPI)

@@ -39,7 +39,7 @@ WAVE = [
     Column("amplitude", heading="A", unit="mm", size=MILLI),
     Column("slope", heading="slope", unit="2πA/λ"),
 ]
-LOAD = [
+_LOAD = [
     Column("pressure_received", heading="p"),
     Column("sliding_speed", heading="v"),
     Column("load_time", heading="load time", unit="s"),
@@ -58,7 +58,7 @@ CONTACT = [
     Column("running_friction", heading="μ", unit="sum"),
     Column("friction_from_dissipation", heading="μ", unit="losses"),
 ]
-CONDITIONS = [
+_CONDITIONS = [
     Column("strain", heading="strain", unit="%", size=0.01),
     Column("storage_modulus_ratio", heading="E′ left", format=percent),
     Column("loss_modulus_ratio", heading="E″ left", format=percent),
@@ -126,19 +126,19 @@ MOVING_ONLY = {
     "friction_error",
 }
 """Columns that say nothing of rubber at rest."""
-GIVEN = {"pressure_received": "pressure", "sliding_speed": "speed"}
+_GIVEN = {"pressure_received": "pressure", "sliding_speed": "speed"}
 """Columns in the unit of a key of the case."""
-TABLES = {
-    "load": ("Load and rubber of each wave", LOAD),
+_TABLES = {
+    "load": ("Load and rubber of each wave", _LOAD),
     "contact": ("Contact and friction of each wave", CONTACT),
-    "conditions": ("The rubber in its conditions", CONDITIONS),
+    "conditions": ("The rubber in its conditions", _CONDITIONS),
     "errors": ("Errors and stretches of each wave", ERRORS),
     "solution": ("Solution of each wave", SOLUTION),
     "mesh": ("Mesh of each wave", MESH),
 }
 """Tables of a page by name: caption and columns."""
-ALL = {column.name: column for column in chain(WAVE, *(columns for _, columns in TABLES.values()))}
-NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did not converge."
+ALL = {column.name: column for column in chain(WAVE, *(columns for _, columns in _TABLES.values()))}
+_NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did not converge."
 
 IN_TERMINAL = {
     "": ("wavelength",),
@@ -156,13 +156,13 @@ LEGEND = (
     "area: contact length over wavelength, and A_r/A_0 down to the wave; μ: of the wave, summed "
     "down to it, and of the wave from the energy lost; |E*| and tan δ at 2πv/λ."
 )
-STAR = "* the wave, or a harmonic of it, excites the rubber beyond the measured frequencies:"
+_STAR = "* the wave, or a harmonic of it, excites the rubber beyond the measured frequencies:"
 
 
 def filled(view: PredictionView, column: Column, rows: int = 0) -> Column:
     """Return a column with the numbers of a prediction, NaN where it is at rest or ended before."""
-    if column.name in GIVEN:
-        display_unit = view.display_unit(GIVEN[column.name])
+    if column.name in _GIVEN:
+        display_unit = view.display_unit(_GIVEN[column.name])
         column = replace(column, unit=display_unit.unit, size=display_unit.divisor)
     values = np.full(max(rows, view.waves), np.nan)
     if view.has(column.name) and (view.moving or column.name not in MOVING_ONLY):
@@ -202,7 +202,7 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
         apart = view.column("friction_mismatch").max()
         notes.append(f"The two friction coefficients of a wave are at most {apart:.2%} apart.")
     if beyond:
-        notes.append(f"{STAR} {beyond}")
+        notes.append(f"{_STAR} {beyond}")
         marks = ["*" if flag else "" for flag in view.column("outside_band")]
         columns = [replace(c, marks=marks) if c.name == "loss_factor" else c for c in columns]
     notes += [notice.sentence for notice in conditions_notices(view)]
@@ -231,9 +231,9 @@ def totals(data: xr.Dataset) -> str:
 def heat_table(data: xr.Dataset) -> Table:
     """Return how warm the rubber is on each wave of a chain solved with heat, and what warms it."""
     view = PredictionView(data)
-    names = [column.name for column in CONDITIONS]
+    names = [column.name for column in _CONDITIONS]
     first, last = names.index("flash_temperature_rise_uniform"), names.index("contact_temperature")
-    warming = [WAVE[0], *CONDITIONS[first : last + 1]]
+    warming = [WAVE[0], *_CONDITIONS[first : last + 1]]
     columns = [numbers("wave", view.waves, "#"), *(filled(view, column) for column in warming)]
     return Table("heat", columns, "Temperature of the rubber on each wave")
 
@@ -243,7 +243,7 @@ def _plain(value: float) -> str:
 
 
 def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
-    """Return the tables of a page: those of `TABLES` and one of any further numbers per wave."""
+    """Return the tables of a page: those of `_TABLES` and one of any further numbers per wave."""
     if not predictions:
         return []
     further: dict[str, Column] = {}
@@ -251,7 +251,7 @@ def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
         if name not in ALL and variable.dims == ("scale",) and variable.dtype.kind in "fiu":
             unit = str(variable.attrs.get("units", "")).replace("1", "")
             further[str(name)] = Column(str(name), unit=unit, format=_plain)
-    all_tables = TABLES | {"further": ("Further columns of the result", list(further.values()))}
+    all_tables = _TABLES | {"further": ("Further columns of the result", list(further.values()))}
     tables = [_table(name, *content, predictions) for name, content in all_tables.items()]
     return [table for table in tables if len(table.columns) > 2]
 
@@ -282,7 +282,7 @@ def _table(
     waves = [replace(filled(longest, c), bad=()) for c in (WAVE if name == "load" else WAVE[:1])]
     gaps = any("-" in column.texts() for column in parts)
     return Table(
-        name, [numbers("wave", rows, bad=failed), *waves, *parts], caption, [NOTE] if gaps else []
+        name, [numbers("wave", rows, bad=failed), *waves, *parts], caption, [_NOTE] if gaps else []
     )
 
 

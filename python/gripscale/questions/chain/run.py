@@ -27,7 +27,7 @@ from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult
 
 DYNAMIC, STATIC = "dynamic", "static"
-KEY, FINISHED = "prediction_key", "prediction_finished"
+_KEY, FINISHED = "prediction_key", "prediction_finished"
 """Attributes of a result: what it depends on, and whether its chain came to its end."""
 
 SAVE_EVERY = 2.0
@@ -183,7 +183,7 @@ class ChainRun:
         """Write the waves of a prediction, at the end with the record of the inputs."""
         if self.folder is None or name not in self.predictions:
             return
-        stamp = {KEY: self.key(name), FINISHED: int(finished)}
+        stamp = {_KEY: self.key(name), FINISHED: int(finished)}
         data = self.dataset(name).assign_attrs(stamp)
         groups = {"inputs": record.inputs(self.case)} if with_inputs else {}
         netcdf.save(data, self.folder / f"{name}.nc", groups)
@@ -205,7 +205,7 @@ def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     """
     try:
         data = netcdf.load(path)
-        prediction = ChainResult.from_dataset(data) if data.attrs.get(KEY) == key else None
+        prediction = ChainResult.from_dataset(data) if data.attrs.get(_KEY) == key else None
     except (FileError, InputError):
         return None
     if prediction is None:

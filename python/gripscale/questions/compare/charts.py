@@ -32,13 +32,13 @@ from gripscale.questions.vary.axis import axis_label, axis_shown
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-LEAST_RANGE = 3.0
+_LEAST_RANGE = 3.0
 """Largest over smallest number of an axis, at least: less has no numbers of a log axis in it."""
 HALF = 0.27
 """Half the height of a bar, in rows."""
-ROW = 44
+_ROW = 44
 """Height of a row of the ladder on the page [px]."""
-LINE = 24
+_LINE = 24
 """Letters of a line of a label beside the ladder: the frame keeps its width on a telephone."""
 
 
@@ -75,7 +75,7 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
         texts = (
             row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
         )
-        ticks = {float(at): textwrap.fill(text, LINE) for at, text in enumerate(texts)}
+        ticks = {float(at): textwrap.fill(text, _LINE) for at, text in enumerate(texts)}
         panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
     on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
@@ -98,7 +98,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
         if math.isfinite(end) and end > 0.0
     ] or [0.1, 1.0]
     low, high = min(numbers), max(numbers)
-    widen = max(LEAST_RANGE * low / high, 1.0) ** 0.5
+    widen = max(_LEAST_RANGE * low / high, 1.0) ** 0.5
     low, high = low / widen, high * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
@@ -123,7 +123,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
         "where the number falls, orange where it rises; lines are one standard uncertainty, a "
         "star is for friction partly beyond the measured band.",
         alt=f"{words} of each model, with the step from the one before.",
-        height=90 + ROW * len(rows),
+        height=90 + _ROW * len(rows),
         legend="none",
     )  # fmt: skip
 
@@ -223,7 +223,7 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     return draw.on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
 
 
-MARGIN = 0.03
+_MARGIN = 0.03
 """Room beside the values of an axis, over its extent."""
 
 
@@ -262,7 +262,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         low, high = min([low, *speeds]), max([high, *speeds])
     log = low > 0.0 and high > 8.0 * low
     # room for a marker at each end
-    extent = (high / low) ** MARGIN if log else MARGIN * (high - low)
+    extent = (high / low) ** _MARGIN if log else _MARGIN * (high - low)
     low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
     least = min(0.0, float(comparison.total_friction.min()))
     text = axis.replace("_", " ")

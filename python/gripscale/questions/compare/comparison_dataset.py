@@ -33,8 +33,8 @@ from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import coordinates
 from gripscale.rubber.measured_rubber import MeasuredRubber
 
-SOURCE = "gripscale compare"
-WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
+_SOURCE = "gripscale compare"
+_WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
 """The two numbers that are compared."""
 
 
@@ -86,7 +86,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
 
     def add(name: str, values: xr.DataArray, long_name: str, *dims: str, unit: str = "1") -> None:
         ordered = values.transpose(*outer, *dims)
-        data[name] = labelled(ordered.dims, ordered.values, unit, long_name, SOURCE)
+        data[name] = labelled(ordered.dims, ordered.values, unit, long_name, _SOURCE)
 
     def add_by_load(name: str, values: Any, long_name: str, *dims: str, unit: str = "1") -> None:
         array = np.asarray(values if outer else values[0])
@@ -101,7 +101,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         add(f"best_{name}", best[f"best_{name}"], text)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
-    for name, text in WORDS.items():
+    for name, text in _WORDS.items():
         values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"
         add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "rung")
@@ -166,9 +166,9 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     }
     for name, text in words.items():
         column = [getattr(rung, name) for rung in comparison.rungs]
-        data[name] = labelled("rung", np.array(column, dtype=object), "1", text, SOURCE)
+        data[name] = labelled("rung", np.array(column, dtype=object), "1", text, _SOURCE)
     labels, text = best.factor_label.values, "factors of the best estimate"
-    data["factor_label"] = labelled("factor", labels, "1", text, SOURCE)
+    data["factor_label"] = labelled("factor", labels, "1", text, _SOURCE)
     measured = comparison.measured
     if measured is not None:
         data |= measured_variables(measured)
@@ -176,7 +176,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     if axis is not None:
         coords |= coordinates([axis], comparison.case.units)
     text = "lower end of the octave"
-    coords["wavelength"] = labelled("wavelength", wavelength, "m", text, SOURCE)
+    coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
     conditions = setups[0].conditions
     return xr.Dataset(
         data,

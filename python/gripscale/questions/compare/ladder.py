@@ -1,7 +1,7 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each rung.
 
 A new rung is a function that draws its samples, an entry in `LADDER`, and if it follows another,
-one in `STEPS`. What two rungs on the same surfaces say of an assumption may become a factor of the
+one in `_STEPS`. What two rungs on the same surfaces say of an assumption may become a factor of the
 best estimate (`gripscale.questions.answer.best_estimate`).
 """
 
@@ -169,12 +169,12 @@ def _halving(count: int) -> list[int]:
     return [int(f"{number:0{bits}b}"[::-1], 2) for number in range(count)]
 
 
-Measurement = TypeVar("Measurement", Profile, HeightMap)
+_Measurement = TypeVar("_Measurement", Profile, HeightMap)
 
 WINDOWS = "windows"
 """The group of rungs that take a minute and more."""
 
-BELOW = "below"
+_BELOW = "below"
 """The group of roughness below the measurement, which is compared on request only."""
 
 LENGTH_OF_SINES = 10
@@ -198,7 +198,7 @@ def chosen(names: Iterable[str]) -> list[Rung]:
     groups = dict.fromkeys(rung.group for rung in LADDER)
     checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
     if not wanted:
-        return [rung for rung in LADDER if rung.group != BELOW]
+        return [rung for rung in LADDER if rung.group != _BELOW]
     return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
 
 
@@ -295,12 +295,12 @@ def _spectrum(line: Profile) -> ArealSpectrum:
 
 
 @lru_cache(maxsize=64)
-def _shuffled(measured: Measurement, seed: int) -> Measurement:
+def _shuffled(measured: _Measurement, seed: int) -> _Measurement:
     """Draw once what is met at every load."""
     return random_phases(measured, seed)
 
 
-STEPS = {
+_STEPS = {
     "chain_half_plane": ("small strain assumed", "chain"),
     "chain_upper": ("heights that touch, pressure as it is distributed", "chain_half_plane"),
     "sines": ("all scales together", "chain_half_plane"),
@@ -317,7 +317,7 @@ STEPS = {
 def _rung(
     name: str, label: str, group: str, draws: Callable[[ComparisonSetup], Sequence[SampleSpec]]
 ) -> Rung:
-    return Rung(name, label, group, *STEPS.get(name, ("", "")), draws)
+    return Rung(name, label, group, *_STEPS.get(name, ("", "")), draws)
 
 
 LADDER: tuple[Rung, ...] = (
@@ -330,7 +330,7 @@ LADDER: tuple[Rung, ...] = (
     _rung(
         ContinuedContact.name,
         "direct contact, continued below the measurement",
-        BELOW,
+        _BELOW,
         _continued,
     ),
     _rung("persson", "Persson, isotropic surface", "theory", _persson),

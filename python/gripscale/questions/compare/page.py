@@ -32,7 +32,7 @@ from gripscale.rubber.extrapolation import WORTH_SAYING
 
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
-NOTE = (
+_NOTE = (
     "×: factor on the model before; for theories, on the direct contact. Exponents: "
     "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band (*): "
     "share of the friction at frequencies beyond those of the master curve, and how far they go."
@@ -89,7 +89,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     ]
     strong = [i for i, name in enumerate(comparison.rung.values) if str(name) == DIRECT]
     return Table(
-        "ladder", columns, "The ladder of models", [NOTE], bad=flawed(comparison), strong=strong
+        "ladder", columns, "The ladder of models", [_NOTE], bad=flawed(comparison), strong=strong
     )
 
 

@@ -28,11 +28,11 @@ from gripscale.questions.cut_off.curve import (
     SLOPE_IN_CONTACT,
 )
 
-CURVES = {
+_CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
     AREA: ("$A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
 }
-SAME = 0.01
+_SAME = 0.01
 """Relative distance of two rules that lie on each other in a figure."""
 
 
@@ -56,7 +56,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
     axis = Axis("cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high)
     rules = list(_rules(data))
     panels = []
-    for name, (label, colour, title) in CURVES.items():
+    for name, (label, colour, title) in _CURVES.items():
         marks: list[Mark] = [
             Band(
                 lengths,
@@ -124,7 +124,7 @@ def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
     names: dict[float, list[str]] = {}
     for name, at in zip(data.rule.values, data.rule_cut_off.values, strict=True):
         if last <= at <= first:
-            length = next((other for other in names if abs(at / other - 1.0) < SAME), float(at))
+            length = next((other for other in names if abs(at / other - 1.0) < _SAME), float(at))
             names.setdefault(length, []).append(str(name))
     for i, (at, alike) in enumerate(names.items()):
         colour = COLOURS[(i + 2) % len(COLOURS)]

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 PERCENT = 100.0
 SAME = 5e-3
 """Relative difference of rolling resistances that is none."""
-FREQUENCY = Axis("frequency [Hz]", log=True, numbers=5)
-APART = 0.05
+_FREQUENCY = Axis("frequency [Hz]", log=True, numbers=5)
+_APART = 0.05
 """Difference of rolling resistances over today's from which both curves can be told apart."""
 COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
 
@@ -64,7 +64,7 @@ def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:
     return [
         (at, colours[at], _label(float(ratio[at])))
         for at in sorted(colours)
-        if at == answer or abs(ratio[at] - ratio[answer]) > APART
+        if at == answer or abs(ratio[at] - ratio[answer]) > _APART
     ]
 
 
@@ -133,7 +133,7 @@ def _moduli_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel
         marks.append(
             Note(frequency[0], today[0], "$E'$" if name == "storage" else "$E''$", offset=(3, 6))
         )
-    return Panel(FREQUENCY, Axis("modulus [MPa]", log=True), marks)
+    return Panel(_FREQUENCY, Axis("modulus [MPa]", log=True), marks)
 
 
 def _loss_factor_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
@@ -143,7 +143,7 @@ def _loss_factor_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> 
     for at, colour, _ in points:
         ratio = data.loss.values[at] / data.storage.values[at]
         marks.append(Series(frequency, ratio, colour, width=1.0, order=3.0))
-    return Panel(FREQUENCY, Axis("loss factor tan δ [-]", low=0.0), marks)
+    return Panel(_FREQUENCY, Axis("loss factor tan δ [-]", low=0.0), marks)
 
 
 def _change_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
@@ -157,4 +157,4 @@ def _change_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel
         Series([], [], INK, "$E''$ over today's", width=1.2),
         Series([], [], INK, "$E'$ over today's", "dashdot", width=1.2),
     ]
-    return Panel(FREQUENCY, Axis("modulus over today's [-]"), [CrossLine(1.0), *marks, *keys])
+    return Panel(_FREQUENCY, Axis("modulus over today's [-]"), [CrossLine(1.0), *marks, *keys])

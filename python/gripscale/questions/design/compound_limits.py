@@ -38,7 +38,7 @@ from gripscale.rubber.shift import EDGE
 QUANTITIES = ("storage_modulus", "loss_factor")
 HANDLING = ZERO_CELSIUS + 20.0
 """Temperature of the storage modulus that is kept by default [K]."""
-AT_LIMIT = 1e-4
+_AT_LIMIT = 1e-4
 """Distance from a limit, relative to today's moduli, within which it counts as reached."""
 
 
@@ -303,8 +303,8 @@ class AdmissibleChanges:
     def at_bound(self, ratio: Array) -> Mask:
         """Return which moduli are at a bound or as far from a neighbour as they may be."""
         low, high = self.bounds
-        reached = (ratio - low < AT_LIMIT) | (high - ratio < AT_LIMIT)
-        tight = (self.smooth_rows @ ratio > -AT_LIMIT).reshape(-1, 2).any(axis=1)
+        reached = (ratio - low < _AT_LIMIT) | (high - ratio < _AT_LIMIT)
+        tight = (self.smooth_rows @ ratio > -_AT_LIMIT).reshape(-1, 2).any(axis=1)
         reached[self.neighbours[0][tight].reshape(-1)] = True
         return np.asarray(reached)
 

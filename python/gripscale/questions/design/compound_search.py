@@ -46,7 +46,7 @@ LEAST_GAP = 1e-4
 """Gap at which the search ends [-]."""
 MOST_CORNERS = 8
 SHORTEST_STEP = 0.05
-ROUNDING = 1e-6
+_ROUNDING = 1e-6
 """Violation of a limit that is none."""
 PRECISION = 1e-5
 """Change of ln mu at which quadratic programming ends."""
@@ -188,7 +188,7 @@ def nearest_design(
     settings = _programme(admissible, matrix, most, PRECISION)
     solved = minimize(distance, optimum.ratio, jac=True, **settings)
     ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
-    if admissible.violation(ratio) > ROUNDING:
+    if admissible.violation(ratio) > _ROUNDING:
         return optimum
     for _ in range(MOST_HALVINGS):
         value, slope = friction.log_friction(ratio)
@@ -221,7 +221,7 @@ def _corner_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: 
     """
     ratio = start
     value, slope = friction.log_friction(ratio)
-    outside = admissible.violation(ratio) > ROUNDING
+    outside = admissible.violation(ratio) > _ROUNDING
     step, gap = 1.0, math.inf
     for _ in range(MOST_CORNERS):
         corner = admissible.best(slope)

@@ -35,7 +35,7 @@ from gripscale.questions.design.compound_limits import changed, require_shift, r
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, Surface
 
-T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 class CompoundGoal(Checked):
@@ -183,11 +183,11 @@ class GoalFriction:
         gradient = self.averaged(slopes) / friction[:, None] / ratio
         return float(self.weights @ np.log(friction)), np.asarray(self.weights @ gradient)
 
-    def _each(self, work: Callable[[int], T]) -> list[T]:
+    def _each(self, work: Callable[[int], _T]) -> list[_T]:
         """Return the work of each part, on all threads; the parts are independent."""
 
-        def job(index: int) -> Job[T]:
-            def run(_: Event) -> T:
+        def job(index: int) -> Job[_T]:
+            def run(_: Event) -> _T:
                 return work(index)
 
             return run

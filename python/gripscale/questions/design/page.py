@@ -23,7 +23,7 @@ from gripscale.report.elements import Card
 
 DECIDES = 1e-3
 """Friction gained by a tenth more room from which a limit decides."""
-TITLE = "Trade-off: each row is the admissible compound of most friction"
+_TITLE = "Trade-off: each row is the admissible compound of most friction"
 
 
 def design_lines(data: xr.Dataset) -> Iterator[str]:
@@ -171,7 +171,7 @@ def design_table(data: xr.Dataset) -> Table:
         notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
     columns.append(Column("limited_share", data.limited_share.values, "at a limit", format=_share))
     columns.append(Column("gap", data.gap.values, "left to gain", format=change))
-    return Table("design", columns, TITLE, notes)
+    return Table("design", columns, _TITLE, notes)
 
 
 def compounds_table(data: xr.Dataset) -> Table | None:

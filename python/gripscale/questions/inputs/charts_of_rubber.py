@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 OMEGA = Axis("angular frequency $\\omega$ [rad/s]", log=True)
 CELSIUS = Axis("temperature [°C]")
 KILO = 1e3
-MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
+_MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
 
 
 def master_curve_figure(
@@ -104,7 +104,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
         kept = ~_left_out(inputs)
         omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
         marks: list[Mark] = [CrossLine(0.0, INK)]
-        for part, name, colour in MODULI:
+        for part, name, colour in _MODULI:
             ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
             marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
         panels.append(Panel(
@@ -143,14 +143,14 @@ def _moduli_panels(
     beyond = (omega < low) | (omega > high)
     measured = "master_frequency" in inputs
     moduli: list[Mark] = []
-    for part, name, colour in MODULI:
+    for part, name, colour in _MODULI:
         if f"series_low_{part}" in inputs:
             sides = (f"series_{side}_{part}" for side in ("low", "high"))
             least, most = (inputs[side].values / MEGA for side in sides)
             moduli.append(Band(omega, least, most, colour, "admissible"))
         values = inputs[f"series_{part}"].values / MEGA
         moduli.append(Series(omega, values, colour, f"{name}, Prony series", beyond=beyond))
-    for part, name, colour in MODULI if measured else ():
+    for part, name, colour in _MODULI if measured else ():
         moduli += _rows(inputs, inputs[f"master_{part}"].values / MEGA, colour, name)
     factor = inputs["series_loss"].values / inputs["series_storage"].values
     loss: list[Mark] = [Series(omega, factor, GREEN, "loss factor, Prony series", beyond=beyond,
@@ -392,7 +392,7 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
     look: dict[str, Any] = {"marker": "o", "size": 3.2, "width": 0.9}
     apart = [
         Series(middle, [getattr(pair, name) for pair in overlaps], colour, label, **look)
-        for name, label, colour in (*MODULI, ("loss_factor", "$E''/E'$", GREEN))
+        for name, label, colour in (*_MODULI, ("loss_factor", "$E''/E'$", GREEN))
     ]
     width = Series(middle, [pair.decades for pair in overlaps], INK, **look)
     panels = [

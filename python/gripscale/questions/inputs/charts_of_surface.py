@@ -38,7 +38,7 @@ from gripscale.surface.profile import HeightMap, Profile
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DISTANCE, HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
+DISTANCE, _HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
 MANY = 500
 """Removed points whose dots are small, or they would hide the profile."""
@@ -96,7 +96,7 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     for row, marks in rows.items():
         abscissa = {"as read": Axis(**ends), "cleaned": Axis(DISTANCE.label, **ends)}
         title = (raw.name or f"profile {number + 1}") if row == "as read" else ""
-        ordinate = Axis(f"{HEIGHT.label}\n{row}")
+        ordinate = Axis(f"{_HEIGHT.label}\n{row}")
         panels.append(Panel(abscissa.get(row, DISTANCE), ordinate, marks, title))
     return panels
 
@@ -129,7 +129,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
         ]  # fmt: skip
         panels.append(Panel(
             DISTANCE,
-            HEIGHT,
+            _HEIGHT,
             outlines,
             name=f"profile-{i + 1}",
             caption=f"{name}: as read and cleaned, lowest and highest height of each of "
@@ -140,7 +140,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
         x, z = profile["close_up_x"].values / MILLI, profile["close_up_z"].values / MILLI
         panels.append(Panel(
             DISTANCE,
-            HEIGHT,
+            _HEIGHT,
             [Series(x, z, label="cleaned, every point", width=1.1)],
             name=f"close-up-{i + 1}",
             caption=f"{name}: a piece from the middle, every point. Missing heights are gaps.",
@@ -152,7 +152,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
 
 MOST_PIXELS = 400
 """Points of a map along each side that are drawn."""
-KEPT = "#cfe3f3"
+_KEPT = "#cfe3f3"
 """Colour of what a crop keeps."""
 
 
@@ -161,7 +161,7 @@ def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None =
     kept: list[Mark] = []
     if crop is not None:
         low, high = (end / MILLI for end in crop)
-        kept = [CrossLine(low, KEPT, upright=True, to=high)]
+        kept = [CrossLine(low, _KEPT, upright=True, to=high)]
     if isinstance(raw, HeightMap):
         along, across = (-(-size // MOST_PIXELS) for size in raw.z.shape)
         heights = (raw.z - np.nanmin(raw.z))[::along, ::across].T / MILLI
@@ -172,7 +172,7 @@ def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None =
     else:
         pieces = [envelope(profile.x, profile.z) for profile in raw]
         marks = [_outline(x, ends, "as read", GREY) for x, *ends in pieces]
-        words, ordinate = "The profiles as measured.", HEIGHT
+        words, ordinate = "The profiles as measured.", _HEIGHT
     return draw.on_page([Panel(DISTANCE, ordinate, [*marks, *kept], name="raw", caption=words,
                                alt="The surface as measured, before cleaning.", height=300,
                                to_scale=isinstance(raw, HeightMap))])[0]  # fmt: skip

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
 GIGA = 1e9
-VARIED = "varied"
+_VARIED = "varied"
 
 
 def numbers(name: str, count: int, heading: str | None = None, bad: Flags = ()) -> Column:
@@ -392,13 +392,13 @@ def rubber_facts(record: InputRecord) -> Facts:
     return Facts("Rubber", pairs)
 
 
-LOAD = {
+_LOAD = {
     "pressure": ("nominal_pressure", "Nominal pressure"),
     "speed": ("nominal_speed", "Sliding speed"),
     "footprint": ("footprint", "Footprint"),
 }
 """Keys of [load]: attribute of a study, and what they are called."""
-CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
+_CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
 """Effects of the conditions of a study."""
 
 
@@ -408,16 +408,16 @@ def input_sections(study: Study) -> list[Section]:
 
     def quantity(key: str, attribute: str) -> str:
         if key in study.axes or attribute not in attrs:
-            return VARIED if key in study.axes else NONE
+            return _VARIED if key in study.axes else NONE
         return display_unit_of(attrs, key).text(attrs[attribute])
 
     effects = json.loads(attrs.get("conditions", "null")) or {}
-    names = (name for name in CONDITIONS if effects.get(name) is not None)
+    names = (name for name in _CONDITIONS if effects.get(name) is not None)
     conditions = ", ".join(name.replace("_", " ") for name in names)
     load = Facts(
         "Load and model",
         [
-            *((label, quantity(key, attribute)) for key, (attribute, label) in LOAD.items()),
+            *((label, quantity(key, attribute)) for key, (attribute, label) in _LOAD.items()),
             ("Conditions", conditions or ("none" if "conditions" in attrs else NONE)),
             ("Model", str(attrs.get("model", NONE)).replace("_", " ")),
             ("Surface", without_folder(str(attrs.get("surfaces", NONE)))),

@@ -91,9 +91,9 @@ def band(rubber: Rubber, master: MasterCurve | None, excitation: ArrayLike, poin
 
 
 Variables = dict[str, Any]
-Part = tuple[Variables, Variables]
+_Part = tuple[Variables, Variables]
 """Variables and attributes of the record."""
-POINTS = 600
+_POINTS = 600
 """Points of a curve that is drawn."""
 
 
@@ -172,7 +172,7 @@ def _waves(surface: Surface) -> Variables:
     }
 
 
-def _cut_off(surface: Surface, measured: Measured) -> Part:
+def _cut_off(surface: Surface, measured: Measured) -> _Part:
     """Return where the roughness ends and why, and the rms slope down to each wavelength."""
     cut_off, slopes = surface.cut_off, measured.slopes
     assert cut_off is not None
@@ -220,11 +220,11 @@ def _profiles(measured: Measured) -> Variables:
     return data
 
 
-def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) -> Part:
+def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) -> _Part:
     """Return C_z as measured and as fitted, the waves also at lags between the measured ones."""
     fit = measured.self_affine
     lag = np.asarray(hdc.lag)
-    fine = np.geomspace(lag[0], min(float(sines.wavelength[0]), lag[-1]), POINTS)
+    fine = np.geomspace(lag[0], min(float(sines.wavelength[0]), lag[-1]), _POINTS)
     curves: dict[str, Any] = {
         "correlation_value": hdc.value,
         "correlation_lower": hdc.lower,
@@ -252,7 +252,7 @@ def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) ->
 
 def rubber_variables(
     rubber: Rubber, master: MasterCurve | None, fit: PronyFit | None, excitation: Array
-) -> Part:
+) -> _Part:
     """Return variables and attributes of a Prony series and the master curve it was fitted to."""
     low, high = rubber.valid_band or (None, None)
     attrs: Variables = {
@@ -265,7 +265,7 @@ def rubber_variables(
     }
     for name, end in (("slow_end", slow_end(rubber)), ("fast_end", fast_end(rubber))):
         attrs |= {f"{name}_modulus_Pa": end.modulus, f"{name}_plateau": int(end.plateau)}
-    omega = band(rubber, master, excitation, POINTS)
+    omega = band(rubber, master, excitation, _POINTS)
     data: Variables = {"series_omega": ("series_omega", omega, {"units": "rad/s"})}
     data |= _moduli("series", "series_omega", rubber.complex_modulus(omega))
     if rubber.admissible is not None:

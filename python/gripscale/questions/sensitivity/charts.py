@@ -25,9 +25,9 @@ from gripscale.questions.vary.axis import dimensions, points
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST_CURVES = 8
+_MOST_CURVES = 8
 """Points of the axes that are drawn, evenly spaced among more."""
-EFFECTS = {
+_EFFECTS = {
     LOSS: ("$E''$", "more loss, more friction"),
     STORAGE: ("$E'$", "stiffer, less contact and less friction"),
 }
@@ -68,8 +68,8 @@ def _panels(data: xr.Dataset) -> list[Panel]:
     """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
     omega = data.modulus_frequency.values
     listed = list(points(data))
-    if len(listed) > MOST_CURVES:
-        chosen = np.linspace(0, len(listed) - 1, MOST_CURVES).round().astype(int)
+    if len(listed) > _MOST_CURVES:
+        chosen = np.linspace(0, len(listed) - 1, _MOST_CURVES).round().astype(int)
         listed = [listed[i] for i in chosen]
     colours = style.colours(len(listed), ordered=len(listed) > 1)
     axis = Axis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
@@ -93,7 +93,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
             alt="Storage and loss modulus against angular frequency.",
         )
     ]
-    for name, (symbol, meaning) in EFFECTS.items():
+    for name, (symbol, meaning) in _EFFECTS.items():
         curves: list[Mark] = [
             Series(
                 data.frequency.values,

@@ -71,12 +71,12 @@ LOG_STEP, KELVIN_STEP = 0.1, 2.0
 """Of the differences of whole solutions: ln v, ln p_0, and temperature [K]. The friction of a grid
 bends where an asperity comes into contact; smaller steps are single asperities."""
 
-RULES = {"wet grip": ZERO_CELSIUS, "rolling resistance": ZERO_CELSIUS + 60.0}
+_RULES = {"wet grip": ZERO_CELSIUS, "rolling resistance": ZERO_CELSIUS + 60.0}
 """Rules of thumb of tread compounds: tan(delta) at these temperatures [K] and `RULE_FREQUENCY`.
 M.-J. Wang, Rubber Chem. Technol. 71 (1998) 520, doi:10.5254/1.3538492."""
 RULE_FREQUENCY = 10.0
 """[Hz]"""
-MASTER_POINTS, MARGIN = 200, 30.0
+MASTER_POINTS, _MARGIN = 200, 30.0
 """Frequencies of the master curve beside the derivatives, and how far it goes beyond them."""
 
 
@@ -327,7 +327,7 @@ def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     """Return the Dataset with the master curve of its rubber, and the rules of thumb on it."""
     kelvin, at = _rules(rubber)
     drawn = np.array([*data.frequency.values, *at])
-    omega = np.geomspace(drawn.min() / MARGIN, drawn.max() * MARGIN, MASTER_POINTS)
+    omega = np.geomspace(drawn.min() / _MARGIN, drawn.max() * _MARGIN, MASTER_POINTS)
     modulus = rubber.complex_modulus(omega)
     about = attributes("angular frequency of the master curve", "rad/s")
     data = data.assign_coords(modulus_frequency=("modulus_frequency", omega, about)).assign(
@@ -336,7 +336,7 @@ def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     )
     if not at.size:
         return data
-    names = [name for name, each in RULES.items() if each in kelvin]
+    names = [name for name, each in _RULES.items() if each in kelvin]
     effect, distance = data[LOSS], np.abs(np.log10(data.frequency.values[:, None] / at))
     near = xr.DataArray(distance <= 0.5, dims=("frequency", "rule"))
     share = (effect * near).sum("frequency") / effect.sum("frequency")
@@ -358,5 +358,5 @@ def _rules(rubber: Rubber) -> tuple[Array, Array]:
     if shift is None or reference is None:
         return np.empty(0), np.empty(0)
     low, high = shift.limits
-    kelvin = np.array([each for each in RULES.values() if low <= each <= high])
+    kelvin = np.array([each for each in _RULES.values() if low <= each <= high])
     return kelvin, 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)

@@ -33,7 +33,7 @@ SCALARS = {
     "temperature": ("temperature", "1/K"),
 }
 """Ends of the names of derivatives by one number, with their headings and units."""
-MOST_POINTS = 6
+_MOST_POINTS = 6
 """Points that the table by decade has columns for."""
 signed = fixed(2, "+")
 
@@ -145,7 +145,7 @@ def decades_table(data: xr.Dataset) -> Table:
     decade = np.floor(np.log10(data.frequency.values) + 1e-9).astype(int)
     rows = np.arange(decade.min(), decade.max() + 1)
     listed = list(points(data))
-    chosen = np.unique(np.linspace(0, len(listed) - 1, min(MOST_POINTS, len(listed))).astype(int))
+    chosen = np.unique(np.linspace(0, len(listed) - 1, min(_MOST_POINTS, len(listed))).astype(int))
     columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
     for i in chosen:
         text, each = listed[i]

@@ -24,7 +24,7 @@ from gripscale.questions.vary.charts import varied_axis
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
+_TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
 """Titles of axes."""
 SYMBOL_TEXTS = {"friction": "$\\mu$", "contact_fraction": "$A_r/A_0$"}
 AS_STATED = "model, inputs as stated"
@@ -32,7 +32,7 @@ AS_STATED = "model, inputs as stated"
 MOST_BINS = 24
 MEDIAN, END = 1.6, 0.9
 """Widths of the lines at median and ends."""
-FEWEST_SAMPLES = 2
+_FEWEST_SAMPLES = 2
 """Samples there must be for a distribution."""
 
 
@@ -80,7 +80,7 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 def parts_figure(data: xr.Dataset) -> Figure:
     """Draw the standard errors that the interval of an answer is made of, the largest on top."""
-    names = [name for name in TOTALS if np.isfinite(data[f"best_{name}_uncertainty"])]
+    names = [name for name in _TOTALS if np.isfinite(data[f"best_{name}_uncertainty"])]
     ranked = np.argsort(data[f"best_{names[0]}_part_error"].values, kind="stable")
     labels = data.part_label.values[ranked]
     drawn = {*data.label.values.tolist(), NOT_ALONE, TOGETHER}
@@ -113,7 +113,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
     for model, colour in zip(data.model.values, COLOURS, strict=False):
         samples = data.sel(model=model)
         count = samples.sizes["sample"] - int(samples.failed)
-        for name, label in TOTALS.items():
+        for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
             answer = PredictionView(data).answer(name)
@@ -143,7 +143,7 @@ def _distribution(
     colour: str,
     answer: tuple[float, float, float],
 ) -> Iterator[Mark]:
-    if values.size < FEWEST_SAMPLES:
+    if values.size < _FEWEST_SAMPLES:
         return
     counts, edges = np.histogram(values, min(MOST_BINS, 1 + values.size // 6))
     yield Bars(edges[:-1], edges[1:], 0.0, counts, colour, alpha=0.45)
@@ -184,7 +184,9 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     rows = Axis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
     title = f"{data.model.item()}: what each does alone"
     panels = [
-        Panel(Axis(TOTALS["friction"]), rows, [*bars, CrossLine(middle, INK, upright=True)], title),
+        Panel(
+            Axis(_TOTALS["friction"]), rows, [*bars, CrossLine(middle, INK, upright=True)], title
+        ),
         Panel(
             Axis("share of the variance of $\\ln\\mu$ [-]"),
             rows,
@@ -201,7 +203,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
     abscissa, x = varied_axis(data, axis)
     panels = []
-    for name, label in TOTALS.items():
+    for name, label in _TOTALS.items():
         marks: list[Mark] = []
         for model, colour in zip(data.model.values, COLOURS, strict=False):
             samples = data.sel(model=model).transpose(axis, ...)
@@ -224,7 +226,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
     return draw.on_paper(Sheet(panels, keys=[case]))
 
 
-UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
+_UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
 """What a parameter is divided by to be drawn, and its unit then."""
 PARAMETER_LABELS = {
     "stress_0": "stress $\\tau_0$",
@@ -320,7 +322,7 @@ def profiles_figure(data: xr.Dataset) -> Figure:
 
 def _profile_panel(data: xr.Dataset) -> Panel:
     threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
-    divisor, unit = UNITS[str(data.unit.item())]
+    divisor, unit = _UNITS[str(data.unit.item())]
     rows = np.isfinite(data.profile_excess.values)
     value, excess = data.profile_value.values[rows] / divisor, data.profile_excess.values[rows]
     low, high, best = (float(data[name]) / divisor for name in ("low", "high", "estimate"))

@@ -53,10 +53,10 @@ UNCERTAINTY = (
 )
 MOST_FAILED = 0.25
 """Share of the samples of a model without an answer up to which the others stand for all."""
-LEAST_SHARE = 0.02
+_LEAST_SHARE = 0.02
 """Share of a part in the variance of the friction from which its linearity is judged: below it the
 samples do not know the part to a third."""
-APART = 4.0 / 3.0
+_APART = 4.0 / 3.0
 """Ratio of errors by derivatives and by samples from which the friction is not linear."""
 SUMMARY = (0.05, 0.5, 0.95)
 """Quantiles in the summaries of other reports."""
@@ -207,13 +207,13 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
             strict=True,
         )
     )
-    least = math.sqrt(LEAST_SHARE) * float(part.best_friction_uncertainty)
+    least = math.sqrt(_LEAST_SHARE) * float(part.best_friction_uncertainty)
     apart = [
         f"{label} ({percent(tangent[label])}, {percent(error)})"
         for label, error in sampled.items()
         if label in tangent
         and label != LABELS[ROAD]
-        and max(error, tangent[label]) > max(least, APART * min(error, tangent[label]))
+        and max(error, tangent[label]) > max(least, _APART * min(error, tangent[label]))
     ]
     if apart:
         yield (

@@ -36,7 +36,7 @@ Indices = NDArray[np.intp]
 
 BLOCK_WAVES = 4.0
 """Length of a block in largest waves."""
-FEWEST_BLOCKS, WANTED_BLOCKS, MOST_BLOCKS = 4, 8, 1000
+_FEWEST_BLOCKS, WANTED_BLOCKS, MOST_BLOCKS = 4, 8, 1000
 JOINT_WAVES = 0.5
 """Length over which one block goes over into the next, in largest waves."""
 
@@ -62,9 +62,9 @@ class ProfileBlocks:
     """`top_height_fraction` and `max_lag` of `height_difference`."""
 
     def __post_init__(self) -> None:
-        if len(self) < FEWEST_BLOCKS or self._wanted < self.largest_wave:
+        if len(self) < _FEWEST_BLOCKS or self._wanted < self.largest_wave:
             raise InputError(
-                f"the profiles must hold {FEWEST_BLOCKS} blocks as long as the largest wave, "
+                f"the profiles must hold {_FEWEST_BLOCKS} blocks as long as the largest wave, "
                 f"{self.largest_wave:.3g} m, to estimate their scatter; got {self._length:.3g} m "
                 "in all (leave out the source profile, or state another block_length)"
             )

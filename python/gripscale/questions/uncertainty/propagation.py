@@ -117,7 +117,7 @@ def _of_model(data: xr.Dataset) -> str:
     return f"{text}, {failed} failed" if failed else text
 
 
-NUMBERS = {name: text for name, (_, text) in QUANTITIES.items()} | {
+_NUMBERS = {name: text for name, (_, text) in QUANTITIES.items()} | {
     "friction_from_dissipation": TOTALS["total_friction_from_dissipation"],
     "outside_band": OUTSIDE_BAND[FRICTION_OUTSIDE_BAND][1],
 }
@@ -136,7 +136,7 @@ def uncertainty_dataset(
     source drew. A sample of the direct contact has the error of its grid in it that was drawn.
     """
     usable = solved.rename({FRICTION_OUTSIDE_BAND: "outside_band"})[
-        [*NUMBERS, *(f"{name}_error" for name in QUANTITIES)]
+        [*_NUMBERS, *(f"{name}_error" for name in QUANTITIES)]
     ].where(solved.prediction_status == CONVERGED)
     case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
     status = solved[STATUS].isel(sample=slice(1, None))
@@ -154,7 +154,7 @@ def uncertainty_dataset(
     add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
     failed = (status != CONVERGED).sum("sample")
     add("failed", failed, "samples without an answer; they count in no quantile")
-    for name, text in NUMBERS.items():
+    for name, text in _NUMBERS.items():
         add(name, samples[name], text)
         add(f"{name}_case", case[name], f"{text} of the case itself")
     is_direct = solved["model"] == DirectContact.name
@@ -169,7 +169,7 @@ def uncertainty_dataset(
         add(name, values.transpose(*samples[name].dims), text)
         add(f"{name}_quantile", quantiles(data[name]), text)
         parts = _shares(data[name], logarithms, name)
-        for part, (_, meaning) in SHARES.items():
+        for part, (_, meaning) in _SHARES.items():
             add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
     sources = chosen.sources
     return xr.Dataset(
@@ -214,7 +214,7 @@ def drawn_logarithms(sources: Sequence[Source], drawn: Sequence[SampledInputs]) 
     return logarithms
 
 
-SHARES = {
+_SHARES = {
     "share": (("source",), "share of each source in the variance of the logarithm of {}"),
     "share_error": (("source",), "standard error of the share"),
     "share_difference_error": (
@@ -228,7 +228,7 @@ SHARES = {
 
 
 def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -> xr.Dataset:
-    """Return `SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
+    """Return `_SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
     outer, count = samples.isel(sample=0), len(logarithms)
     row, square = np.full(count, np.nan), np.full((count, count), np.nan)
     parts: dict[tuple[int, ...], xr.Dataset] = {}
@@ -238,26 +238,26 @@ def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -
         if fit is not None:
             ends = np.stack([fit.low, fit.high], axis=-1)
             numbers = (fit.share, fit.error, fit.apart, ends, fit.unexplained)
-        columns = zip(SHARES.items(), numbers, strict=True)
+        columns = zip(_SHARES.items(), numbers, strict=True)
         parts[at] = xr.Dataset(
             {f"{name}_{part}": (dims, values) for (part, (dims, _)), values in columns}
         )
     return stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
 
-FOLDER, RESULT = "uncertainty", "uncertainty.nc"
+FOLDER, _RESULT = "uncertainty", "uncertainty.nc"
 """Where it is in the results folder of the case."""
 
 NO_INPUTS = ("uncertainty", "measured", "output", "compare")
 """Tables of a case that change no prediction of it."""
 
-FILES = "file_sha256"
+_FILES = "file_sha256"
 """Attribute of the result: digests of the files the case names, as JSON."""
 
 
 def stored_uncertainty(results: Path) -> xr.Dataset | None:
     """Return the uncertainty in the results folder of a case, or None if there is none whole."""
-    return load_stored(results / FOLDER / RESULT)
+    return load_stored(results / FOLDER / _RESULT)
 
 
 def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = None) -> bool:
@@ -267,7 +267,7 @@ def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = 
     """
     if _inputs(str(data.attrs.get("case", ""))) != _inputs(text):
         return False
-    return digests is None or sorted(json.loads(data.attrs.get(FILES, "[]"))) == sorted(digests)
+    return digests is None or sorted(json.loads(data.attrs.get(_FILES, "[]"))) == sorted(digests)
 
 
 def _inputs(text: str) -> dict[str, Any] | None:
@@ -280,11 +280,11 @@ def _inputs(text: str) -> dict[str, Any] | None:
 
 FIRST_ORDER = "{}_first_order"
 """Name of the error of a quantity that each source carries by derivatives alone."""
-MODELS = ("chain", "direct")
+_MODELS = ("chain", "direct")
 VARIED = ("speed", "pressure")
 """Inputs that may be varied beside the samples: those of the load, the same samples at each."""
 
-BOTH = {"chain": ("chain",), "direct": ("direct",), "both": MODELS}
+BOTH = {"chain": ("chain",), "direct": ("direct",), "both": _MODELS}
 """Models by the word of a case for one or both of them."""
 
 
@@ -387,7 +387,7 @@ def propagate(
         _axis(vary),
         accuracy,
     )
-    path = None if folder is None else Path(folder) / RESULT
+    path = None if folder is None else Path(folder) / _RESULT
     data = None if path is None else load_stored(path)
     if data is not None and data.attrs.get("plan_key") == plan.key:
         return data
@@ -416,11 +416,11 @@ def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
 def _models(names: Sequence[str]) -> tuple[str, ...]:
     chosen = [names] if isinstance(names, str) else list(names)
     for name in chosen:
-        checks.one_of("model", name, MODELS)
+        checks.one_of("model", name, _MODELS)
     if not chosen or len(set(chosen)) < len(chosen):
         short = checks.short_repr(names)
         raise InputError(f"models must be one or both of chain, direct; got {short}")
-    return tuple(name for name in MODELS if name in chosen)
+    return tuple(name for name in _MODELS if name in chosen)
 
 
 def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
@@ -473,7 +473,7 @@ def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         case.attributes | input_doubts([case.surface, case.measured_rubber], loads, case.units),
         case_file=case.origin.name,
-        **{FILES: json.dumps(case.origin.digests)},
+        **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         plan_key=plan.key,
         software=software(),

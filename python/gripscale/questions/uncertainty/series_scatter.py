@@ -28,9 +28,9 @@ from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
 from gripscale.rubber.prony import BEYOND, largest_modulus, open_equations
 
-FEWEST_BLOCKS = 8
+_FEWEST_BLOCKS = 8
 """Blocks there are at least to draw from."""
-PASSES = 3
+_PASSES = 3
 """Fits after which the scatter, in whose units the equations are, is that about their solution."""
 MOST_TAKEN = 0.75
 """Share of the degrees of freedom a fit is believed to take at most."""
@@ -62,7 +62,7 @@ class SeriesScatter:
         curve = Curve(master.angular_frequency, master.storage, master.loss).rows(kept)
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
         scatter = fit.rms_storage, fit.rms_loss
-        for _ in range(PASSES):
+        for _ in range(_PASSES):
             band = cls(open_equations(curve, _believed(scatter), BEYOND, limit), curve.omega)
             scatter = band._scatter(_believed(scatter))
         return band
@@ -108,7 +108,7 @@ class SeriesScatter:
         """
         error = self._residuals
         together = float(np.mean(error[1:] * error[:-1]))
-        most = max(1, len(error) // FEWEST_BLOCKS)
+        most = max(1, len(error) // _FEWEST_BLOCKS)
         together = min(max(together, 0.0), 1.0 - 2.0 / (most + 1.0))
         return round((1.0 + together) / (1.0 - together))
 

@@ -427,7 +427,7 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
     return draw
 
 
-BOTH = ("chain", "direct")
+_BOTH = ("chain", "direct")
 
 _BLOCKS = {
     f"correlation_{lags}": Coordinate("1", f"ln of C_z over the measured one, {lags} lags", True)
@@ -463,19 +463,19 @@ _STACK = {
 SOURCES = {
     source.name: source
     for source in (
-        Source("height_noise", "noise of the heights", BOTH, _NOISE, _height_noise),
-        Source("cleaning", "cleaning of the profiles", BOTH, _CLEANING, _cleaning),
-        Source("profile", "stretch of road measured", BOTH, _BLOCKS, _profile),
+        Source("height_noise", "noise of the heights", _BOTH, _NOISE, _height_noise),
+        Source("cleaning", "cleaning of the profiles", _BOTH, _CLEANING, _cleaning),
+        Source("profile", "stretch of road measured", _BOTH, _BLOCKS, _profile),
         Source("grid", "grid of the direct contact", ("direct",), _GRID, _grid),
-        Source("modulus", "scatter and ends of the moduli", BOTH, _SERIES, _modulus),
-        Source("bulk_modulus", "bulk modulus", BOTH, _BULK, _bulk_modulus),
+        Source("modulus", "scatter and ends of the moduli", _BOTH, _SERIES, _modulus),
+        Source("bulk_modulus", "bulk modulus", _BOTH, _BULK, _bulk_modulus),
         Source(
-            "equilibrium_modulus", "equilibrium modulus", BOTH, _EQUILIBRIUM, _equilibrium_modulus
+            "equilibrium_modulus", "equilibrium modulus", _BOTH, _EQUILIBRIUM, _equilibrium_modulus
         ),
-        Source("temperature", "temperature", BOTH, _WARMING, _temperature),
-        Source("pressure", "nominal pressure", BOTH, _PRESSURE, _pressure),
+        Source("temperature", "temperature", _BOTH, _WARMING, _temperature),
+        Source("pressure", "nominal pressure", _BOTH, _PRESSURE, _pressure),
         Source("load_time", "load time of a wave", ("chain",), _FACTOR, _load_time),
-        Source("cut_off", "cut-off of the roughness", BOTH, _END, _cut_off),
+        Source("cut_off", "cut-off of the roughness", _BOTH, _END, _cut_off),
         Source("waves", "choice of sine waves", ("chain",), _STACK, _waves),
     )
 }

@@ -26,7 +26,7 @@ from gripscale.model import MOST_CLASSES
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
 
-QUANTITIES = {
+_QUANTITIES = {
     "speed": "speed",
     "pressure": "pressure",
     "temperature": "temperature",
@@ -38,7 +38,7 @@ QUANTITIES = {
 COUNTS = {"waves": MOST_SINE_WAVES, "pressure_classes": MOST_CLASSES}
 """Axes of whole numbers, with the largest."""
 
-NUMBERS = (*QUANTITIES, *COUNTS, "top_height_fraction")
+_NUMBERS = (*_QUANTITIES, *COUNTS, "top_height_fraction")
 """Axes whose values are numbers."""
 
 LONG_NAMES = {
@@ -58,10 +58,10 @@ LONG_NAMES = {
 """All axes."""
 
 _SI = {"speed": "m/s", "pressure": "Pa", "temperature": "K", "length": "m"}
-UNITS = {name: _SI.get(QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
+UNITS = {name: _SI.get(_QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
 """All axes, with the units of their values."""
 
-LABELS = {name: LONG_NAMES[name] for name in NUMBERS} | {
+LABELS = {name: LONG_NAMES[name] for name in _NUMBERS} | {
     "speed": "sliding speed $v$",
     "pressure": "nominal pressure $p$",
     "temperature": "temperature $T$",
@@ -82,7 +82,7 @@ class Axis:
     @property
     def numeric(self) -> bool:
         """Whether the values are numbers, in the unit of `UNITS`."""
-        return self.name in NUMBERS and not any(
+        return self.name in _NUMBERS and not any(
             isinstance(value, str | RmsSlope) for value in self.values
         )
 
@@ -111,7 +111,7 @@ def axis_value(name: str, value: Any) -> Any:
 
     Raises `InputError` if it cannot be used.
     """
-    if name in QUANTITIES:
+    if name in _QUANTITIES:
         return _cut_off(name, value) if name == "cut_off" else _quantity(name, value)
     if name in COUNTS:
         return checks.whole(name, plain_number(value), least=1, most=COUNTS[name])
@@ -139,7 +139,7 @@ def _quantity(name: str, value: Any) -> float:
     number = plain_number(value)
     if isinstance(number, str):
         try:
-            number = parse_quantity(number, QUANTITIES[name])
+            number = parse_quantity(number, _QUANTITIES[name])
         except ValueError as error:
             raise InputError(f"{name} = {value!r}: {error}") from error
     elif isinstance(value, str) and name == "temperature":
@@ -262,7 +262,7 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
 MOST_VALUES = 1000
 MOST_AXES = 2
 
-EXAMPLES = {
+_EXAMPLES = {
     "speed": "0.01 m/s:10 m/s:log7",
     "pressure": "1 bar:5 bar:lin5",
     "temperature": "0 C:60 C:lin7",
@@ -312,7 +312,7 @@ def _axis(name: str, value: Any) -> Axis:
     units: Iterable[str | None] = ()
     if name in KEYS:
         texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
-        units = (unit_of(text, QUANTITIES[name]) for text in texts)
+        units = (unit_of(text, _QUANTITIES[name]) for text in texts)
     return Axis(name, values, labels, next(filter(None, units), ""))
 
 
@@ -344,13 +344,13 @@ def _entries(name: str, value: Any) -> Iterable[Any]:
         wrong = f"it has {len(parts)} parts, or an empty one"
     raise InputError(
         f"{name} must be a range of first value, last value and spacing with the number of values, "
-        f'such as "{EXAMPLES.get(name, "1:10:log5")}"; {wrong} in {value!r}'
+        f'such as "{_EXAMPLES.get(name, "1:10:log5")}"; {wrong} in {value!r}'
     )
 
 
 def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
     """Return evenly spaced values between two ends in SI units, the ends exactly."""
-    if name not in NUMBERS:
+    if name not in _NUMBERS:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
     if isinstance(plain_number(first), str) != isinstance(plain_number(last), str):
         raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")

@@ -36,7 +36,7 @@ from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST_CURVES = 12
+_MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
 MOST_BANDS = 3
 """Curves beyond which intervals would cover each other, and are not drawn."""
@@ -99,8 +99,8 @@ def _curves(
 ) -> Iterator[tuple[dict[str, int], str, str]]:
     """Yield the points of the axes `over`, with colour and name; evenly spaced ones of many."""
     points = list(product(*(range(data.sizes[name]) for name in over)))
-    if thinned and len(points) > MOST_CURVES:
-        chosen = np.linspace(0, len(points) - 1, MOST_CURVES).round().astype(int)
+    if thinned and len(points) > _MOST_CURVES:
+        chosen = np.linspace(0, len(points) - 1, _MOST_CURVES).round().astype(int)
         points = [points[i] for i in chosen]
     colours = style.colours(len(points), ordered=len(over) == 1 and over[0] in numeric(data))
     if over == ["temperature"]:
@@ -234,7 +234,7 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     values, lengths, flags = xr.broadcast(data[name], data["wavelength"] / MILLI, flags)
     over = [str(dim) for dim in values.dims if dim != "scale"]
     curves = list(_curves(data, over, thinned=thinned))
-    every = -(-len(curves) // MOST_CURVES)
+    every = -(-len(curves) // _MOST_CURVES)
     marks: list[Mark] = []
     for i, (at, colour, label) in enumerate(curves):
         x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
@@ -243,7 +243,7 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
                             beyond=beyond, listed=i % every == 0))  # fmt: skip
     area = "fraction" in name
     down = " down to each wave" if name.startswith("running") else " of each wave"
-    label = f"{AREA if area else 'friction coefficient'}{down} [-]"
+    label = f"{_AREA if area else 'friction coefficient'}{down} [-]"
     return Panel(
         chart.wavelength_axis(lengths.values),
         Axis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
@@ -265,9 +265,9 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     return draw.on_paper(Sheet(panels, legend="beside"))
 
 
-HEIGHT = 3.4
-AREA = "real contact area $A_r/A_0$"
-LEAST_SHARE = 0.005
+_HEIGHT = 3.4
+_AREA = "real contact area $A_r/A_0$"
+_LEAST_SHARE = 0.005
 """Decades of relaxation time that never reach this share of the friction are not drawn."""
 
 
@@ -305,11 +305,11 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
         ),
         Panel(
             abscissa,
-            Axis(f"{AREA} down to each wave [-]", log=True),
+            Axis(f"{_AREA} down to each wave [-]", log=True),
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
-    return draw.on_paper(Sheet(panels, height=HEIGHT, legend="beside", legend_title="wavelength"))
+    return draw.on_paper(Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength"))
 
 
 def _waves_beyond(result: xr.Dataset, axis: str) -> Flags:
@@ -342,7 +342,7 @@ def decades_figure(result: xr.Dataset, axis: str) -> Figure:
     `gripscale.questions.vary.speed_and_temperature`), and the figure says so.
     """
     share = (result.friction_by_decade / result.total_friction).transpose("decade", axis)
-    share = share.isel(decade=np.nanmax(share.values, axis=1) >= LEAST_SHARE)
+    share = share.isel(decade=np.nanmax(share.values, axis=1) >= _LEAST_SHARE)
     abscissa, x = varied_axis(result, axis)
     low, high = _stack(np.nan_to_num(share.values))
     scale = style.shades(max(share.sizes["decade"], 2), "Cividis")
@@ -427,7 +427,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     return draw.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
 
 
-FINE = 120
+_FINE = 120
 """Points along each side of a map between those that were solved."""
 
 
@@ -442,7 +442,7 @@ def _finer(log: bool, x: Array, y: Array, values: Array) -> tuple[Array, Array, 
     from scipy.interpolate import PchipInterpolator
 
     along = np.log(x) if log else x
-    fine_x, fine_y = (np.linspace(ends[0], ends[-1], FINE) for ends in (along, y))
+    fine_x, fine_y = (np.linspace(ends[0], ends[-1], _FINE) for ends in (along, y))
     across = PchipInterpolator(along, values, axis=1)(fine_x)
     return np.exp(fine_x) if log else fine_x, fine_y, PchipInterpolator(y, across)(fine_y)
 

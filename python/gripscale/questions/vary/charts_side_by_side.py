@@ -30,7 +30,7 @@ MOST_TICKS = 4
 CUBIC_MM = 1e-9
 LEAST_POWER_SHARE = 0.02
 """Share of the largest friction of an octave from which one is drawn."""
-STEP = 1.12
+_STEP = 1.12
 """Between the bars of roads beside the smallest wavelength, as a ratio of wavelengths."""
 
 
@@ -210,9 +210,9 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
             continue
         marks: list[Mark] = []
         for at, (name, colour) in enumerate(zip(roads, COLOURS, strict=False)):
-            end = float(wavelength[-1]) / STEP ** (1 + at)
+            end = float(wavelength[-1]) / _STEP ** (1 + at)
             marks += _running(wavelength, of_model.sel(surface=name), colour, name, end)
-        ends = [*wavelength, wavelength[-1] / STEP ** len(roads)]
+        ends = [*wavelength, wavelength[-1] / _STEP ** len(roads)]
         panels.append(Panel(
             chart.wavelength_axis(ends),
             Axis("$\\mu$ of this and longer waves [-]", low=0.0),

@@ -42,7 +42,7 @@ from gripscale.questions.vary import inputs
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, STATUS, STATUS_WORD, "prediction_key")
+_KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, STATUS, STATUS_WORD, "prediction_key")
 
 
 def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:
@@ -113,7 +113,7 @@ def effects(
     design = Design({"effect": len(tasks)}, points, coords)
     store = None if folder is None else Store(folder)
     data = solve_design(design, Bench(store, workers, client, on_task))
-    data = data[[name for name in KEPT if name in data]]
+    data = data[[name for name in _KEPT if name in data]]
     if ADHESIVE_FRICTION in data:
         both = data.total_friction + data[ADHESIVE_FRICTION]
         words = "friction coefficient of hysteresis and area term together"

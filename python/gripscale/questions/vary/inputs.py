@@ -20,7 +20,7 @@ from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
 CASE = "case"
 """What stands for the surface or the rubber of the case itself."""
-NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
+_NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
 
 
 def surface_of(value: Any, case: Case) -> Surface:
@@ -50,7 +50,7 @@ def measured_rubber_of(value: Any, case: Case) -> MeasuredRubber:
         return MeasuredRubber(value, value.source)
     if value == CASE:
         return case.measured_rubber
-    rubber = NAMED_RUBBERS[_name("rubber", value, NAMED_RUBBERS)]()
+    rubber = _NAMED_RUBBERS[_name("rubber", value, _NAMED_RUBBERS)]()
     return MeasuredRubber(rubber, rubber.source)
 
 
@@ -68,7 +68,7 @@ def identity(value: Any) -> Any:
     return value if isinstance(value, str) else canonical_json(value)
 
 
-EFFECTS = ("temperature", "softening", "heat")
+_EFFECTS = ("temperature", "softening", "heat")
 """What conditions do to the rubber; the area term does nothing to it."""
 
 ALL, NONE = "all", "none"
@@ -88,9 +88,9 @@ def at_temperature(model: Model, kelvin: float) -> Model:
 
 
 def effects_asked(model: Model) -> list[str]:
-    """Return which of `EFFECTS` the conditions of a model have."""
+    """Return which of `_EFFECTS` the conditions of a model have."""
     conditions = conditions_of(model)
-    return [effect for effect in EFFECTS if getattr(conditions, effect) is not None]
+    return [effect for effect in _EFFECTS if getattr(conditions, effect) is not None]
 
 
 def with_effects(model: Model, selection: str) -> Model:

@@ -19,7 +19,7 @@ from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPS
 from gripscale.report.failures import Failure
 from gripscale.report.notices import study_sentence
 
-MOST_ROWS = 200
+_MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""
 ONE_CURVE = 1e-3
 """Relative distance up to which temperatures over a_T v are one curve."""
@@ -29,14 +29,14 @@ COLLAPSING = {"total_friction": "friction", "total_contact_fraction": "A_r/A_0"}
 def study_table(data: xr.Dataset) -> Table:
     """Return area, friction and status of each prediction of a study, over what was varied."""
     chosen = list(places(data))
-    rows = [data.isel(index) for index in chosen[:MOST_ROWS]]
+    rows = [data.isel(index) for index in chosen[:_MOST_ROWS]]
 
     def each(name: str) -> list[float]:
         return [float(row[name]) for row in rows]
 
     columns = []
     for axis in dimensions(data):
-        names = [name_of(data, axis, index[axis]) for index in chosen[:MOST_ROWS]]
+        names = [name_of(data, axis, index[axis]) for index in chosen[:_MOST_ROWS]]
         columns.append(Column(axis, names, axis.replace("_", " ")))
     if BEYOND_SHIFT in data:
         marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]

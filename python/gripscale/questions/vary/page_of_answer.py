@@ -19,9 +19,9 @@ from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_nu
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.report.elements import Card, percent
 
-SAME = 0.03
+_SAME = 0.03
 """Relative change that is none."""
-MODELS = {
+_MODELS = {
     "chain": "chain of sine waves",
     "direct": "direct contact of the measured surface",
 }
@@ -111,11 +111,11 @@ def _along(data: xr.Dataset, name: str, values: Array) -> str:
     low, high = (int(pick(values)) for pick in (np.nanargmin, np.nanargmax))
     ends = values[[first, last]]
     start, end = (_at(data, name, (i,)) for i in (first, last))
-    if values[high] <= values[low] * (1.0 + SAME):
+    if values[high] <= values[low] * (1.0 + _SAME):
         return f"hardly changes, from {_at(data, name, (low,))} to {_at(data, name, (high,))}"
     for extreme, word, beyond in (
-        (high, "highest", values[high] > ends.max() * (1.0 + SAME)),
-        (low, "lowest", values[low] < ends.min() * (1.0 - SAME)),
+        (high, "highest", values[high] > ends.max() * (1.0 + _SAME)),
+        (low, "lowest", values[low] < ends.min() * (1.0 - _SAME)),
     ):
         if beyond:
             return f"from {start} by its {word}, {_at(data, name, (extreme,))}, to {end}"
@@ -146,7 +146,7 @@ def _has_intervals(data: xr.Dataset) -> bool:
 
 def _model(data: xr.Dataset) -> str:
     name = str(data.attrs.get("model", "model"))
-    return MODELS.get(name, name.replace("_", " "))
+    return _MODELS.get(name, name.replace("_", " "))
 
 
 def _held(data: xr.Dataset) -> Iterator[str]:
@@ -161,7 +161,7 @@ def _held(data: xr.Dataset) -> Iterator[str]:
 
 def _factors(data: xr.Dataset) -> Iterator[str]:
     """Yield the direct contact and each factor on it, friction first; ranges where they vary."""
-    yield MODELS["direct"]
+    yield _MODELS["direct"]
     for at, label in enumerate(data.factor_label.values):
         ranges = []
         for name in reversed(SYMBOLS):

@@ -21,12 +21,12 @@ from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.rubber_comparison import TEMPERATURE
 from gripscale.report.failures import Failure
 
-RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
+_RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
 CHAIN_RANKS_NOTHING = (
     "The chain solves the sine waves of the road one by one and leaves out how they meet in the "
     "contact. It says where a difference may come from; the ranking is that of the direct contact."
 )
-QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
+_QUANTITIES = {f"total_{name}": symbol for name, symbol in SYMBOLS.items()}
 
 
 def effects_table(*results: xr.Dataset) -> Table:
@@ -49,7 +49,7 @@ def effects_table(*results: xr.Dataset) -> Table:
         Column("model", [MODELS.get(name, name) for name in models]),
         Column("effects", [EFFECTS.get(str(name), str(name)) for name in every("effect")]),
     ]
-    for name, symbol in QUANTITIES.items():
+    for name, symbol in _QUANTITIES.items():
         columns += [
             Column(name, every(name), symbol),
             Column(CHANGES[name], every(CHANGES[name]), "change", format=change),
@@ -79,7 +79,7 @@ def totals_table(data: xr.Dataset, dim: str, heading: str, model: str = "") -> T
     data, status = data.isel({dim: asked}), [status[i] for i in asked]
 
     columns = [Column(dim, [str(name) for name in data[dim].values], heading)]
-    for name, symbol in QUANTITIES.items():
+    for name, symbol in _QUANTITIES.items():
         columns += [
             Column(name, data[name].values, symbol),
             Column(f"{name}_range", _ends(data, name), "range"),
@@ -172,7 +172,7 @@ def ratio_ends(data: xr.Dataset, name: str, at: int) -> tuple[float, float]:
 
 def _ratio_text(data: xr.Dataset, name: str, at: int) -> str:
     """Return a ratio with its interval, such as `friction × 1.32 (1.21 to 1.44)`."""
-    text = f"{RATIOS[name]} × {significant(float(data[f'{name}_ratio'].values[at]))}"
+    text = f"{_RATIOS[name]} × {significant(float(data[f'{name}_ratio'].values[at]))}"
     low, high = ratio_ends(data, name, at)
     return text if math.isnan(low) else f"{text} ({significant(low)} to {significant(high)})"
 

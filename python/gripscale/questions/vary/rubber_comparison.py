@@ -115,8 +115,8 @@ def _celsius(kelvin: float) -> str:
     return f"{kelvin - ZERO_CELSIUS:.1f} °C"
 
 
-FEWEST, MOST = 2, 6
-TOTALS = ("total_friction", "total_contact_fraction")
+FEWEST, _MOST = 2, 6
+_TOTALS = ("total_friction", "total_contact_fraction")
 ENDS = ("low", "high")
 NORMAL = 1.645
 """Half width of a 90 % interval over a standard error."""
@@ -126,9 +126,9 @@ EVEN = NORMAL / math.sqrt(3.0)
 
 def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
     """Raise `InputError` unless there are two to six things to be compared."""
-    if not FEWEST <= len(mapping) <= MOST:
+    if not FEWEST <= len(mapping) <= _MOST:
         raise InputError(
-            f"{name} must be {FEWEST} to {MOST} {what} to be compared; got {len(mapping)}"
+            f"{name} must be {FEWEST} to {_MOST} {what} to be compared; got {len(mapping)}"
         )
 
 
@@ -140,7 +140,7 @@ def total_differences(data: xr.Dataset, dim: str) -> dict[str, xr.DataArray]:
     first, and high - low of the first.
     """
     out = {}
-    for quantity in TOTALS:
+    for quantity in _TOTALS:
         what = f"difference to the first, {data[quantity].attrs['long_name']}"
         out[f"{quantity}_difference"] = to_first(data[quantity], dim, what)
         if f"{quantity}_low" not in data:
@@ -214,8 +214,8 @@ def ranges(
     }
 
 
-RESULT = "compounds.nc"
-POINTS = 128
+_RESULT = "compounds.nc"
+_POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
 
 
@@ -304,7 +304,7 @@ def compare_compounds(
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     if kelvins[0] is not None and len({*kelvins}) == 1:
         data = data.assign_attrs({TEMPERATURE: kelvins[0]})
-    return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
+    return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / _RESULT)))
 
 
 def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:
@@ -319,7 +319,7 @@ def _believed(best: xr.Dataset, data: xr.Dataset) -> dict[str, xr.DataArray]:
     """Return the best estimates of the compounds, and the ratios to the first that are believed."""
     names = [str(name) for name in best if str(name).startswith(("best_", "factor_"))]
     widths = None
-    if f"{TOTALS[0]}_low" in data:
+    if f"{_TOTALS[0]}_low" in data:
         widths = {name: _widths(best, data, name) for name in QUANTITIES}
     return {name: best[name] for name in names} | ratios_to_first(best, "rubber", widths)
 
@@ -345,7 +345,7 @@ def _widths(best: xr.Dataset, data: xr.Dataset, name: str) -> tuple[xr.DataArray
 def _ranges(study: Study, data: xr.Dataset, bench: Bench) -> dict[str, xr.DataArray]:
     """Return the lowest and highest totals of each compound over its admissible series."""
     load = study.case.load
-    model = replace(study.case.chain, solver=HalfPlane(points=POINTS))
+    model = replace(study.case.chain, solver=HalfPlane(points=_POINTS))
     points = [
         Point((at, i), f"{name}, series {i}", Task(rubber, study.surfaces[0], load, model))
         for at, (name, best) in enumerate(zip(data.rubber.values, study.rubbers, strict=True))
@@ -353,9 +353,9 @@ def _ranges(study: Study, data: xr.Dataset, bench: Bench) -> dict[str, xr.DataAr
     ]
     sizes = {"rubber": data.sizes["rubber"], "series": 1 + max(p.index[1] for p in points)}
     solved = solve_design(Design(sizes, points, {"rubber": data.rubber}), bench)
-    ratio = solved[list(TOTALS)] / solved[list(TOTALS)].isel(series=0)
+    ratio = solved[list(_TOTALS)] / solved[list(_TOTALS)].isel(series=0)
     ratio = ratio.where(ratio.count("series") > 1)  # the best series alone gives no range
-    ends = {name: (ratio[name].min("series"), ratio[name].max("series")) for name in TOTALS}
+    ends = {name: (ratio[name].min("series"), ratio[name].max("series")) for name in _TOTALS}
     return ranges(data, ends, "that the measured moduli leave open")
 
 

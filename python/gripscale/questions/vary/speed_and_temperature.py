@@ -42,14 +42,14 @@ if TYPE_CHECKING:
 # Where no point counts, those with e up to 1 % count, with two points in a power of ten. Curves
 # with such ripples that are one then lie up to 5.2 % apart: that is taken as the error.
 
-Curve = tuple[Array, Array]
+_Curve = tuple[Array, Array]
 
 PRECISE, ROUGH = (4e-4, 6, 0.0), (0.01, 2, 0.052)
 """Largest e at which two curves are compared, points of a curve in a power of ten of its abscissa
 that this needs, and the least relative error of the interpolation."""
 NEAREST, FEWER = 6, 4
 """Points of the interpolation, and of the one that tells its error."""
-SAME = 1e-9
+_SAME = 1e-9
 """Difference of two logarithms that is rounding."""
 
 
@@ -69,7 +69,7 @@ class Collapse:
 
 def collapse(curves: Sequence[tuple[ArrayLike, ArrayLike]]) -> Collapse:
     """Return how far curves of abscissas and values lie apart; they are above zero and finite."""
-    usable: list[Curve] = []
+    usable: list[_Curve] = []
     for x, y in curves:
         both = np.array([np.ravel(x), np.ravel(y)], dtype=float)
         with np.errstate(invalid="ignore"):
@@ -86,12 +86,12 @@ def collapse(curves: Sequence[tuple[ArrayLike, ArrayLike]]) -> Collapse:
     return Collapse(math.nan, math.nan, 0, len(pairs))
 
 
-def _apart(first: Curve, other: Curve, widest: float) -> Iterator[tuple[float, float]]:
+def _apart(first: _Curve, other: _Curve, widest: float) -> Iterator[tuple[float, float]]:
     """Yield distance and error of the interpolation at the points of `first` along `other`."""
     (x, y), (nodes, values) = first, other
     inside = np.zeros(x.size, dtype=bool)
     if nodes.size:
-        inside = (x >= nodes[0] - SAME) & (x <= nodes[-1] + SAME)
+        inside = (x >= nodes[0] - _SAME) & (x <= nodes[-1] + _SAME)
     for here, value in zip(x[inside], y[inside], strict=True):
         apart = abs(math.expm1(_interpolated(here, nodes, values, NEAREST) - value))
         yield apart, math.expm1(_error(here, nodes, values, widest))
@@ -99,13 +99,13 @@ def _apart(first: Curve, other: Curve, widest: float) -> Iterator[tuple[float, f
 
 def _error(x: float, nodes: Array, values: Array, widest: float) -> float:
     """Return e(x); infinite where points are too few, or neighbours further apart than `widest`."""
-    if np.abs(nodes - x).min() <= SAME:
+    if np.abs(nodes - x).min() <= _SAME:
         return 0.0
     if nodes.size < NEAREST:
         return math.inf
     at = int(np.searchsorted(nodes, x)) - 1
     low, high = nodes[at : at + 2]
-    if high - low > widest + SAME:
+    if high - low > widest + _SAME:
         return math.inf
     middles = (nodes[1:] + nodes[:-1])[max(at - 1, 0) : at + 2] / 2.0
     apart = max(
@@ -204,7 +204,7 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
 
 ON_EDGE = 1e-9
 """Decades by which rounding may move an end over the edge of a decade."""
-HARMONICS = 32
+_HARMONICS = 32
 """Harmonics of the contact pressure that count."""
 
 NEAR = 1.0
@@ -258,7 +258,7 @@ def _ends(decade: Array) -> tuple[Array, Array]:
 
 def _shares(wave: xr.Dataset, rubber: Rubber) -> Array:
     """Return the part of each Maxwell element in the dissipation of one wave, adding to one."""
-    order = np.arange(1, HARMONICS + 1)
+    order = np.arange(1, _HARMONICS + 1)
     omega = order * float(wave.angular_frequency)
     pressure = harmonics(
         wave.surface_x.values, wave.surface_pressure.values, float(wave.wavelength), order

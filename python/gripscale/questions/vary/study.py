@@ -46,7 +46,7 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
 
-RENAMED = {"temperature": "wave_temperature"}
+_RENAMED = {"temperature": "wave_temperature"}
 """Variables over waves that have the name of an axis."""
 
 
@@ -61,7 +61,7 @@ def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
         if name in SURFACE
         or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
     ]
-    kept = answer[names].rename({old: new for old, new in RENAMED.items() if old in names})
+    kept = answer[names].rename({old: new for old, new in _RENAMED.items() if old in names})
     kept = kept.assign(basis_numbers(answer))
     parts = friction_by_decade(answer, task.rubber)
     if not parts:

@@ -97,8 +97,8 @@ def running_friction(wavelength: Array, friction: Array, ends: Array) -> Array:
     return np.asarray(np.interp(-np.log(ends), places, running, left=0.0, right=running[-1]))
 
 
-MODELS = ("chain", "direct")
-PER_DECADE = 12
+_MODELS = ("chain", "direct")
+_PER_DECADE = 12
 """Lags and wavenumbers at which roads are drawn together."""
 
 DRAWN = {
@@ -216,7 +216,7 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
         if not curves[name]:
             continue
         low, high = (pick(float(pick(x)) for x, _ in curves[name].values()) for pick in (min, max))
-        places = np.geomspace(low, high, max(2, int(PER_DECADE * np.log10(high / low)) + 1))
+        places = np.geomspace(low, high, max(2, int(_PER_DECADE * np.log10(high / low)) + 1))
         values = np.full((len(surfaces), places.size), np.nan)
         for road, (x, y) in curves[name].items():
             good = (x > 0.0) & (y > 0.0)
@@ -227,15 +227,15 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
     return out
 
 
-RESULT = "surfaces.nc"
-POINTS = 128
+_RESULT = "surfaces.nc"
+_POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
-TOLERANCE = 2.0 * JUDGED_TO
+_TOLERANCE = 2.0 * JUDGED_TO
 """Estimated relative error of the direct contacts that tell the range, of which ratios count.
 
 On the first full grid the friction from traction of steep roads is half of what it is.
 """
-FEWEST_SAMPLES, MOST_SAMPLES = 10, 10_000
+_FEWEST_SAMPLES, _MOST_SAMPLES = 10, 10_000
 SAMPLES = 20
 SEED = 0
 
@@ -295,7 +295,7 @@ def compare_surfaces(
     """
     rubber_comparison.require_some("surfaces", surfaces, "roads")
     if samples is not None:
-        checks.whole("samples", samples, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
+        checks.whole("samples", samples, least=_FEWEST_SAMPLES, most=_MOST_SAMPLES)
     roads = {
         # a synthetic road with its profile, for the direct contact
         name: with_profile(value)
@@ -306,7 +306,7 @@ def compare_surfaces(
     load, rubber = case.load, case.rubber
     points: list[Point] = []
     notes = [*reading_notes(surfaces.values())]
-    for (i, name), (j, (road, surface)) in product(enumerate(MODELS), enumerate(roads.items())):
+    for (i, name), (j, (road, surface)) in product(enumerate(_MODELS), enumerate(roads.items())):
         model = model_of(name, case, JUDGED_TO)
         if "measurement" in model.needs and surface.measured is None:
             notes.append(f"{road} was not measured: no direct contact")
@@ -326,9 +326,9 @@ def compare_surfaces(
             if sample == REFERENCE:
                 part = "what its samples are compared with"
             points.append(Point((i, j, sample), f"{name}, {road}, {part}", task))
-    sizes = {"model": len(MODELS), "surface": len(roads)}
+    sizes = {"model": len(_MODELS), "surface": len(roads)}
     sizes["sample"] = 1 if samples is None else REFERENCE + 1 + samples
-    design = Design(sizes, points, {"model": list(MODELS), "surface": list(roads)})
+    design = Design(sizes, points, {"model": list(_MODELS), "surface": list(roads)})
     bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
     solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
@@ -344,7 +344,7 @@ def compare_surfaces(
         **input_doubts([*roads.values(), case.measured_rubber], [load], case.units),
         **provenance.attributes(),
     )
-    return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / RESULT)))
+    return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / _RESULT)))
 
 
 def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> dict[int, Task]:
@@ -355,10 +355,10 @@ def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> 
     source = SOURCES["profile"].of(measurement, SourceOptions(models=(model.name,)))
     case = Inputs.of(measurement)
     if isinstance(model, Chain):
-        model = replace(model, solver=HalfPlane(points=POINTS))
+        model = replace(model, solver=HalfPlane(points=_POINTS))
     if isinstance(model, DirectContact):
         # no waves are fitted: the roughness ends where it does as measured, to the last bit
-        model, case = replace(model, tolerance=TOLERANCE), replace(case, fit={})
+        model, case = replace(model, tolerance=_TOLERANCE), replace(case, fit={})
     drawn = [case, *(sample.inputs for sample in draws(case, [source], samples, SEED))]
     return {
         number: inputs.tasks(model, [load])[0]
