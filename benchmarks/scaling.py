@@ -15,7 +15,7 @@ import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, Panel, Series, Sheet
+from gripscale.charts.chart import Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, WIDE
 from gripscale.core.parallel import cores
@@ -165,8 +165,8 @@ def _exponent(costs: list[Cost]) -> float:
 
 def _draw(costs: dict[str, list[Cost]]) -> Figure:
     panel = Panel(
-        Axis("unknowns", log=True),
-        Axis("one wave from cold, processor time [s]", log=True),
+        PlotAxis("unknowns", log=True),
+        PlotAxis("one wave from cold, processor time [s]", log=True),
         [
             Series([cost.unknowns for cost in rows], [cost.seconds for cost in rows], colour,
                    f"{kind}, exponent {_exponent(rows):.2f}", marker="o")

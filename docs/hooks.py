@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gripscale.case_file.keys import Section
+    from gripscale.case_file.keys import KeySection
 
 DOCS = Path(__file__).parent.resolve()
 KEYS = "<!-- every key of a case -->"
@@ -53,7 +53,7 @@ def key_tables() -> str:
     return "\n".join(line for section in sections() for line in _section(section))
 
 
-def _section(section: Section) -> Iterator[str]:
+def _section(section: KeySection) -> Iterator[str]:
     yield f"## {_plain(section.title)}\n\n{_plain(section.about)}\n"
     yield "| key | takes | default | meaning | chapter |\n|---|---|---|---|---|"
     for key in section.keys:

@@ -23,7 +23,7 @@ from rich.console import Console
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.model import Load, Model, answer
+from gripscale.model import Load, Model, predicted_answer
 from gripscale.questions import Study
 from gripscale.questions.vary.page import study_table
 from gripscale.surface.surface import Surface, SurfacePart
@@ -58,7 +58,7 @@ class Proportional(Model):
             "total_friction": friction,
             "total_friction_from_dissipation": friction,
         }
-        return answer(xr.Dataset(), totals, "converged", self.name, load)
+        return predicted_answer(xr.Dataset(), totals, "converged", self.name, load)
 
 
 def main(folder: str = "results/examples") -> None:

@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from gripscale.charts import draw
 from gripscale.charts.chart import (
-    Axis,
     CrossLine,
     Mark,
     Panel,
+    PlotAxis,
     Series,
     Sheet,
     wavelength_axis,
@@ -28,18 +28,18 @@ from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 Quantity = Literal["area", "friction", "running_friction"]
 Predictions = Mapping[str, xr.Dataset]
 
-LAG = Axis("lag $l$ [mm]", log=True)
-CORRELATION = Axis("height difference correlation $C_z$ [mm$^2$]", log=True)
+LAG = PlotAxis("lag $l$ [mm]", log=True)
+CORRELATION = PlotAxis("height difference correlation $C_z$ [mm$^2$]", log=True)
 MARKERS = "osD^vP*"
-QUANTITIES: dict[str, tuple[str, Axis]] = {
+QUANTITIES: dict[str, tuple[str, PlotAxis]] = {
     "area": (
         "running_contact_fraction",
-        Axis("relative contact area $A_r/A_0$ [-]", log=True),
+        PlotAxis("relative contact area $A_r/A_0$ [-]", log=True),
     ),
-    "friction": ("friction", Axis("friction coefficient of each wave $\\mu_i$ [-]", low=0.0)),
+    "friction": ("friction", PlotAxis("friction coefficient of each wave $\\mu_i$ [-]", low=0.0)),
     "running_friction": (
         "running_friction",
-        Axis("friction coefficient, sum of the waves [-]", low=0.0),
+        PlotAxis("friction coefficient, sum of the waves [-]", low=0.0),
     ),
 }
 
@@ -61,10 +61,10 @@ def master_curves_figure(
                 label = f"{name}, measured"
                 marks.append(Series(rows.angular_frequency, values / MEGA, colour, label, "",
                                     marker=".", size=3.0, alpha=0.5))  # fmt: skip
-    omega_axis = Axis("angular frequency $\\omega$ [rad/s]", log=True)
+    omega_axis = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
     panels = [
-        Panel(omega_axis, Axis("storage modulus $E'$ [MPa]", log=True), storage),
-        Panel(omega_axis, Axis("loss modulus $E''$ [MPa]", log=True), loss),
+        Panel(omega_axis, PlotAxis("storage modulus $E'$ [MPa]", log=True), storage),
+        Panel(omega_axis, PlotAxis("loss modulus $E''$ [MPa]", log=True), loss),
     ]
     return draw.on_paper(Sheet(panels, height=3.3, legend="below"))
 

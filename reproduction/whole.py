@@ -14,7 +14,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, Mark, Panel, Series, Sheet
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import COLOURS, GREY
 from reproduction.inputs import read_inputs
@@ -52,7 +52,9 @@ def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
                 Series([x], [y], colour, dash="", marker="s", size=5.0, filled=False),
                 Series([x, area.mean()], [y, friction.mean()], GREY, width=0.6),
             ]
-    panel = Panel(Axis("contact fraction [-]"), Axis("friction coefficient [-]", log=True), marks)
+    panel = Panel(
+        PlotAxis("contact fraction [-]"), PlotAxis("friction coefficient [-]", log=True), marks
+    )
     sheet = Sheet([panel], 1, height=3.6, legend="beside", gap=0.02)
     return draw.on_paper(replace(sheet, legend_title="open squares: the chain"))
 

@@ -24,7 +24,17 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.chart import (
+    Bars,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    PlotAxis,
+    Series,
+    ShadedBand,
+    Sheet,
+)
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
 from gripscale.core.units import MEGA, MILLI
@@ -109,7 +119,10 @@ def wave(shipped: Shipped) -> Figure:
     for number, (colour, label) in enumerate(looks.values()):
         x, pascal = view.pressure_along(number)
         p = pascal / MEGA
-        pressure += [Band(x, np.zeros(x.size), p, colour, alpha=0.15), Series(x, p, colour, label)]
+        pressure += [
+            ShadedBand(x, np.zeros(x.size), p, colour, alpha=0.15),
+            Series(x, p, colour, label),
+        ]
     results = [shipped.wave(speed) for speed in SPEEDS]
     frequency = 2.0 * np.pi * SPEEDS / results[0].wavelength
     modulus = shipped.rubber.complex_modulus(frequency)
@@ -117,8 +130,8 @@ def wave(shipped: Shipped) -> Figure:
     friction = np.where(solved, [result.friction for result in results], np.nan)
     panels = [
         Panel(
-            Axis("place along the wave $x/\\lambda$ [-]", low=-0.5, high=0.5),
-            Axis("contact pressure [MPa]", low=0.0),
+            PlotAxis("place along the wave $x/\\lambda$ [-]", low=-0.5, high=0.5),
+            PlotAxis("contact pressure [MPa]", low=0.0),
             [
                 *pressure,
                 CrossLine(0.0, GREY, "", "dotted", upright=True),
@@ -126,8 +139,8 @@ def wave(shipped: Shipped) -> Figure:
             ],
         ),
         Panel(
-            Axis("sliding speed [m/s]", log=True, numbers=6),
-            Axis("friction $\\mu$, loss factor [-]", low=0.0),
+            PlotAxis("sliding speed [m/s]", log=True, numbers=6),
+            PlotAxis("friction $\\mu$, loss factor [-]", low=0.0),
             [
                 Series(SPEEDS, friction, BLUE, "friction of the wave", marker="o", size=3.0),
                 Series(SPEEDS, modulus.imag / modulus.real, GREEN, "loss factor", "dashed"),
@@ -153,12 +166,16 @@ def stack(shipped: Shipped) -> Figure:
         for row, count in enumerate(STACKED)
     ]
     number = 1.0 + np.arange(data.sizes["scale"])
-    counted = Axis("waves taken in [-]", ticks={float(i): f"{i:.0f}" for i in number})
+    counted = PlotAxis("waves taken in [-]", ticks={float(i): f"{i:.0f}" for i in number})
     panels = [
-        Panel(Axis("distance $x$ [mm]"), Axis("height", ticks={}, grid=False), [*sums, *names]),
+        Panel(
+            PlotAxis("distance $x$ [mm]"),
+            PlotAxis("height", ticks={}, grid=False),
+            [*sums, *names],
+        ),
         Panel(
             counted,
-            Axis("share that touches, friction [-]", log=True),
+            PlotAxis("share that touches, friction [-]", log=True),
             [
                 Series(number, data.running_contact_fraction, BLUE, "share that touches",
                        marker="o"),
@@ -182,8 +199,8 @@ def road(shipped: Shipped) -> Figure:
         if number + 1 < len(PIECES):
             low, high = PIECES[number + 1]
             marks.append(CrossLine(low, SKY, upright=True, to=high))
-        heights = Axis("height $z$ [mm]")
-        panels.append(Panel(Axis("distance $x$ [mm]", low=start, high=end), heights, marks))
+        heights = PlotAxis("height $z$ [mm]")
+        panels.append(Panel(PlotAxis("distance $x$ [mm]", low=start, high=end), heights, marks))
     return draw.on_paper(Sheet(panels, 1, height=5.0))
 
 
@@ -217,20 +234,20 @@ def _draped_panel(trace: xr.Dataset, ends: tuple[float, float], room: float) -> 
     top = low + (1.15 + room) * span
     touching = np.where(pressure > 0.0, rubber, np.nan)
     marks: list[Mark] = [
-        Band(x, np.full(x.size, low), surface, FAINT, "road", alpha=1.0),
-        Band(x, rubber, np.full(x.size, top), SKY, "rubber", alpha=0.3),
+        ShadedBand(x, np.full(x.size, low), surface, FAINT, "road", alpha=1.0),
+        ShadedBand(x, rubber, np.full(x.size, top), SKY, "rubber", alpha=0.3),
     ]
     if room:
         height = rubber + room * span * pressure / pressure.max()
-        marks.append(Band(x, rubber, height, ORANGE, "pressure", alpha=0.5))
+        marks.append(ShadedBand(x, rubber, height, ORANGE, "pressure", alpha=0.5))
     marks += [
         Series(x, surface, INK, width=0.6),
         Series(x, rubber, BLUE, width=0.9),
         Series(x, touching, ORANGE, "contact", width=2.4),
         Note(0.02, 0.93, "rubber slides $\\rightarrow$", frame="xy", top=True, boxed=True),
     ]
-    along = Axis("distance $x$ [mm]", low=ends[0], high=ends[1])
-    return Panel(along, Axis("height $z$ [mm]", low=low, high=top), marks)
+    along = PlotAxis("distance $x$ [mm]", low=ends[0], high=ends[1])
+    return Panel(along, PlotAxis("height $z$ [mm]", low=low, high=top), marks)
 
 
 def sensitivity(shipped: Shipped) -> Figure:
@@ -285,8 +302,8 @@ def models(shipped: Shipped) -> Figure:
     interval = Bars(left, right, low, high, ORANGE, "answer, 90 %", alpha=0.2)
     star = Series([area], [friction], INK, "answer of gripscale run", "", marker="*", size=10.0)
     panel = Panel(
-        Axis("real contact area $A_r/A_0$ [-]", True, 0.005, 0.1),
-        Axis("friction $\\mu$ [-]", True, 0.1, 1.0),
+        PlotAxis("real contact area $A_r/A_0$ [-]", True, 0.005, 0.1),
+        PlotAxis("friction $\\mu$ [-]", True, 0.1, 1.0),
         [interval, *marks, star],
     )
     return draw.on_paper(Sheet([panel], 1, 6.4, 3.4, legend="beside"))
@@ -305,13 +322,13 @@ def errors(shipped: Shipped) -> Figure:
     parts += [(f"factor: {label}", float(error), ORANGE) for label, error in factors]
     parts.append(("grid of the answer", float(direct.best_friction_grid_error), ORANGE))
     parts.sort(key=lambda part: part[1])
-    rows = Axis(ticks={float(row): label for row, (label, *_) in enumerate(parts)}, grid=False)
+    rows = PlotAxis(ticks={float(row): label for row, (label, *_) in enumerate(parts)}, grid=False)
     bars = [
         Bars(0.0, 100.0 * error, row - 0.3, row + 0.3, colour)
         for row, (_, error, colour) in enumerate(parts)
     ]
     keys = [Bars(0, 0, 0, 0, BLUE, "of the inputs"), Bars(0, 0, 0, 0, ORANGE, "of the model")]
-    panel = Panel(Axis("standard error of friction $\\mu$ [%]", low=0.0), rows, bars)
+    panel = Panel(PlotAxis("standard error of friction $\\mu$ [%]", low=0.0), rows, bars)
     return draw.on_paper(Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys))
 
 

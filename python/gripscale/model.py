@@ -471,10 +471,12 @@ def answer_by_length(
     status = "; ".join(bad) or Status.CONVERGED
     words = [str(part.status) for part, why in zip(parts, why_not, strict=True) if why]
     word = next(iter(words), "")
-    return answer(weighted, totals, status, model, load, beyond, exponents, status_word=word)
+    return predicted_answer(
+        weighted, totals, status, model, load, beyond, exponents, status_word=word
+    )
 
 
-def answer(
+def predicted_answer(
     data: xr.Dataset,
     totals: dict[str, float],
     status: str,

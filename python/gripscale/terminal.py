@@ -57,14 +57,14 @@ def print_error(message: str) -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
-RESULTS: ContextVar[Path | None] = ContextVar("results", default=None)
+RESULTS_FOLDER: ContextVar[Path | None] = ContextVar("results", default=None)
 """Folder that the running command writes its results into."""
 
 
 def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     """Return the sentence and the exit code a command ends with after `error`."""
     if isinstance(error, KeyboardInterrupt):
-        target = RESULTS.get()
+        target = RESULTS_FOLDER.get()
         if target is None or not any(target.rglob("[!.]*.nc")):
             return "stopped; nothing was finished", STOPPED
         stopped = (
@@ -218,7 +218,7 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
 
     @wraps(body)
     def inside(*args: P.args, **kwargs: P.kwargs) -> None:
-        RESULTS.set(None)
+        RESULTS_FOLDER.set(None)
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
@@ -289,7 +289,7 @@ OwnFolder = Annotated[
         metavar="DIR",
     ),
 ]
-Measured = Annotated[
+MeasuredPath = Annotated[
     Path | None,
     option(
         "Measured friction, instead of what the case names: a table with columns speed and "
@@ -366,7 +366,7 @@ def open_folder(
 
     target = output or file.resolve(file.case.output.folder) / name
     require_writable(target)
-    RESULTS.set(target)
+    RESULTS_FOLDER.set(target)
     console = screen()
     for line in opening:
         print_wrapped(console, line)

@@ -110,7 +110,7 @@ class MapOverLines:
             synthetic=f"isotropic maps, construction {self.construction}; no map was measured",
             length_m=self.length,
             smallest_wavelength_m=self.smallest_wavelength,
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         )
 
     def _mean(self, part: str, name: str) -> float:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from gripscale.app.runs import Progress
+from gripscale.app.runs import RunProgress
 from gripscale.cli import app
 from gripscale.questions.chain.events import (
     AnswerSolved,
@@ -23,8 +23,8 @@ from gripscale.questions.chain.events import (
     RunFinished,
     RunStarted,
     WaveSolved,
-    from_json,
-    to_json,
+    event_from_json,
+    event_to_json,
 )
 
 
@@ -49,7 +49,7 @@ def test_two_predictions_share_the_bar() -> None:
         RunStarted(BOTH, 3, False),
         *waves(3), end("dynamic"), *waves(3, "static"), end("static"),
     ]  # fmt: skip
-    steps = [Progress.of(events[:count]) for count in range(len(events) + 1)]
+    steps = [RunProgress.of(events[:count]) for count in range(len(events) + 1)]
     shares = [step.share for step in steps[1:-1]]
     assert [round(6 * share) for share in shares if share is not None] == [
         0, 1, 2, 3, 3, 4, 5, 6]  # fmt: skip
@@ -65,21 +65,21 @@ def test_two_predictions_share_the_bar() -> None:
 
 def test_a_prediction_that_ends_early_counts_as_one() -> None:
     failed = PredictionFinished("dynamic", False, "wave 2 of 3 did not converge", None, 0.1, 0.2)
-    after = Progress.of([RunStarted(BOTH, 3, False), *waves(2), failed])
+    after = RunProgress.of([RunStarted(BOTH, 3, False), *waves(2), failed])
     assert after.share == 0.5
-    assert Progress.of([RunStarted(BOTH, 3, False), *waves(2), failed, end("static")]).solved
+    assert RunProgress.of([RunStarted(BOTH, 3, False), *waves(2), failed, end("static")]).solved
 
 
 def test_passes_are_counted_and_nobody_knows_how_many_come() -> None:
     events = [RunStarted(BOTH, 3, True), *waves(3), *waves(2, pass_number=2)]
-    progress = Progress.of(events)
+    progress = RunProgress.of(events)
     assert progress.share is None
     words = "until rubber and contact agree"
     assert progress.sentence == f"prediction 1 of 2, pass 2 {words}, wave 2 of 3"
     events += [*waves(3, pass_number=2)[2:], end("dynamic", 2), *waves(1, "static")]
-    assert not Progress.of(events).solved
-    assert Progress.of(events).sentence == f"prediction 2 of 2, pass 1 {words}, wave 1 of 3"
-    assert Progress.of([*events, end("static", 1)]).solved
+    assert not RunProgress.of(events).solved
+    assert RunProgress.of(events).sentence == f"prediction 2 of 2, pass 1 {words}, wave 1 of 3"
+    assert RunProgress.of([*events, end("static", 1)]).solved
 
 
 @pytest.mark.parametrize(
@@ -90,29 +90,31 @@ def test_passes_are_counted_and_nobody_knows_how_many_come() -> None:
     ids=lambda event: type(event).__name__,
 )  # fmt: skip
 def test_an_event_is_read_back_from_its_line(event: Event) -> None:
-    line = to_json(event)
+    line = event_to_json(event)
     assert "\n" not in line
-    assert from_json(line) == event
-    assert from_json(line[:-1]) is None, "a line that is still being written"
+    assert event_from_json(line) == event
+    assert event_from_json(line[:-1]) is None, "a line that is still being written"
 
 
 def test_a_line_that_is_no_event_is_ignored_and_a_new_field_too() -> None:
     for line in ("", "Traceback", "[]", "3", '{"event": "Tomorrow"}', '{"event": "RunStarted"}'):
-        assert from_json(line) is None
-    assert from_json('{"event": "RunFinished", "exit_code": 0, "new": 1}') == RunFinished()
+        assert event_from_json(line) is None
+    assert event_from_json('{"event": "RunFinished", "exit_code": 0, "new": 1}') == RunFinished()
 
 
 def test_an_infinite_number_is_null() -> None:
-    line = to_json(end("static").__class__("static", True, "", None, float("nan"), float("inf")))
+    line = event_to_json(
+        end("static").__class__("static", True, "", None, float("nan"), float("inf"))
+    )
     assert json.loads(line)["friction"] is json.loads(line)["contact_fraction"] is None
-    assert str(from_json(line)).count("nan") == 2
+    assert str(event_from_json(line)).count("nan") == 2
 
 
 def run_json(case: Path, output: Path) -> tuple[list[Event], str, int]:
     """Return the events of `gripscale run`, its text and its exit code."""
     options = ["--output", str(output), "--progress", "json"]
     result = CliRunner().invoke(app, ["run", str(case), *options])
-    events = [from_json(line) for line in result.stdout.splitlines()]
+    events = [event_from_json(line) for line in result.stdout.splitlines()]
     assert None not in events, "every line of standard output is an event"
     return [event for event in events if event is not None], result.stderr, result.exit_code
 
@@ -165,7 +167,7 @@ def test_another_wording_does_not_change_the_progress(
 
     def shares() -> list[float | None]:
         events, _, _ = run_json(case, tmp_path / f"out{len(list(tmp_path.iterdir()))}")
-        return [Progress.of(events[:count]).share for count in range(len(events))]
+        return [RunProgress.of(events[:count]).share for count in range(len(events))]
 
     before = shares()
     command = import_module("gripscale.terminal")

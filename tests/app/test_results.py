@@ -83,7 +83,7 @@ def test_three_warnings_are_open_and_the_others_folded() -> None:
 
 def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
     result = source.read_result(ran)
-    assert isinstance(result, source.Run)
+    assert isinstance(result, source.RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text())
     dynamic, *rest = result.predictions
     assert result.direct is not None
@@ -104,7 +104,7 @@ def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
 
 def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
     result = source.read_result(ran)
-    assert isinstance(result, source.Run)
+    assert isinstance(result, source.RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text(), folder=ran)
     dynamic = result.predictions[0]
     rows = [ComparedRun(run, dynamic, result.direct), ComparedRun(run, dynamic, None)]
@@ -118,7 +118,7 @@ def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
 
 def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
     result = source.read_result(ran)
-    assert isinstance(result, source.Run)
+    assert isinstance(result, source.RunSource)
     for excited, drawn in ((None, False), (result.predictions[0], True)):
         moduli, factor, *_ = rubber_charts(result.inputs, excited)
         assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]

@@ -13,7 +13,7 @@ from gripscale.app.case import CaseState, VisitFolder
 from gripscale.app.commands import COMMANDS
 from gripscale.app.elements import Cards
 from gripscale.app.run_tabs import answer_elements, run_status
-from gripscale.app.runs import Run, Runs
+from gripscale.app.runs import AppRun, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.questions.registry import Form
@@ -53,7 +53,7 @@ def there(pid: int) -> bool:
     return True
 
 
-def ended(run: Run) -> Run:
+def ended(run: AppRun) -> AppRun:
     until = time.monotonic() + 60
     while run.running and time.monotonic() < until:
         time.sleep(0.1)
@@ -145,7 +145,7 @@ def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> N
 
 
 def test_a_command_that_printed_nothing_is_starting(tmp_path: Path) -> None:
-    run = Run("run-1", tmp_path / "case-1.toml", tmp_path / "run-1", "", by_name("study"))
+    run = AppRun("run-1", tmp_path / "case-1.toml", tmp_path / "run-1", "", by_name("study"))
     assert run.how_far() == "starting"
 
 

@@ -13,12 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gripscale.app.case import (
+    CaseProblem,
     CaseState,
-    Problem,
     VisitFolder,
+    case_tables,
     field_text,
     field_value,
-    tables_of,
     value_at,
     with_value,
 )
@@ -66,7 +66,7 @@ def test_a_field_shows_every_value_so_that_it_is_read_back(value: Any) -> None:
 def test_a_value_put_into_the_text_is_stated_there_and_nothing_else_changes(value: Any) -> None:
     text = with_value(CASE, ("load", "speed"), value)
     assert value_at(text, ("load", "speed")) == value
-    assert tables_of(with_value(text, ("load", "speed"), "0.3 m/s")) == tables_of(CASE)
+    assert case_tables(with_value(text, ("load", "speed"), "0.3 m/s")) == case_tables(CASE)
 
 
 def test_comments_stay_and_a_key_can_be_taken_out() -> None:
@@ -122,7 +122,7 @@ def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: Ca
     shown["speed"].value = "2"
     shown["static"].value = "true"
     shown["pressure"].value = "4 MPa"
-    assert tables_of(state.text)["load"] == {
+    assert case_tables(state.text)["load"] == {
         "pressure": "4 MPa", "speed": "2 m/s", "footprint": "100 mm", "static": True}  # fmt: skip
     assert shown["pressure"].value == "4"
     state.set_text(CASE)
@@ -168,7 +168,7 @@ def test_a_refusal_is_the_one_problem_of_the_case_until_it_is_cured(state: CaseS
     assert levels() == [["good"], [], []]
     with state.refusals("surface"):
         state.visit.store("road.png", b"\x89PNG\r\n")
-    assert state.problem == Problem(
+    assert state.problem == CaseProblem(
         "surface", "road.png: expected a file with measured values; got a picture (PNG)"
     )
     assert levels() == [["error"], ["error"], []]

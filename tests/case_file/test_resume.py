@@ -93,7 +93,7 @@ def test_a_stopped_run_solves_only_what_is_missing(
 def test_a_finished_run_solves_nothing_again_unless_told_to(
     case_copy: Path, tmp_path: Path, solved: Count
 ) -> None:
-    first = netcdf.load(tmp_path / "out" / "dynamic.nc")
+    first = netcdf.load_dataset(tmp_path / "out" / "dynamic.nc")
     seen, events = solved(None), list[Event]()
     results = run_case(case_copy, output=tmp_path / "out", on_event=events.append)
     assert not seen
@@ -101,7 +101,7 @@ def test_a_finished_run_solves_nothing_again_unless_told_to(
     assert replaced[0].message.startswith("Replaces 1 file of an earlier run")  # the case itself
     assert results.dynamic is not None
     first = first.assign_attrs(case_file=str(case_copy))
-    xr.testing.assert_identical(first, netcdf.load(tmp_path / "out" / "dynamic.nc"))
+    xr.testing.assert_identical(first, netcdf.load_dataset(tmp_path / "out" / "dynamic.nc"))
     run_case(case_copy, output=tmp_path / "out", fresh=True)
     assert len(seen) == 6
 
@@ -122,7 +122,7 @@ def test_a_comment_solves_nothing_again(case_copy: Path, tmp_path: Path, solved:
     seen = solved(None)
     run_case(case_copy, output=tmp_path / "out")
     assert not seen
-    assert "# other" in netcdf.load(tmp_path / "out" / "dynamic.nc").attrs["case"]
+    assert "# other" in netcdf.load_dataset(tmp_path / "out" / "dynamic.nc").attrs["case"]
 
 
 @pytest.mark.parametrize(("new", "waves"), [("another digit", 6), ("a space", 0)])

@@ -57,7 +57,7 @@ def test_files_are_written_where_they_are_wanted(
     def look(event: Event) -> None:
         if not isinstance(event, WaveSolved):
             return
-        on_disk = netcdf.load(target / f"{event.prediction}.nc").sizes["scale"]
+        on_disk = netcdf.load_dataset(target / f"{event.prediction}.nc").sizes["scale"]
         seen.append((event.prediction, event.number, on_disk))
 
     results = run_case(case, output=target, on_event=look)

@@ -272,7 +272,7 @@ def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
         read_case(misread), {"a": "case", "b": "case"}, tmp_path / "roads", samples=None
     )
     (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
-    file = read_case_file(write(tmp_path))
+    file = write(tmp_path)
     rubbers = {"right": "case", "misread": read_rubber("other.txt", file)}
     compounds = compare_compounds(read_case(file), rubbers, tmp_path / "rubbers", uncertainty=False)
     for data in (ladder, roads.data, compounds.data):
@@ -402,7 +402,7 @@ def test_a_foreign_rubber_without_a_temperature_says_whose_it_takes(tmp_path: Pa
 
 
 def test_a_sensitivity_doubts_a_foreign_rubber_without_a_temperature(tmp_path: Path) -> None:
-    file = read_case_file(write(tmp_path))
+    file = write(tmp_path)
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
     vary = read_named_inputs({"rubber": ["case", "other.txt"]}, file)
     case_sensitivity(read_case(file), folder=tmp_path, vary=vary, model="chain")

@@ -58,7 +58,7 @@ def test_every_variable_says_unit_name_and_source(prediction: ChainResult) -> No
 def test_netcdf_brings_everything_back(prediction: ChainResult, tmp_path: Path) -> None:
     data = prediction.to_dataset().assign_attrs(case='[load]\npressure = "3 bar"\n')
     path = netcdf.save(data, tmp_path / "result.nc")
-    again = netcdf.load(path)
+    again = netcdf.load_dataset(path)
     xr.testing.assert_identical(again, data)
     assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
 
@@ -70,7 +70,7 @@ def test_dataset_brings_the_prediction_back(tmp_path: Path) -> None:
     for solver in ("finite_strain", "half_plane"):
         made = solve_chain(rubber, sines, solver=solver, **load)
         path = netcdf.save(made.to_dataset(), tmp_path / "result.nc")
-        again = ChainResult.from_dataset(netcdf.load(path))
+        again = ChainResult.from_dataset(netcdf.load_dataset(path))
         assert (again.rubber, again.load, again.planned) == (made.rubber, made.load, made.planned)
         assert again.friction == made.friction
         xr.testing.assert_identical(again.to_dataset(), made.to_dataset())
@@ -108,13 +108,13 @@ def test_folder_in_the_way_is_named(prediction: ChainResult, tmp_path: Path) -> 
 
 def test_missing_result_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"result\.nc does not exist"):
-        netcdf.load(tmp_path / "result.nc")
+        netcdf.load_dataset(tmp_path / "result.nc")
 
 
 def test_file_that_is_no_result_is_refused(tmp_path: Path) -> None:
     (tmp_path / "result.nc").write_text("not netCDF")
     with pytest.raises(FileError, match="cannot be read as a netCDF result"):
-        netcdf.load(tmp_path / "result.nc")
+        netcdf.load_dataset(tmp_path / "result.nc")
 
 
 def test_a_whole_file_appears_at_once(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_old_names_of_variables_are_read_as_the_new_ones(tmp_path: Path) -> None
     old = xr.Dataset({name: ("scale", [float(i)]) for i, name in enumerate(netcdf.RENAMED)})
     path = netcdf.save(old, tmp_path / "old.nc", {"inputs": old})
     tree = netcdf.load_tree(path)
-    for data in (netcdf.load(path), tree.to_dataset(), tree["inputs"].to_dataset()):
+    for data in (netcdf.load_dataset(path), tree.to_dataset(), tree["inputs"].to_dataset()):
         assert {name: data[name].item() for name in data} == {
             new: float(i) for i, new in enumerate(netcdf.RENAMED.values())
         }

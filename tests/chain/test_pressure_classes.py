@@ -139,7 +139,7 @@ def test_dataset_brings_the_classes_back(tmp_path) -> None:
     made = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
     data = made.to_dataset()
     assert data.class_pressures.sizes == {"scale": 3, "pressure_class": 4}
-    again = ChainResult.from_dataset(netcdf.load(netcdf.save(data, tmp_path / "result.nc")))
+    again = ChainResult.from_dataset(netcdf.load_dataset(netcdf.save(data, tmp_path / "result.nc")))
     xr.testing.assert_identical(again.to_dataset(), data)
 
 

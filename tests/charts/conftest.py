@@ -10,7 +10,7 @@ import xarray as xr
 
 from gripscale.chain import ChainResult
 from gripscale.core.status import Status
-from gripscale.model import TOTALS, Load, answer
+from gripscale.model import TOTALS, Load, predicted_answer
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.wave import ScaleResult
@@ -73,4 +73,4 @@ def make_prediction() -> Callable[..., xr.Dataset]:
 def without_waves() -> xr.Dataset:
     """The answer of a model without waves."""
     totals = dict(zip(TOTALS, (0.05, 0.6, 0.58), strict=True))
-    return answer(xr.Dataset(), totals, "converged", "toy", Load(3e5, 0.3, 0.1))
+    return predicted_answer(xr.Dataset(), totals, "converged", "toy", Load(3e5, 0.3, 0.1))

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.charts.chart import Axis, Block, Blocks, Panel, Series, Sheet
+from gripscale.charts.chart import Blocks, DrawnBlock, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.figure_folder import FigureFolder, FigureProcess, figures_elsewhere
 from gripscale.core.errors import FileError
 
 X = np.linspace(-0.5, 0.5, 33)
-SHEET = Sheet([Panel(Axis("$x$ [mm]"), Axis("height [mm]"), [Series(X, X**2)])])
-BLOCKS = Blocks([Block("wave", 0.1, 1.0, (X, 1.0 + X), None, slides=True)], "MPa", 1, 4.2)
+SHEET = Sheet([Panel(PlotAxis("$x$ [mm]"), PlotAxis("height [mm]"), [Series(X, X**2)])])
+BLOCKS = Blocks([DrawnBlock("wave", 0.1, 1.0, (X, 1.0 + X), None, slides=True)], "MPa", 1, 4.2)
 
 
 def test_another_process_draws_the_same_pixels(tmp_path: Path) -> None:
@@ -51,7 +51,7 @@ def test_what_is_saved_after_the_end_of_the_process_does_not_hide_why_it_ended(
     process.release()
     many = Series(np.arange(1e6), np.arange(1e6))
     for _ in range(3):
-        process.save(Sheet([Panel(Axis("x"), Axis("y"), [many])]), "sheet")
+        process.save(Sheet([Panel(PlotAxis("x"), PlotAxis("y"), [many])]), "sheet")
     with pytest.raises(FileError, match="cannot be written"):
         process.close()
 

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
 from gripscale.charts import save_figure
-from gripscale.charts.chart import Axis, Outline, Panel, Series, Sheet
+from gripscale.charts.chart import Outline, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import draw_sheet, png
 from gripscale.charts.style import short_number, stretches
 from gripscale.core.errors import FileError, InputError
@@ -343,7 +343,7 @@ def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
 @pytest.mark.parametrize("ratio", [1.8, 3.2, 5.0, 7.9])
 def test_a_short_logarithmic_axis_has_three_numbers(low: float, ratio: float) -> None:
     panel = Panel(
-        Axis("x"), Axis("y", True, low, ratio * low), [Series([0, 1], [low, ratio * low])]
+        PlotAxis("x"), PlotAxis("y", True, low, ratio * low), [Series([0, 1], [low, ratio * low])]
     )
     axes = draw_sheet(Sheet([panel])).axes[0]
     ticks = np.asarray(axes.get_yticks())
@@ -427,7 +427,9 @@ def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
         "direct contact, sine waves of the chain",
         "direct contact, measured surface",
     ]
-    panel = Panel(Axis("x"), Axis("y"), [Series([0, 1], [0, 1], label=name) for name in names])
+    panel = Panel(
+        PlotAxis("x"), PlotAxis("y"), [Series([0, 1], [0, 1], label=name) for name in names]
+    )
     figure = draw_sheet(Sheet([panel, panel]))
     figure.canvas.draw()
     box, whole = figure.legends[0].get_window_extent(), figure.bbox

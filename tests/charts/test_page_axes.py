@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.charts.chart import Axis, Panel, Series
+from gripscale.charts.chart import Panel, PlotAxis, Series
 
 models = pytest.importorskip("bokeh.models", reason="needs pip install 'gripscale[report]'")
 
@@ -26,7 +26,7 @@ def test_a_short_log_axis_has_numbers_along(low: float, high: float, marks: list
     from gripscale.charts.page import draw_panel
 
     values = np.array([low, high])
-    panel = Panel(Axis("x [-]"), Axis("y [-]", log=True), [Series(values, values)])
+    panel = Panel(PlotAxis("x [-]"), PlotAxis("y [-]", log=True), [Series(values, values)])
     axis = model(draw_panel(panel).figure).yaxis[0]
     if not marks:
         assert isinstance(axis.formatter, models.LogTickFormatter)

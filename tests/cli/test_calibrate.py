@@ -56,7 +56,7 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
     for word in ("stress_0", "left out", "90 % by profile likelihood", "Correlations"):
         assert word in said
         assert word in (target / "calibration.txt").read_text()
-    data = netcdf.load(target / "calibration.nc")
+    data = netcdf.load_dataset(target / "calibration.nc")
     for figure in (fitted_figure(data), residual_figure(data), profiles_figure(data)):
         assert all(axes.lines or axes.collections for axes in figure.axes)
     panels = fitted_figure(data).axes
@@ -69,7 +69,7 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
 
 
 def test_the_answer_is_the_area_term_and_what_it_does(calibrated: tuple[str, Path]) -> None:
-    data = netcdf.load(calibrated[1] / "calibration.nc")
+    data = netcdf.load_dataset(calibrated[1] / "calibration.nc")
     answer, adds, misses = calibration_lines(data)
     low, high = (float(data.area_term.min()), float(data.area_term.max()))
     assert answer.startswith(
@@ -99,7 +99,7 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     written.write_text(f"{case.read_text()}\n{table}")
     file = read_case_file(written)
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    fitted = shear_stress_from_dict(json.loads(netcdf.load(target / "calibration.nc").law))
+    fitted = shear_stress_from_dict(json.loads(netcdf.load_dataset(target / "calibration.nc").law))
     assert conditions is not None
     assert isinstance(conditions.shear_stress, GaussianStress)
     assert vars(conditions.shear_stress) == pytest.approx(vars(fitted), rel=1e-5)
@@ -242,7 +242,7 @@ def test_the_direct_contact_of_a_measured_profile(
     )  # fmt: skip
     assert result.exit_code == 0, result.output
     assert "No spread is stated" in result.stdout
-    data = netcdf.load(target / "calibration.nc")
+    data = netcdf.load_dataset(target / "calibration.nc")
     stress = float(data.estimate[0])
     term = stress * data.contact_fraction / data.nominal_pressure
     assert data.area_term.values == pytest.approx(term.values)

@@ -23,7 +23,7 @@ from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
 from gripscale.questions import compare_case, compare_over
-from gripscale.questions.answer.answer import FILE
+from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.direct_contact import (
     direct_contact_totals,
     solve_direct_contact,
@@ -32,7 +32,7 @@ from gripscale.questions.answer.samples import curve_at
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import comparison_axis_figure, comparison_figure
 from gripscale.questions.compare.charts_of_ladder import rows_of
-from gripscale.questions.compare.comparison import VARIED
+from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.questions.compare.page import comparison_table, judgement, remarks
 from gripscale.report.pages import page_of
 from gripscale.report.source import Compared
@@ -75,11 +75,11 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     written = {path.name for path in target.iterdir()}
     files = {"comparison.nc", "comparison.txt", "at_measured.nc", "predictions", "summary.xlsx"}
     assert written == files | figures
-    beside = netcdf.load(target / "at_measured.nc")
+    beside = netcdf.load_dataset(target / "at_measured.nc")
     asked = ["chain_half_plane", "chain_upper", "direct", "persson"]
     assert beside.model.values.tolist() == asked
     assert np.isfinite(beside.difference).all()
-    data = netcdf.load(target / "comparison.nc")
+    data = netcdf.load_dataset(target / "comparison.nc")
     assert data.rung.values.tolist() == RUNGS
     assert data.samples.values.tolist() == [1, 1, 2, 2, 1, 1]
     assert (data.status == "converged").all()
@@ -109,7 +109,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
 def test_rungs_of_any_group_alone_are_drawn(
     comparison: tuple[str, Path], tmp_path: Path, group: str
 ) -> None:
-    data = netcdf.load(comparison[1] / "comparison.nc").isel(rung=[4])
+    data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(rung=[4])
     data = data.assign_coords(group=("rung", [group]))
     for octaves in (data, data.isel(wavelength=slice(0))):  # maps and blocks have no octaves
         draw_comparison(octaves, FigureFolder(tmp_path))
@@ -121,7 +121,7 @@ def test_rungs_of_any_group_alone_are_drawn(
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(
     comparison: tuple[str, Path],
 ) -> None:
-    data = netcdf.load(comparison[1] / "comparison.nc")
+    data = netcdf.load_dataset(comparison[1] / "comparison.nc")
     aside = (data.group == "theory") | (data.rung == "chain_upper")
     path = data.isel(rung=~aside.values)
     for name in ("contact_fraction", "friction"):
@@ -218,7 +218,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     assert written == {"over_speed.nc", "over_speed.txt", "predictions", "summary.xlsx"} | {
         f"over_speed.{kind}" for kind in FORMATS
     }
-    data = netcdf.load(tmp_path / "out" / "over_speed.nc")
+    data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
     assert data.total_friction.dims == ("speed", "rung")
     alone = compare_case(read_case(inputs / "case.toml"), rungs=["direct"]).data.isel(rung=0)
     assert data.total_friction.sel(speed=0.3, rung="direct") == alone.total_friction
@@ -232,7 +232,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     again = shell(*command)
     assert again.stdout.count("already solved") == 5
     assert (
-        netcdf.load(tmp_path / "out" / "over_speed.nc")
+        netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
         .drop_vars("seconds")
         .equals(data.drop_vars("seconds"))
     )
@@ -327,7 +327,7 @@ def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) ->
     refusal = shell("compare", inputs / "case.toml", "--vary", "effects=all,none")
     assert refusal.exit_code == 2
     names = refusal.output.partition("must be one of ")[2].partition(";")[0]
-    assert names == ", ".join(VARIED)
+    assert names == ", ".join(COMPARED_OVER)
 
 
 def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
@@ -369,7 +369,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
         solver="half_plane",
         points=128,
     )
-    stored = netcdf.load(tmp_path / FILE)
+    stored = netcdf.load_dataset(tmp_path / ANSWER_FILE)
     totals = direct_contact_totals(direct, results, results.load)
     xr.testing.assert_identical(stored.drop_attrs(deep=False), totals.drop_attrs(deep=False))
     first, second = judgement(PredictionView(chain.to_dataset()), stored)

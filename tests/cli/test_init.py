@@ -10,7 +10,7 @@ import pytest
 
 import gripscale
 from gripscale.case_file import EXAMPLES, read_case, read_case_file, write_example
-from gripscale.cli.inputs import Choice
+from gripscale.cli.inputs import ExampleName
 from gripscale.core.errors import FileError, InputError
 from tests.samples import ROOT, Shell
 
@@ -24,7 +24,7 @@ def tree(folder: Path) -> dict[str, bytes]:
 
 
 def test_the_command_offers_every_example() -> None:
-    assert [choice.value for choice in Choice] == list(EXAMPLES)
+    assert [choice.value for choice in ExampleName] == list(EXAMPLES)
 
 
 def test_the_road_is_the_shipped_case_with_its_data(tmp_path: Path) -> None:

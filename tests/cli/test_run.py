@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-from gripscale.case_file.folder import AT_TIMES, NOTE, RESULTS
+from gripscale.case_file.folder import AT_TIMES, NOTE, RESULT_FILES
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.cli import app
 from gripscale.core.status import Status
@@ -39,10 +39,10 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
     of_others = {"effects_chain.nc", "cut_off.nc", "figures/blocks_static.png"} | {
-        name for name in RESULTS if any(f"/{figure}." in name for figure in AT_TIMES)
+        name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)
     }
-    of_others |= {name for name in RESULTS if name.endswith((".pdf", ".svg"))}
-    assert written == {*RESULTS, "inputs/road.txt", "inputs/dma.txt"} - of_others
+    of_others |= {name for name in RESULT_FILES if name.endswith((".pdf", ".svg"))}
+    assert written == {*RESULT_FILES, "inputs/road.txt", "inputs/dma.txt"} - of_others
 
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
@@ -70,7 +70,7 @@ def test_output_says_what_was_read_fitted_and_solved(done: tuple[Result, Path]) 
 def test_results_file_holds_the_chain_and_its_inputs(
     done: tuple[Result, Path], inputs: Path
 ) -> None:
-    data = netcdf.load(done[1] / "dynamic.nc")
+    data = netcdf.load_dataset(done[1] / "dynamic.nc")
     assert data.sizes["scale"] == 3
     np.testing.assert_allclose(
         data.pressure_received[1:],
@@ -81,7 +81,7 @@ def test_results_file_holds_the_chain_and_its_inputs(
     assert data.total_friction > 0.0
     assert data.attrs["case"] == (inputs / "case.toml").read_text()
     assert data.attrs["surface_source"].endswith("road.txt")
-    rest = netcdf.load(done[1] / "static.nc")
+    rest = netcdf.load_dataset(done[1] / "static.nc")
     assert np.isinf(rest.load_time).all()
     assert rest.total_contact_fraction > data.total_contact_fraction
 
@@ -92,13 +92,13 @@ def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) 
     assert [row[0] for row in rows] == ["direct", "chain", "chain"]
     by_name = [dict(zip(titles, row, strict=True)) for row in rows]
     for name, row in zip(("answer", "dynamic", "static"), by_name, strict=True):
-        data = netcdf.load(done[1] / f"{name}.nc")
+        data = netcdf.load_dataset(done[1] / f"{name}.nc")
         area = float(data.total_contact_fraction)
         assert row["total_contact_fraction [-]"] == pytest.approx(area, rel=1e-15)
         assert row["nominal_speed [m/s]"] == float(data.nominal_speed)
         assert row["prediction_status"] == "converged"
         assert row["surface_source"].endswith("road.txt")
-    direct = netcdf.load(done[1] / "answer.nc")
+    direct = netcdf.load_dataset(done[1] / "answer.nc")
     friction = float(direct.best_friction)
     assert by_name[0]["best_friction [-]"] == pytest.approx(friction, rel=1e-15)
     assert by_name[0]["not_to_rely_on"] == no_answer(direct) or None
@@ -148,11 +148,11 @@ def test_wave_that_fails_keeps_what_was_solved(
     assert "iteration limit" in result.stderr
     assert len(result.stderr.splitlines()) == 1
     assert "No totals: wave 2 did not converge" in result.stdout
-    data = netcdf.load(case.parent / "results" / "dynamic.nc")
+    data = netcdf.load_dataset(case.parent / "results" / "dynamic.nc")
     assert data.status.values.tolist() == ["converged", "iteration limit"]
     assert np.isfinite(data.running_friction.values).tolist() == [True, False]
     assert str(data.prediction_status.item()).startswith("wave 2 of 3")
-    rest = netcdf.load(case.parent / "results" / "static.nc")
+    rest = netcdf.load_dataset(case.parent / "results" / "static.nc")
     assert rest.sizes["scale"] == 3
 
 
@@ -174,7 +174,7 @@ def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
         self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
     ) -> ScaleResult:
         path = case.parent / "results" / "dynamic.nc"
-        seen.append(netcdf.load(path).sizes["scale"] if path.exists() else 0)
+        seen.append(netcdf.load_dataset(path).sizes["scale"] if path.exists() else 0)
         if len(seen) == 3:
             raise KeyboardInterrupt
         return solve(self, problem, start)
@@ -184,7 +184,7 @@ def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
     result = shell("run", case)
     assert result.exit_code == 130
     assert seen == on_disk
-    assert netcdf.load(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
+    assert netcdf.load_dataset(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
 
 
 def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(

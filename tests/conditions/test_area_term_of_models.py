@@ -71,7 +71,7 @@ def test_the_heat_that_the_area_term_lacks_is_stated():
     line = gs.solve_rough_contact(
         RUBBER, LINE, pressure=3e5, speed=1.0, periodic=True, footprint=0.05, conditions=EVERYTHING
     )
-    notes = [n.text for n in conditions_notices(PredictionView(chain.to_dataset()))]
+    notes = [n.sentence for n in conditions_notices(PredictionView(chain.to_dataset()))]
     for found, sentences in ((chain, notes), (line, line.notes)):
         ratio = found.adhesive_friction / found.friction
         assert ratio > 0.01
@@ -86,7 +86,7 @@ def test_without_heat_or_area_term_none_is_lacking(without):
     some = replace(EVERYTHING, **{without: None})
     chain = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=some, **LOAD)
     notes = conditions_notices(PredictionView(chain.to_dataset()))
-    assert not any("area term" in notice.text for notice in notes)
+    assert not any("area term" in notice.sentence for notice in notes)
 
 
 def test_conditions_and_what_they_did_survive_a_file(tmp_path):
@@ -94,7 +94,7 @@ def test_conditions_and_what_they_did_survive_a_file(tmp_path):
 
     found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
     again = gs.ChainResult.from_dataset(
-        netcdf.load(netcdf.save(found.to_dataset(), tmp_path / "all.nc"))
+        netcdf.load_dataset(netcdf.save(found.to_dataset(), tmp_path / "all.nc"))
     )
     assert again.conditions == EVERYTHING
     assert again.total_friction == found.total_friction

@@ -67,5 +67,5 @@ def test_result_being_written_is_whole_and_the_next_one_does_not_wait(
     with pytest.raises(KeyboardInterrupt):
         netcdf.save(data, tmp_path / "a.nc")
     monkeypatch.undo()
-    assert netcdf.load(tmp_path / "a.nc").equals(data)
+    assert netcdf.load_dataset(tmp_path / "a.nc").equals(data)
     netcdf.save(data, tmp_path / "b.nc")

@@ -23,7 +23,7 @@ def path(tmp_path: Path) -> Path:
 
 
 def refused(path: Path) -> None:
-    for read in (netcdf.load, netcdf.load_tree):
+    for read in (netcdf.load_dataset, netcdf.load_tree):
         with pytest.raises(FileError, match=r"result\.nc cannot be read as a netCDF result"):
             read(path)
 
@@ -56,7 +56,7 @@ def test_another_length(path: Path, change: str) -> None:
 def test_files_from_elsewhere_have_no_seal(path: Path, tmp_path: Path) -> None:
     other = tmp_path / "other.nc"
     DATA.to_netcdf(other, engine=netcdf.ENGINE)
-    assert netcdf.load(other).identical(DATA)
+    assert netcdf.load_dataset(other).identical(DATA)
     assert xr.load_dataset(path, engine=netcdf.ENGINE).identical(DATA)
 
 
@@ -67,7 +67,7 @@ def test_a_result_changed_on_purpose(path: Path) -> None:
     with netCDF4.Dataset(path, "a") as file:
         file.title = "a longer title, written by hand"
         file["friction"][0] = 7.0
-    found = netcdf.load(path)
+    found = netcdf.load_dataset(path)
     assert found.title.endswith("by hand")
     assert found.friction[0] == 7.0
 

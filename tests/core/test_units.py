@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.core.units import UNITS, DisplayUnit, in_mm, in_si, listed, parse_quantity, spelled
+from gripscale.core.units import (
+    UNITS,
+    DisplayUnit,
+    in_mm,
+    listed,
+    parse_quantity,
+    quantity_in_si,
+    spelled,
+)
 
 
 @pytest.mark.parametrize(
@@ -29,15 +37,15 @@ from gripscale.core.units import UNITS, DisplayUnit, in_mm, in_si, listed, parse
     ],
 )
 def test_one_of_a_unit_in_si(unit: str, kind: str, si: float) -> None:
-    assert in_si(1.0, unit, kind) == pytest.approx(si, rel=1e-15)
-    assert in_si(np.ones(3), unit, kind) == pytest.approx([si] * 3, rel=1e-15)
-    assert parse_quantity(f"1 {unit}", kind) == in_si(1.0, unit, kind)
+    assert quantity_in_si(1.0, unit, kind) == pytest.approx(si, rel=1e-15)
+    assert quantity_in_si(np.ones(3), unit, kind) == pytest.approx([si] * 3, rel=1e-15)
+    assert parse_quantity(f"1 {unit}", kind) == quantity_in_si(1.0, unit, kind)
 
 
 @pytest.mark.parametrize("kind", UNITS)
 def test_the_first_unit_of_a_kind_is_that_of_si(kind: str) -> None:
     first = next(iter(UNITS[kind]))
-    assert in_si(2.5, first, kind) == 2.5
+    assert quantity_in_si(2.5, first, kind) == 2.5
     assert listed(kind).startswith(first)
 
 
@@ -65,7 +73,7 @@ def test_spellings(written: object, kind: str, usual: str | None) -> None:
 
 def test_an_unknown_unit_is_named_with_all_that_are_known() -> None:
     with pytest.raises(InputError, match=r"z_unit must be one of m, cm, .*; got 'furlong'"):
-        in_si(1.0, "furlong", "length", "z_unit")
+        quantity_in_si(1.0, "furlong", "length", "z_unit")
 
 
 @pytest.mark.parametrize(

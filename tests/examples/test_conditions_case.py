@@ -52,7 +52,7 @@ def test_study_over_speed_and_temperature(case: Path) -> None:
     asked = ["--vary", "speed=0.1:1:log2", "--vary", "temperature=20 C:60 C:lin2"]
     done = CliRunner().invoke(app, ["study", str(case), *asked])
     assert done.exit_code == 0, done.output
-    data = netcdf.load(case.parent / "results" / "study" / "study.nc")
+    data = netcdf.load_dataset(case.parent / "results" / "study" / "study.nc")
     assert (data.prediction_status == "converged").all()
     assert (data.total_friction > 0.0).all()
     # a rubber at 60 C, softer than at 20 C, touches more

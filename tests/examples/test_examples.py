@@ -212,6 +212,15 @@ def test_the_synthetic_friction_is_what_its_source_says(area_term):
         assert number in stated
 
 
+def test_toy_question(tmp_path):
+    printed = start_alone("toy_question", tmp_path, "out")
+    pressure, low, high = numbers(r"p = ([\d.]+) MPa \(([\d.]+) to ([\d.]+)\)", printed)
+    (nominal,) = numbers(r"nominal pressure of ([\d.]+) MPa", printed)
+    assert low < pressure < high
+    answer = gs.answer(gs.read_case(EXAMPLES / "road_and_tread" / "case.toml"))
+    assert pressure == pytest.approx(nominal / answer.contact_fraction, rel=5e-3)
+
+
 def test_run_case(start, tmp_path):
     printed = start("run_case", str(EXAMPLES / "road_and_tread" / "case.toml"), "out")
     friction, area = numbers(r"μ = ([\d.]+) .*A_r/A_0 = ([\d.]+) ", printed)

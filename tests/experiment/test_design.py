@@ -13,7 +13,7 @@ import xarray as xr
 import gripscale as gs
 from gripscale.experiment import Bench, Design, Point, Progress, Store, Task, solve_design
 from gripscale.experiment.design import stack
-from gripscale.model import Load, answer
+from gripscale.model import Load, predicted_answer
 from gripscale.surface import Surface
 
 SURFACE = Surface(gs.SineStack(wavelength=[1e-2], amplitude=[1e-4]), "one wave")
@@ -38,7 +38,7 @@ class Amontons:
         totals = dict.fromkeys(("total_friction", "total_friction_from_dissipation"), mu)
         totals["total_contact_fraction"] = 0.1
         waves = xr.Dataset({"part": ("wave", np.arange(int(self.factor)))})
-        return answer(waves, totals, "converged", self.name, load)
+        return predicted_answer(waves, totals, "converged", self.name, load)
 
 
 def task(factor: float, pressure: float = 1.0) -> Task:

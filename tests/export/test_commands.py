@@ -128,7 +128,7 @@ def test_tables_of_a_result(result, tmp_path):
     assert "scale.csv" in done.stdout
     with (tmp_path / "out" / "scale.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    data = netcdf.load(result)
+    data = netcdf.load_dataset(result)
     assert [float(row["friction [-]"]) for row in rows] == data.friction.values.tolist()
     assert run("tables", result, "--output", tmp_path / "out", "--format", "xlsx").exit_code == 0
     assert (tmp_path / "out" / "tables.xlsx").is_file()

@@ -188,7 +188,7 @@ def test_what_a_workbook_cannot_hold(tmp_path, monkeypatch):
     write_tables(data, tmp_path)
     cells = [row[1] for row in read_csv(tmp_path / "place.csv")[1:]]
     assert cells == ["inf", "-inf", ""]
-    monkeypatch.setattr(workbook, "MOST_ROWS", 3)
+    monkeypatch.setattr(workbook, "_MOST_ROWS", 3)
     with pytest.raises(InputError, match="at most 2 rows for xlsx; got 3 in place"):
         write_tables(data, tmp_path / "other", format="xlsx")
 

@@ -48,13 +48,15 @@ def test_trends_gaps_and_offsets_do_not_count() -> None:
 def test_limits() -> None:
     for reach in (1.0, 2.3, 4.0):
         area = line_to_map.contact_fraction_ratio(reach, [1e-6, 1.0])
-        assert area.ratio == pytest.approx([line_to_map.CONTACT_FRACTION.at(reach), 1.0], rel=1e-5)
+        assert area.ratio == pytest.approx(
+            [line_to_map.CONTACT_FRACTION_LAW.at(reach), 1.0], rel=1e-5
+        )
         assert area.uncertainty == pytest.approx(
-            [line_to_map.CONTACT_FRACTION.scatter, 0.0], abs=1e-5
+            [line_to_map.CONTACT_FRACTION_LAW.scatter, 0.0], abs=1e-5
         )
         friction = line_to_map.friction_ratio(reach, [1e-6, 1.0])
         assert friction.ratio == pytest.approx(
-            [line_to_map.FRICTION.at(reach), line_to_map.FULL_CONTACT_FRICTION]
+            [line_to_map.FRICTION_LAW.at(reach), line_to_map.FULL_CONTACT_FRICTION]
         )
         between = line_to_map.contact_fraction_ratio(reach, np.linspace(0.01, 0.99, 50))
         on_the_surface = between.ratio * np.linspace(0.01, 0.99, 50)

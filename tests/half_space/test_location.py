@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from gripscale.half_space import DirectContact, contact_trace, shares_by_slope
-from gripscale.half_space.location import SHARES, SLOPES, strongest_stretches, traces_of
+from gripscale.half_space.location import SHARES_BY_SLOPE, SLOPES, strongest_stretches, traces_of
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.surface import Measured, Profile, SineStack, Surface, self_affine_profile
@@ -54,7 +54,7 @@ def test_shares_of_full_contact_on_a_sine_are_those_of_the_closed_form():
 @pytest.mark.parametrize("contact", [MAP, STONES], ids=["map", "line"])
 def test_shares_add_up(contact):
     shares = contact.shares_by_slope
-    for name in SHARES:
+    for name in SHARES_BY_SLOPE:
         assert float(shares[name].sum()) == pytest.approx(1.0, rel=1e-12)
     steep = shares.friction_by_slope.sel(slope=[1.0, 2.0]).sum()
     assert contact.steep_share == pytest.approx(float(steep), rel=1e-12)
@@ -159,10 +159,10 @@ def test_results_hold_traces_of_unlike_profiles(tmp_path):
     model = DirectContact(tolerance=None, traces=True)
     load = Load(pressure=1e5, speed=0.3, footprint=0.1)
     answer = model.predict(STONES.rubber, surface, load, on_progress=contacts.append)
-    kept = netcdf.load(netcdf.save(answer, tmp_path / "answer.nc"))
+    kept = netcdf.load_dataset(netcdf.save(answer, tmp_path / "answer.nc"))
     for contact, trace in zip(contacts, traces_of(kept), strict=True):
         xr.testing.assert_equal(trace, contact_trace(contact))
     plain = DirectContact(tolerance=None).predict(STONES.rubber, surface, load)
     assert traces_of(plain) == []
-    for name in SHARES:
+    for name in SHARES_BY_SLOPE:
         assert float(plain[f"total_{name}"].sum()) == pytest.approx(1.0, rel=1e-12)

@@ -36,7 +36,7 @@ def test_iterations_and_elimination_close_the_same_gap(monkeypatch):
     lifted = response.displacement(full.reshape(grid.shape)).reshape(-1)
     system = (response, where, height[where], start, lifted, 1e-6)
     iterated = active_set.close_gap(*system, check=True)
-    monkeypatch.setattr(active_set, "SHORTEST", 1)
+    monkeypatch.setattr(active_set, "_SHORTEST", 1)
     direct = active_set.close_gap(*system, check=True)
     assert direct.products == 2
     assert iterated.products > 5

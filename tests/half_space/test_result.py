@@ -68,7 +68,9 @@ def test_the_dataset_holds_the_result(tmp_path):
     assert data["status"].item() == "converged"
     assert all({"units", "long_name", "source"} <= set(v.attrs) for v in data.data_vars.values())
     assert "pressure" not in FOUND.to_dataset(fields=False)
-    xr.testing.assert_identical(netcdf.load(netcdf.save(data, tmp_path / "direct.nc")), data)
+    xr.testing.assert_identical(
+        netcdf.load_dataset(netcdf.save(data, tmp_path / "direct.nc")), data
+    )
 
 
 def test_area_by_octave_is_that_of_the_smoothed_surface():

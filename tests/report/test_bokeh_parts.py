@@ -13,13 +13,13 @@ from bokeh.core.serialization import DeserializationError
 from gripscale.charts import draw
 from gripscale.charts.bokeh_parts import Part, document, model
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     Bars,
     CrossLine,
     Outline,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     ValueMap,
 )
 from gripscale.report.pages import page_of
@@ -29,7 +29,7 @@ X = np.array([1.0, 2.0, 4.0])
 MARKS = [
     Series(X, 2.0 * X, label="$\\mu$", marker="o", low=X, high=3.0 * X, beyond=[0, 0, 1]),
     Outline(np.linspace(1.0, 4.0, 5000), np.full(5000, 1.0), np.full(5000, 2.0)),
-    Band(X, X, 3.0 * X, label="range"),
+    ShadedBand(X, X, 3.0 * X, label="range"),
     Bars(X, X + 1, 1, 2, label="bars"),
     CrossLine(2.0, label="limit"),
     CrossLine(2.0, upright=True, dash="dotted"),
@@ -51,9 +51,12 @@ def silence(caplog: pytest.LogCaptureFixture) -> Iterator[None]:
 
 @pytest.mark.parametrize("log", [False, True])
 def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
-    axis = Axis("$x$ [mm]", log=log, ticks={1.0: "first"})
-    panels = [Panel(axis, Axis("y", log=log), MARKS), Panel(Axis("x", low=1.0, high=4.0), axis)]
-    figure, empty = (model(chart.figure) for chart in draw.on_page(panels))
+    axis = PlotAxis("$x$ [mm]", log=log, ticks={1.0: "first"})
+    panels = [
+        Panel(axis, PlotAxis("y", log=log), MARKS),
+        Panel(PlotAxis("x", low=1.0, high=4.0), axis),
+    ]
+    figure, empty = (model(chart.figure) for chart in draw.panels_on_page(panels))
     drawn = {each.glyph.__class__.__name__ for each in figure.renderers}
     assert drawn == {"Image", "Line", "Quad", "Scatter", "Segment", "VArea"}
     named = [item.label.value for item in figure.legend[0].items]
@@ -65,7 +68,7 @@ def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
 
 
 def test_bokeh_has_every_attribute_of_linked_panels() -> None:
-    panels = [Panel(Axis("x"), Axis("y"), MARKS[:2])] * 2
+    panels = [Panel(PlotAxis("x"), PlotAxis("y"), MARKS[:2])] * 2
     column = model(draw.linked_on_page(panels, "linked", "", "").figure)
     first, second = (figure for figure, *_ in column.children)
     assert first.x_range is second.x_range

@@ -9,9 +9,9 @@ import re
 import pytest
 
 from gripscale.report.elements import Equation
-from gripscale.report.equations import draw, equations
+from gripscale.report.equations import draw_equations, method_equations
 
-EVERY = pytest.mark.parametrize("equation", equations(), ids=lambda equation: equation.name)
+EVERY = pytest.mark.parametrize("equation", method_equations(), ids=lambda equation: equation.name)
 
 
 @EVERY
@@ -21,11 +21,11 @@ def test_picture_is_of_its_equation(equation: Equation) -> None:
 
 
 def test_picture_is_what_matplotlib_draws() -> None:
-    first = equations()[0]
+    first = method_equations()[0]
     size = r'width="([\d.]+)pt" height="([\d.]+)pt"'
     drawn, stored = (
         re.search(size, text)
-        for text in (draw(first.latex), base64.b64decode(first.data).decode("utf-8"))
+        for text in (draw_equations(first.latex), base64.b64decode(first.data).decode("utf-8"))
     )
     assert drawn is not None
     assert stored is not None

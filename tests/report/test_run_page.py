@@ -19,13 +19,13 @@ from gripscale.charts.page_elements import Chart
 from gripscale.core.errors import FileError, InputError
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
-from gripscale.model import OUTSIDE_BAND, TOTALS, Load, answer
+from gripscale.model import OUTSIDE_BAND, TOTALS, Load, predicted_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.inputs.page import rubber_facts
 from gripscale.report import write_report
-from gripscale.report.notices import cards, notices
+from gripscale.report.notices import notices, run_cards
 from gripscale.report.pages import run_page
-from gripscale.report.source import Run, read_result
+from gripscale.report.source import RunSource, read_result
 from gripscale.surface import self_affine_profile
 from tests.samples import ZENER
 
@@ -85,7 +85,7 @@ def test_the_direct_contact_is_called_as_its_profiles(run_folder: Path) -> None:
         ZENER, profile, pressure=3e5, speed=0.3, smallest_wavelength=4e-4, tolerance=None
     )
     run = read_result(run_folder)
-    assert isinstance(run, Run)
+    assert isinstance(run, RunSource)
     direct = with_traces(run.predictions[0].data.drop_dims("scale"), [contact_trace(contact)] * 2)
     section = next(s for s in run_page(replace(run, direct=direct)).sections if s.name == "contact")
     captions = [element.caption for element in section.elements if isinstance(element, Chart)]
@@ -121,7 +121,7 @@ def numbers_on(page: Page) -> np.ndarray:
 
 def test_every_column_of_the_result_is_shown(page: Page, run_folder: Path) -> None:
     """Each number per wave of the result stands in some table, rounded."""
-    data, shown = netcdf.load(run_folder / "dynamic.nc"), numbers_on(page)
+    data, shown = netcdf.load_dataset(run_folder / "dynamic.nc"), numbers_on(page)
     columns = [v for v in data.data_vars.values() if v.dims == ("scale",) and v.dtype.kind == "f"]
     assert len(columns) >= 18
     for variable in columns:
@@ -185,21 +185,21 @@ def test_failed_wave_is_loud_and_has_no_totals(failed_folder: Path) -> None:
 def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) -> None:
     folder = changed_run(lambda data: data.isel(scale=slice(0, 2)), "static")
     run = read_result(folder)
-    assert isinstance(run, Run)
+    assert isinstance(run, RunSource)
     errors = [notice.sentence for notice in notices(run) if notice.severity == "error"]
     assert len(errors) == 1
     assert errors[0].startswith("Static: the run ended after wave 2 of 3.")
-    assert [card.label for card in cards(run) if card.bad] == ["No totals"]
+    assert [card.label for card in run_cards(run) if card.bad] == ["No totals"]
 
 
 def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -> None:
     run = read_result(changed_run(lambda data: data))
-    assert isinstance(run, Run)
-    assert "best estimate" not in [card.detail for card in cards(run)]
+    assert isinstance(run, RunSource)
+    assert "best estimate" not in [card.detail for card in run_cards(run)]
     numbers = {"best_friction": 0.25, "best_contact_fraction": 0.04, "cutoff_wavelength": 1e-3}
     widths = {f"{name}_half_width": 0.2 for name in ("best_friction", "best_contact_fraction")}
     whole = run.predictions[0].data.drop_dims("scale").assign(numbers | widths)
-    first, second, chain, *_ = cards(replace(run, direct=whole))
+    first, second, chain, *_ = run_cards(replace(run, direct=whole))
     assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
     # 0.25 exp(-+asinh(0.2))
     assert first.detail == "best estimate; 0.205 to 0.305 (90 %)"
@@ -228,14 +228,14 @@ def test_large_mismatch_and_foreign_frequencies_are_warned_of(
         return data
 
     run = read_result(changed_run(edit, "dynamic"))
-    assert isinstance(run, Run)
+    assert isinstance(run, RunSource)
     text = " ".join(notice.sentence for notice in notices(run))
     assert "Wave 2: the two frictions are up to 20 % apart; take a finer mesh." in text
     assert (
         "Dynamic, 0.3 m/s: 1 of 3 waves, 32 % of the friction, lie up to 0.8 decades above the "
         "measured band." in text
     )
-    assert [card.label for card in cards(run) if card.bad] == ["Largest mismatch of μ"]
+    assert [card.label for card in run_cards(run) if card.bad] == ["Largest mismatch of μ"]
     friction = run.predictions[0].column("friction")
     (apart,) = (notice for notice in notices(run) if "Wave 2" in notice.sentence)
     assert apart.effect == pytest.approx(0.2 * friction[1] / friction.sum())
@@ -250,7 +250,7 @@ def test_doubts_about_the_rubber_are_warned_of(changed_run: Callable[..., Path])
         return data
 
     run = read_result(changed_run(edit, "dynamic"))
-    assert isinstance(run, Run)
+    assert isinstance(run, RunSource)
     run.inputs.attrs["bulk_modulus_Pa"] = 1e9
     run.inputs.attrs["prony_findings"] = "no plateau at the slow end\nno plateau at the fast end"
     texts = [notice.sentence for notice in notices(run)]
@@ -264,7 +264,7 @@ def test_a_modulus_is_relaxed_only_where_that_was_measured(
     changed_run: Callable[..., Path], plateau: int
 ) -> None:
     run = read_result(changed_run(lambda data: data))
-    assert isinstance(run, Run)
+    assert isinstance(run, RunSource)
     run.inputs.attrs |= {"slow_end_plateau": plateau, "slow_end_modulus_Pa": 2.5e6}
     pairs = dict(rubber_facts(run.record).pairs)
     assert pairs[("Slow end of the data, E′", "Relaxed modulus")[plateau]] == "2.50 MPa"
@@ -286,7 +286,7 @@ def test_notes_on_the_surface_are_warnings(run_folder: Path, tmp_path: Path) -> 
     groups["inputs"].attrs["surface_notes"] = "road: heights jump\nthe largest wave is long"
     netcdf.save(data, tmp_path / "dynamic.nc", groups)
     run = read_result(tmp_path)
-    assert isinstance(run, Run)
+    assert isinstance(run, RunSource)
     warned = [notice.sentence for notice in notices(run) if notice.severity == "warning"]
     assert {"Surface: road: heights jump.", "Surface: the largest wave is long."} <= set(warned)
 
@@ -311,7 +311,7 @@ def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:
 
 
 def test_single_file_without_record_and_meshes(run_folder: Path, tmp_path: Path) -> None:
-    data = netcdf.load(run_folder / "static.nc").drop_vars(["mesh_x", "mesh_z"])
+    data = netcdf.load_dataset(run_folder / "static.nc").drop_vars(["mesh_x", "mesh_z"])
     alone = netcdf.save(data, tmp_path / "alone.nc")
     page = Page(write_report(alone))
     assert "holds no record of its inputs" in page.text
@@ -336,13 +336,13 @@ def test_only_the_table_of_a_saved_case_names_measured_friction(
 def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:
     totals = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
     load = Load(3e5, 0.3, 0.1)
-    data = answer(xr.Dataset(), totals, "converged", "toy", load)
+    data = predicted_answer(xr.Dataset(), totals, "converged", "toy", load)
     page = Page(write_report(netcdf.save(data, tmp_path / "toy.nc")))
     for text in ("0.0123", "0.456", "0.451 from energy lost", "The model has no waves"):
         assert text in page.text
     assert not [a for _, a in page.tags if a.get("role") == "alert"]
     nowhere = dict.fromkeys(TOTALS, np.nan)
-    data = answer(xr.Dataset(), nowhere, "no contact found", "toy", load)
+    data = predicted_answer(xr.Dataset(), nowhere, "no contact found", "toy", load)
     page = Page(write_report(netcdf.save(data, tmp_path / "toy.nc")))
     assert "Dynamic, 0.3 m/s: no contact found. There are no totals." in page.text
     assert [a for _, a in page.tags if a.get("role") == "alert"]

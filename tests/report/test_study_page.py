@@ -88,7 +88,7 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
 def test_inputs_of_a_study_are_read_from_its_attributes(study_file: Path) -> None:
     """Whatever the text of its case says."""
     source = results.read_result(study_file)
-    assert isinstance(source, results.Study)
+    assert isinstance(source, results.StudySource)
     attrs = {"display_units": '{"pressure": "kPa"}', "case": "no = toml = at all"}
     changed = replace(source, data=source.data.assign_attrs(attrs))
     load = input_sections(changed)[0].elements[0]
@@ -119,7 +119,7 @@ def test_axes_are_rounded(solved: Path, tmp_path: Path) -> None:
 
 
 def test_friction_by_relaxation_time_is_summed_up_and_never_falls(solved: Path) -> None:
-    data = netcdf.load(solved)
+    data = netcdf.load_dataset(solved)
     parts = data.friction_by_decade
     alternating = parts.copy(data=parts.values * (np.arange(parts.sizes["decade"]) % 2))
     data["friction_by_decade"] = alternating  # a series with no element in every other decade

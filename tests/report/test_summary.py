@@ -11,7 +11,7 @@ import xarray as xr
 
 from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.intervals import interval_ends
-from gripscale.report.summary import FILE, summary_table, write_summary
+from gripscale.report.summary import SUMMARY_FILE, summary_table, write_summary
 
 UNIT = {"units": "1"}
 
@@ -122,7 +122,7 @@ def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
 def test_excel_reads_it(tmp_path: Path) -> None:
     assert write_summary([], tmp_path) is None
     path = write_summary([study()], tmp_path)
-    assert path == tmp_path / FILE
+    assert path == tmp_path / SUMMARY_FILE
     titles, *cells = read_sheets(path)["summary"]
     assert list(titles) == summary_table([study()]).titles
     for row, expected in zip(cells, summary_table([study()]).rows(), strict=True):

@@ -13,7 +13,7 @@ import xarray as xr
 from gripscale.chain import ChainResult
 from gripscale.core.status import Status
 from gripscale.io.table import as_text, significant
-from gripscale.model import TOTALS, Load, answer
+from gripscale.model import TOTALS, Load, predicted_answer
 from gripscale.questions.chain.page import prediction_table, totals
 from gripscale.questions.chain.view import PredictionView
 from gripscale.rubber import Rubber
@@ -126,10 +126,12 @@ def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
 def test_model_without_waves_shows_its_totals() -> None:
     numbers = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
     load = Load(3e5, 0.3, 0.1)
-    data = answer(xr.Dataset(), numbers, "converged", "toy", load)
+    data = predicted_answer(xr.Dataset(), numbers, "converged", "toy", load)
     sentence = "real contact area A_r/A_0 = 0.0123, friction mu = 0.456 (0.451 from dissipation)."
     assert as_text(prediction_table(data, "Toy")) == f"Toy\n{sentence}\n"
-    failed = answer(xr.Dataset(), dict.fromkeys(TOTALS, np.nan), "no contact", "toy", load)
+    failed = predicted_answer(
+        xr.Dataset(), dict.fromkeys(TOTALS, np.nan), "no contact", "toy", load
+    )
     assert totals(failed) == "No totals: no contact."
 
 

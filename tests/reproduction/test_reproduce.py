@@ -55,7 +55,7 @@ def test_figure_with_chains_is_made_once_and_read_again(tmp_path: Path) -> None:
     assert all(s.holds for s in statements)
     for name in ("fig7a", "fig9b"):
         assert all((tmp_path / f"{name}.{kind}").stat().st_size > 5000 for kind in ("png", "pdf"))
-        data = netcdf.load(tmp_path / f"{name}.nc")
+        data = netcdf.load_dataset(tmp_path / f"{name}.nc")
         assert data.line.values.tolist() == [ROAD, DENSE]
         assert data.prediction_status.values.tolist() == ["converged"] * 2
         assert data.sizes["scale"] == 8
@@ -79,7 +79,7 @@ def test_inputs_from_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixt
     assert "why: different inputs: amplitudes fall as wavelength^0.9" in printed
     lines = [line for line in printed.splitlines() if str(tmp_path) not in line]
     assert max(map(len, lines)) <= 100
-    data = netcdf.load(tmp_path / "fig3b.nc")
+    data = netcdf.load_dataset(tmp_path / "fig3b.nc")
     assert data.C_z_1.attrs == {
         "units": "m^2",
         "long_name": "height difference correlation",

@@ -79,7 +79,7 @@ def test_the_variables_of_a_run_are_listed_with_their_units(folder):
 
 
 def test_the_variables_of_a_study_are_listed_with_their_units(folder):
-    both = (netcdf.load(folder / name / "study.nc") for name in ("study", "chain"))
+    both = (netcdf.load_dataset(folder / name / "study.nc") for name in ("study", "chain"))
     study = {name: unit for data in both for name, unit in written(data).items()}
     known = units("Totals") | units("Waves")
     own = {name: unit for name, unit in study.items() if name not in {"speed", *known}}
@@ -88,7 +88,7 @@ def test_the_variables_of_a_study_are_listed_with_their_units(folder):
 
 
 def test_the_variables_of_a_comparison_are_listed_with_their_units(folder):
-    data = written(netcdf.load(folder / "comparison" / "comparison.nc"))
+    data = written(netcdf.load_dataset(folder / "comparison" / "comparison.nc"))
     assert units("The files of a comparison") == {n: u for n, u in data.items() if n != "rung"}
 
 
@@ -109,10 +109,10 @@ def test_the_figures_are_listed(folder):
 def test_the_columns_of_the_table_are_listed():
     names = ["#"]
     for group in waves.IN_TERMINAL.values():
-        for column in map(waves.ALL.get, group):
+        for column in map(waves.ALL_WAVES.get, group):
             several = column.head in {"area", "μ"}
             names.append(f"{column.head} {column.unit}" if several else column.head)
-    names += ["stretch", waves.ALL["newton_iterations"].head, "status"]
+    names += ["stretch", waves.ALL_WAVES["newton_iterations"].head, "status"]
     assert first_cells("The table") == names
 
 

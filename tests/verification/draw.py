@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import gripscale as gs
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, GREY, ORANGE
 from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of
@@ -33,8 +33,8 @@ def convergence_figure(errors: dict[str, Errors]) -> Figure:
                 highest = max(highest, *values)
         slope = [0.55 * highest * (COLUMNS[0] / number) ** 2 for number in COLUMNS]
         marks.append(Series(COLUMNS, slope, GREY, "slope 2", "dotted", 1.0))
-        columns = Axis("columns (rows = columns / 8)", log=True, ticks=ticks)
-        panels.append(Panel(columns, Axis(label, log=True), marks, legend="best"))
+        columns = PlotAxis("columns (rows = columns / 8)", log=True, ticks=ticks)
+        panels.append(Panel(columns, PlotAxis(label, log=True), marks, legend="best"))
     return draw.on_paper(Sheet(panels, legend=""))
 
 
@@ -61,7 +61,9 @@ def transient_figure(moving: gs.TransientResult, steady: gs.ScaleResult) -> Figu
             Series(distance[~back], values[~back], BLUE, "forth, with a stop at 1.5"),
             Series(distance[turn:], values[turn:], GREEN, "back"),
         ]
-        panels.append(Panel(Axis("sliding distance over wavelength [-]"), Axis(label), marks))
+        panels.append(
+            Panel(PlotAxis("sliding distance over wavelength [-]"), PlotAxis(label), marks)
+        )
     return draw.on_paper(Sheet(panels))
 
 

@@ -233,7 +233,7 @@ def same_as(good: xr.Dataset) -> Callable[[xr.Dataset], None]:
 def readers(folder: Path) -> list[Reader]:
     """Return all of them; `folder` is for files only a library can write."""
     (folder / "result.nc").write_bytes(result(folder))
-    good, tree = (read(folder / "result.nc") for read in (netcdf.load, netcdf.load_tree))
+    good, tree = (read(folder / "result.nc") for read in (netcdf.load_dataset, netcdf.load_tree))
     mm = {"x_unit": "mm", "z_unit": "um"}
     table = text("", *HEIGHTS.T).lstrip()
     bare = text("", STEPS, LINE, separator=";").lstrip()
@@ -252,7 +252,7 @@ def readers(folder: Path) -> list[Reader]:
         Reader("friction", ".csv", friction(), read_measured_friction, check_friction, 60),
         Reader("case", ".toml", case.read_bytes(), read_case_file, check_case, 60),
         Reader("waves", ".toml", waves.read_bytes(), read_case_file, check_case, 60),
-        Reader("result", ".nc", result(folder), netcdf.load, same_as(good), 40),
+        Reader("result", ".nc", result(folder), netcdf.load_dataset, same_as(good), 40),
         Reader("tree", ".nc", result(folder), netcdf.load_tree, same_as(tree), 20),
         Reader("x3p", ".x3p", x3p(folder), gs.read_map, surface, 2),
         Reader("al3d", ".al3d", al3d(), gs.read_map, surface, 4),

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from gripscale.case_file import read_case
-from gripscale.questions.design.compound_design import TOLERANCE
+from gripscale.questions.design.compound_design import DESIGN_TOLERANCE
 from gripscale.questions.design.compound_limits import changed
 from gripscale.questions.design.compound_search import best_change, design_problem, nearest_design
 from tests.questions.design.test_search import mixtures
@@ -65,6 +65,6 @@ def test_the_promised_friction_is_that_of_finer_contacts():
                 for contact in friction.contacts(rubber, tolerance=tolerance, warm=False)
             ]
         )
-        for tolerance in (TOLERANCE, 0.02)
+        for tolerance in (DESIGN_TOLERANCE, 0.02)
     )
     assert finer == pytest.approx(promised, rel=0.01)

@@ -23,7 +23,7 @@ from tomlkit.exceptions import TOMLKitError
 
 from gripscale.case_file import CaseFile, folder, read_case_file
 from gripscale.case_file.examples import write_example
-from gripscale.case_file.folder import CASE, INPUTS, renamed
+from gripscale.case_file.folder import INPUTS, SAVED_CASE, renamed
 from gripscale.case_file.new import case_text, propose
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.folders import make_folder, write_bytes, write_text
@@ -51,7 +51,7 @@ class VisitFolder:
     @property
     def case(self) -> Path:
         """The case file."""
-        return self.path / CASE
+        return self.path / SAVED_CASE
 
     def store(self, name: str, content: bytes) -> str:
         """Store an upload; return its name as the case states it.
@@ -117,7 +117,7 @@ def safe_name(name: str) -> str:
     return plain
 
 
-def tables_of(text: str) -> dict[str, Any]:
+def case_tables(text: str) -> dict[str, Any]:
     """Return the tables of the text of a case; none if the text is not TOML."""
     try:
         return tomllib.loads(text)
@@ -127,7 +127,7 @@ def tables_of(text: str) -> dict[str, Any]:
 
 def value_at(text: str, path: Sequence[str]) -> Any:
     """Return the value in `text` at a path such as ("load", "speed"), or None."""
-    value: Any = tables_of(text)
+    value: Any = case_tables(text)
     for name in path:
         value = value.get(name) if isinstance(value, dict) else None
     return value
@@ -192,7 +192,7 @@ def _inline(value: Any) -> str:
 
 
 @dataclass(frozen=True)
-class Problem:
+class CaseProblem:
     """What is wrong with the case: the table it is about, and a sentence."""
 
     table: str
@@ -209,7 +209,7 @@ class CaseState(param.Parameterized):
     """Text of the case, and what is wrong with it, which every part of the page shows alike."""
 
     text: str = param.String("")  # type: ignore[assignment]
-    problem: Problem | None = param.ClassSelector(class_=Problem)  # type: ignore[assignment]
+    problem: CaseProblem | None = param.ClassSelector(class_=CaseProblem)  # type: ignore[assignment]
 
     def __init__(self, visit: VisitFolder) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
@@ -226,12 +226,12 @@ class CaseState(param.Parameterized):
         write_text(self.visit.case, text)
         self.param.update(text=text, problem=self._problem_of_text())
 
-    def _problem_of_text(self) -> Problem | None:
+    def _problem_of_text(self) -> CaseProblem | None:
         try:
             self.file()
         except GripscaleError as error:
             sentence = self.visit.short(error)
-            return Problem(table_of_message(sentence), sentence)
+            return CaseProblem(table_of_message(sentence), sentence)
         return None
 
     @contextmanager
@@ -243,7 +243,7 @@ class CaseState(param.Parameterized):
         try:
             yield
         except GripscaleError as error:
-            self.problem = Problem(table, self.visit.short(error))
+            self.problem = CaseProblem(table, self.visit.short(error))
         else:
             if self.problem is not None and self.problem.table == table:
                 self.problem = self._problem_of_text()

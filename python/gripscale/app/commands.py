@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from gripscale.questions.registry import Field, Form, forms
+from gripscale.questions.registry import Form, FormField, forms
 
-RUN = "run"
+RUN_COMMAND = "run"
 
 
 _MODELS = (("best for the surface", ""), ("direct contact", "direct"), ("chain", "chain"))
@@ -14,17 +14,17 @@ _SHEAR_STRESSES = (
     ("Le Gal and Klüppel", "le_gal_klueppel"),
 )
 _HELD_OUT = (("none", ""), ("each temperature", "temperature"), ("each decade of speed", "speed"))
-SPEEDS = Field("--vary", "speeds", "0.003:30:log9", "speed=")
+SPEEDS = FormField("--vary", "speeds", "0.003:30:log9", "speed=")
 COMMANDS = (
-    Form(RUN, "Contact and friction", "The case as it is stated."),
+    Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."),
     Form("study", "Speed sweep", "Friction and contact area by speed.", (SPEEDS,)),
     Form(
         "study",
         "Map of speed and temperature",
         "Friction and contact area over both; the rubber needs a shift.",
         (
-            Field("--vary", "speeds", "0.003:30:log5", "speed="),
-            Field("--vary", "temperatures", "0 C:60 C:lin4", "temperature="),
+            FormField("--vary", "speeds", "0.003:30:log5", "speed="),
+            FormField("--vary", "temperatures", "0 C:60 C:lin4", "temperature="),
         ),
     ),
     Form(
@@ -37,22 +37,22 @@ COMMANDS = (
         "compare-surfaces",
         "Roads under this rubber",
         "The road of the case beside others, under its rubber and its load.",
-        (Field("--samples", "samples", "20"),),
+        (FormField("--samples", "samples", "20"),),
         others="roads",
     ),
     Form(
         "compare",
         "Comparison of models",
         "What each assumption of the chain costs, against the direct contact.",
-        (Field("--rungs", "models", "waves,measured,theory"),),
+        (FormField("--rungs", "models", "waves,measured,theory"),),
     ),
     Form("sensitivity", "What decides the grip", "Which inputs and frequencies, and how much."),
     Form("design", "Design of a compound", "Most friction for each rolling resistance."),
     Form("calibrate", "Area term",
             "Fitted to the measured friction of the case; drop it in the tab of the load.",
-            (Field("--model", "model", "", choices=_MODELS),
-             Field("--law", "shear stress", "gaussian", choices=_SHEAR_STRESSES),
-             Field("--hold-out", "held out in turn", "", choices=_HELD_OUT))),
+            (FormField("--model", "model", "", choices=_MODELS),
+             FormField("--law", "shear stress", "gaussian", choices=_SHEAR_STRESSES),
+             FormField("--hold-out", "held out in turn", "", choices=_HELD_OUT))),
     *forms(),
 )  # fmt: skip
 """In the order of the page."""

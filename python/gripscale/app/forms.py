@@ -14,7 +14,7 @@ import panel as pn
 from gripscale.app.case import CaseState, field_text, field_value
 from gripscale.app.elements import CUT_TEXT, PageElements, column, in_worker, panes, work_button
 from gripscale.case_file import CaseFile
-from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, Section, sections
+from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, KeySection, sections
 from gripscale.case_file.schema import table_of
 from gripscale.core.units import UNITS, number_and_unit
 
@@ -100,7 +100,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     return column(_rows([choice]), body)
 
 
-def field(state: CaseState, section: Section, key: Key) -> Any:
+def field(state: CaseState, section: KeySection, key: Key) -> Any:
     """Return what shows and changes one key of a table; numbers stand apart from their unit."""
     path = (*section.name.split("."), key.name)
     quantity = QUANTITY.match(key.takes)

@@ -19,7 +19,7 @@ import numpy as np
 import panel as pn
 import xarray as xr
 
-from gripscale.app.case import CaseState, field_text, tables_of
+from gripscale.app.case import CaseState, case_tables, field_text
 from gripscale.app.case_panel import problem_pane
 from gripscale.app.commands import COMMANDS
 from gripscale.app.elements import (
@@ -34,7 +34,7 @@ from gripscale.app.elements import (
     raw,
     work_button,
 )
-from gripscale.app.runs import Run, Runs
+from gripscale.app.runs import AppRun, Runs
 from gripscale.app.uploads import file_upload
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
@@ -43,7 +43,7 @@ from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.view import SYMBOLS, PredictionView
-from gripscale.questions.registry import Field, Form
+from gripscale.questions.registry import Form, FormField
 from gripscale.report import source
 from gripscale.report.elements import Element, Text
 from gripscale.report.head import with_answer
@@ -109,16 +109,16 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
                 await asyncio.sleep(POLL / 1e3)
             await conclude(run)
 
-    def show_progress(run: Run) -> None:
+    def show_progress(run: AppRun) -> None:
         share = run.progress().share
         bar.param.update(visible=True, value=-1 if share is None else round(100 * share))
         show_output(run)
 
-    def show_output(run: Run) -> None:
+    def show_output(run: AppRun) -> None:
         status.objects = [html(run_status(run))]
         output.object, folded_output.visible = code(output_text(run, state)).object, True
 
-    async def conclude(run: Run) -> None:
+    async def conclude(run: AppRun) -> None:
         bar.visible = stop.visible = False
         show_output(run)
         if run.state == "finished":
@@ -146,7 +146,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     )
 
 
-def option_field(option: Field) -> pn.widgets.TextInput | pn.widgets.Select:
+def option_field(option: FormField) -> pn.widgets.TextInput | pn.widgets.Select:
     """Return the field of an option: a choice where only some values are possible."""
     look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
     if not option.choices:
@@ -154,7 +154,7 @@ def option_field(option: Field) -> pn.widgets.TextInput | pn.widgets.Select:
     return pn.widgets.Select(options=dict(option.choices), **look)
 
 
-def run_status(run: Run) -> Element:
+def run_status(run: AppRun) -> Element:
     """Return the state of a run in a sentence; what it failed with is the problem of the case."""
     words = {
         "running": f"is running: {run.how_far()}.",
@@ -165,13 +165,13 @@ def run_status(run: Run) -> Element:
     return Text(f"{run.name}, {run.command.title.lower()}, {words[run.state]}")
 
 
-def output_text(run: Run, state: CaseState) -> str:
+def output_text(run: AppRun, state: CaseState) -> str:
     """Return the command of a run, and what it printed, if anything."""
     command = f"$ {shlex.join(['gripscale', *run.words])}"
     return f"{command}\n{state.visit.short(run.log())}"
 
 
-def answer_elements(run: Run) -> PageElements:
+def answer_elements(run: AppRun) -> PageElements:
     """Return the answer of a finished run, what it rests on, and what is to be known of it."""
     try:
         result = source.read_result(run.folder)
@@ -218,7 +218,7 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     return column(choice, body)
 
 
-def report_frame(state: CaseState, run: Run, page: Path) -> pn.pane.HTML:
+def report_frame(state: CaseState, run: AppRun, page: Path) -> pn.pane.HTML:
     """Return the page of a run as wide as this one, with a link that opens it alone."""
     address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
     return raw(
@@ -227,7 +227,7 @@ def report_frame(state: CaseState, run: Run, page: Path) -> pn.pane.HTML:
     )
 
 
-def downloads(run: Run) -> pn.FlexBox:
+def downloads(run: AppRun) -> pn.FlexBox:
     """Return buttons that save the report, each data file and the whole folder."""
 
     def zipped() -> io.BytesIO:
@@ -273,7 +273,7 @@ def all_runs_tab(runs: Runs) -> pn.Column:
 class ComparedRun(NamedTuple):
     """A prediction of a run, and the answer at its speed where the surface was measured."""
 
-    run: Run
+    run: AppRun
     view: PredictionView
     direct: xr.Dataset | None
 
@@ -286,7 +286,7 @@ def compared_elements(runs: Runs) -> PageElements:
             result = None if run.running else source.read_result(run.folder)
         except GripscaleError:
             continue  # stopped or failed before its first wave
-        if isinstance(result, source.Run):
+        if isinstance(result, source.RunSource):
             for view in result.by_wave:
                 name = run.name + ("" if view.moving else ", at rest")
                 direct = result.direct
@@ -364,7 +364,7 @@ def _interval(answer: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray
 
 def changed_keys(first: str, other: str) -> Iterator[str]:
     """Yield the keys that two cases state differently, with the values of the other."""
-    before, after = (dict(_flat(tables_of(text))) for text in (first, other))
+    before, after = (dict(_flat(case_tables(text))) for text in (first, other))
     for key in dict.fromkeys([*before, *after]):
         if before.get(key) != after.get(key):
             yield f"{key} = {field_text(after[key])}" if key in after else f"no {key}"

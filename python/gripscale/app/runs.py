@@ -22,7 +22,7 @@ from typing import Any
 import param
 
 from gripscale.app.case import CaseState
-from gripscale.app.commands import COMMANDS, RUN
+from gripscale.app.commands import COMMANDS, RUN_COMMAND
 from gripscale.case_file import CaseFile
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.folders import write_text
@@ -34,7 +34,7 @@ from gripscale.questions.chain.events import (
     RunFailed,
     RunStarted,
     WaveSolved,
-    from_json,
+    event_from_json,
 )
 from gripscale.questions.registry import Form
 
@@ -45,7 +45,7 @@ GRACE = 5.0
 
 
 @dataclass(frozen=True)
-class Progress:
+class RunProgress:
     """How far a run is: what its last events state.
 
     The numbers of predictions and waves are known from the start. How many passes rubber and
@@ -60,11 +60,11 @@ class Progress:
     last_stage: str = "waves"
     """What was solved last: waves, direct contact or effects."""
 
-    def after(self, event: Event) -> Progress:
+    def after(self, event: Event) -> RunProgress:
         """Return how far the run is after one more event."""
         match event:
             case RunStarted():
-                return Progress(event)
+                return RunProgress(event)
             case WaveSolved():
                 return replace(self, wave=event)
             case PredictionFinished():
@@ -76,7 +76,7 @@ class Progress:
         return self
 
     @classmethod
-    def of(cls, events: Iterable[Event]) -> Progress:
+    def of(cls, events: Iterable[Event]) -> RunProgress:
         """Return how far the run is that reported `events`."""
         progress = cls()
         for event in events:
@@ -122,7 +122,7 @@ class Progress:
 
 
 @dataclass
-class Run:
+class AppRun:
     """A process, its folder, and command and text of the case it runs."""
 
     name: str
@@ -140,7 +140,7 @@ class Run:
         atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / REPORT).unlink(missing_ok=True)
-        reports = self.command.command == RUN
+        reports = self.command.command == RUN_COMMAND
         command = [sys.executable, "-m", "gripscale", *self.words]
         command += ["--progress", "json"] if reports else []
         process_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
@@ -231,7 +231,7 @@ class Run:
         if not self._events_file.exists():
             return []
         lines = self._events_file.read_text(encoding="utf-8", errors="replace").splitlines()
-        return [event for event in map(from_json, lines) if event is not None]
+        return [event for event in map(event_from_json, lines) if event is not None]
 
     def log(self) -> str:
         """Return the text the process printed so far."""
@@ -251,13 +251,13 @@ class Run:
         lines = self.log().split("\n")
         return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
-    def progress(self) -> Progress:
+    def progress(self) -> RunProgress:
         """Return how far it is."""
-        return Progress.of(self.events())
+        return RunProgress.of(self.events())
 
     def how_far(self) -> str:
         """Return how far it is, in words."""
-        if self.command.command == RUN:
+        if self.command.command == RUN_COMMAND:
             return self.progress().sentence
         return self.last_line() or "starting"
 
@@ -270,10 +270,10 @@ class Runs(param.Parameterized):
     def __init__(self, state: CaseState) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self._state = state
-        self.all: list[Run] = []
+        self.all: list[AppRun] = []
 
     @property
-    def running(self) -> Run | None:
+    def running(self) -> AppRun | None:
         """The run whose process exists."""
         return next((run for run in self.all if run.running), None)
 
@@ -282,7 +282,7 @@ class Runs(param.Parameterized):
         command: Form = COMMANDS[0],
         values: Mapping[str, str] = MappingProxyType({}),
         others: Sequence[str] = (),
-    ) -> Run:
+    ) -> AppRun:
         """Run a command on the case as it is now, with the values of its options by their labels.
 
         `others` are files of the visit beside the case, or names that gripscale knows. A finished
@@ -315,8 +315,8 @@ class Runs(param.Parameterized):
             run.stop()
         self.changes += 1
 
-    def _new(self, file: CaseFile, command: Form, arguments: tuple[str, ...]) -> Run:
+    def _new(self, file: CaseFile, command: Form, arguments: tuple[str, ...]) -> AppRun:
         """Return a further run of a case, to be saved beside the files it names."""
         number, path = len(self.all) + 1, self._state.visit.path
         name, case = f"run-{number}", path / f"case-{number}.toml"
-        return Run(name, case, path / "runs" / name, file.text, command, arguments)
+        return AppRun(name, case, path / "runs" / name, file.text, command, arguments)

@@ -6,7 +6,7 @@ import hashlib
 import json
 from pathlib import Path
 
-from gripscale.case_file.folder import NOTE, RESULTS
+from gripscale.case_file.folder import NOTE, RESULT_FILES
 from gripscale.case_file.read import CaseFile, prediction_key
 from gripscale.core.provenance import whole_package
 from gripscale.io.netcdf import write_whole
@@ -38,7 +38,7 @@ def case_replaced(file: CaseFile, folder: Path) -> str:
 
 def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
     """Note that `folder` holds all results of a case."""
-    present = [name for name in RESULTS if name != NOTE and (folder / name).is_file()]
+    present = [name for name in RESULT_FILES if name != NOTE and (folder / name).is_file()]
     present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
     files = _files(folder, present)
     noted = {"key": _key(file, others), "files": files, "case": file.path.name}

@@ -24,7 +24,7 @@ from gripscale.core.errors import GripscaleError
 from gripscale.io.folders import make_folder, unwritable, write_bytes, write_text
 from gripscale.io.text_table import read_bytes
 
-CASE, INPUTS = "case.toml", "inputs"
+SAVED_CASE, INPUTS = "case.toml", "inputs"
 COPIED_AT_MOST = 100e6
 """Bytes of all files together above which they are not copied."""
 
@@ -68,7 +68,7 @@ def saved_case(file: CaseFile, folder: Path) -> SavedCase:
 def saved_inputs(folder: Path) -> set[str]:
     """Return the copies, by path in `folder`, that the case saved there names."""
     try:
-        names = read_case_file(folder / CASE).case.named_files()
+        names = read_case_file(folder / SAVED_CASE).case.named_files()
     except GripscaleError:
         return set()
     return {name for _, name in names if Path(name).parent == Path(INPUTS)}
@@ -126,7 +126,7 @@ AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests"
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 NOTE = ".finished.json"
 """What a finished run was made from, see `gripscale.case_file.finished`."""
-RESULTS = (
+RESULT_FILES = (
     NOTE,
     "dynamic.nc",
     "static.nc",
@@ -135,7 +135,7 @@ RESULTS = (
     "effects_chain.nc",
     "report.txt",
     "summary.xlsx",
-    CASE,
+    SAVED_CASE,
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 """Everything a run may write into its folder, beside copies of the files the case names."""
@@ -143,7 +143,7 @@ RESULTS = (
 
 def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
     """Return a sentence on what an earlier run left in `folder` but for `keep`, or nothing."""
-    replaced = [name for name in RESULTS if (folder / name).exists() and name not in keep]
+    replaced = [name for name in RESULT_FILES if (folder / name).exists() and name not in keep]
     if not replaced:
         return ""
     newest = max((folder / name).stat().st_mtime for name in replaced)
@@ -160,7 +160,7 @@ def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
     saved = saved_case(file, folder)
     make_folder(folder / "figures")
     try:
-        for name in {*RESULTS, *saved_inputs(folder)} - {*keep, *saved.copies, CASE}:
+        for name in {*RESULT_FILES, *saved_inputs(folder)} - {*keep, *saved.copies, SAVED_CASE}:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
         raise unwritable(folder, error) from error
@@ -180,4 +180,4 @@ def _save(saved: SavedCase, folder: Path) -> None:
         make_folder(folder / INPUTS)
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
-    write_text(folder / CASE, saved.text)
+    write_text(folder / SAVED_CASE, saved.text)

@@ -17,7 +17,7 @@ from typing import Any
 
 from gripscale.case_file import tables
 from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
-from gripscale.case_file.schema import Table, expected, table_of
+from gripscale.case_file.schema import CaseTable, expected, table_of
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
@@ -70,7 +70,7 @@ class Key:
 
 
 @dataclass(frozen=True)
-class Section:
+class KeySection:
     """One table of a case; `kind` tells tables of the same name apart."""
 
     name: str
@@ -85,10 +85,10 @@ class Section:
 
 
 @cache
-def sections() -> list[Section]:
+def sections() -> list[KeySection]:
     """Return all tables of a case with their keys, in the order of the documentation."""
     return [
-        Section(name, kind, _about(law), list(_keys(law, page)))
+        KeySection(name, kind, _about(law), list(_keys(law, page)))
         for name, table, page in TABLES
         for kind, law in (table.items() if isinstance(table, Mapping) else [("", table)])
     ]
@@ -98,7 +98,7 @@ def _keys(law: type, page: str) -> Iterator[Key]:
     """Yield the keys of a table or a law, its own before those it shares with others."""
     table = table_of(law)
     meanings = {"kind": _about(law)}
-    for source in [base for base in law.__mro__[:0:-1] if issubclass(base, Table)] + [law]:
+    for source in [base for base in law.__mro__[:0:-1] if issubclass(base, CaseTable)] + [law]:
         meanings |= _field_texts(source)
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]

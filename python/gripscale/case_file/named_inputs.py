@@ -15,7 +15,7 @@ from gripscale.core.errors import FileError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.text_table import is_excel
 from gripscale.questions.vary.axis import named_values
-from gripscale.questions.vary.inputs import CASE
+from gripscale.questions.vary.inputs import OF_THE_CASE
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.sweeps import states_temperature
@@ -59,9 +59,9 @@ def read_surface(value: Any, file: CaseFile) -> Any:
 
     Raises `FileError` or `InputError` for what cannot be read.
     """
-    if isinstance(value, Surface | SineStack) or value in (CASE, *SYNTHETIC_SURFACES):
+    if isinstance(value, Surface | SineStack) or value in (OF_THE_CASE, *SYNTHETIC_SURFACES):
         return value
-    path = _path("surface", value, file, (CASE, *SYNTHETIC_SURFACES))
+    path = _path("surface", value, file, (OF_THE_CASE, *SYNTHETIC_SURFACES))
     if path.suffix == ".toml":
         return case_surface(read_case_file(path))
     table = file.case.surface
@@ -95,7 +95,7 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
 
     Raises `FileError` or `InputError` for what cannot be read.
     """
-    if isinstance(value, Rubber | MeasuredRubber) or value == CASE:
+    if isinstance(value, Rubber | MeasuredRubber) or value == OF_THE_CASE:
         return value
     table = file.case.rubber
     settings: dict[str, Any] = {"strain_energy": table.strain_energy}
@@ -103,7 +103,7 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
         settings["bulk_modulus"] = table.bulk_modulus
     if value in NAMED_RUBBERS:
         return _rubber({"name": value, **settings})
-    path = _path("rubber", value, file, (CASE, *NAMED_RUBBERS))
+    path = _path("rubber", value, file, (OF_THE_CASE, *NAMED_RUBBERS))
     if path.suffix == ".toml":
         other = read_case_file(path)
         return prepare_rubber(other.case.rubber, other.resolve)

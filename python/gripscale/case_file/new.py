@@ -119,7 +119,7 @@ def new_case(
         target.unlink()
         raise
     write_text(target, case_text(tables, of_inputs, results))
-    return NewCase(target, ranked(tables, of_inputs), skipped)
+    return NewCase(target, ranked_doubts(tables, of_inputs), skipped)
 
 
 def propose(
@@ -164,7 +164,9 @@ def propose(
     return tables, skipped
 
 
-def ranked(tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()) -> tuple[Doubt, ...]:
+def ranked_doubts(
+    tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()
+) -> tuple[Doubt, ...]:
     """Return the doubts of proposals and further ones, the weightiest first."""
     every = [doubt for table in tables.values() for doubt in table.doubts] + [*further]
     return tuple(sorted(every, key=lambda doubt: -doubt.weight))
@@ -260,7 +262,7 @@ def case_text(
     The doubts are those of the proposals and `further` ones; `results` is the folder of results.
     """
     parts = [_HEAD]
-    doubts = ranked(tables, further)
+    doubts = ranked_doubts(tables, further)
     if doubts:
         parts += ["# Doubts, the most important first:"]
         for number, doubt in enumerate(doubts, start=1):

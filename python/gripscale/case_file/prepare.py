@@ -16,7 +16,7 @@ from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
-from gripscale.case_file.schema import Table
+from gripscale.case_file.schema import CaseTable
 from gripscale.case_file.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
@@ -49,7 +49,7 @@ from gripscale.rubber import (
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
-from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
+from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
@@ -57,7 +57,7 @@ RawHeights = surfaces.HeightMap | list[surfaces.Profile]
 """What the files of a surface hold, before any cleaning."""
 
 
-def _options(table: Table, function: Callable[..., Any]) -> dict[str, Any]:
+def _options(table: CaseTable, function: Callable[..., Any]) -> dict[str, Any]:
     """Return the keys of a table that are options of a function by the same name."""
     names = [name for name in signature(function).parameters if name in type(table).model_fields]
     values = {name: getattr(table, name) for name in names}
@@ -258,7 +258,7 @@ def _superposed(
         _require_shift_of_ramp(path, sweeps, shift)
     elif source.temperature_step is None:
         with about_file(path, InputError):
-            sweeps = replace(sweeps, tolerance=TOLERANCE)
+            sweeps = replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:

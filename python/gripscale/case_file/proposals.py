@@ -28,7 +28,7 @@ from gripscale.rubber.blocks import blocks_in
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
 from gripscale.rubber.prony import largest_modulus
-from gripscale.rubber.sweeps import TOLERANCE, holds_sweeps, read_shift_of_sweeps
+from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
 from gripscale.surface.plausibility import has_likely_units
 from gripscale.surface.read import TEXT_SUFFIXES
@@ -315,15 +315,16 @@ def _add_reference(
             )
             if temperature is None:
                 words += ", as is the contact; --temperature states another"
-            proposal.add("reference_temperature", celsius(target), words, Weight.ANOTHER)
+            proposal.add("reference_temperature", celsius_text(target), words, Weight.ANOTHER)
         return
     kelvin = measured.temperature
     if np.ptp(kelvin) <= _ONE_SWEEP:
         return
     reference = float(np.clip(target, kelvin.min(), kelvin.max()))
-    words = f"sweeps from {celsius(kelvin.min())} to {celsius(kelvin.max())} are shifted to it"
+    low, high = (celsius_text(value) for value in (kelvin.min(), kelvin.max()))
+    words = f"sweeps from {low} to {high} are shifted to it"
     weight = None if reference == target or temperature is None else Weight.FACTOR
-    proposal.add("reference_temperature", celsius(reference), words, weight)
+    proposal.add("reference_temperature", celsius_text(reference), words, weight)
     if temperature is None:
         text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
         proposal.doubts.append(Doubt(Weight.FACTOR, f"{text}; --temperature states another"))
@@ -336,7 +337,7 @@ NOMINAL_STEP = "5 K"
 def _runs_on(sweeps: Sweeps) -> bool:
     """Return whether temperatures have no gaps between sweeps."""
     try:
-        replace(sweeps, tolerance=TOLERANCE)
+        replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
     except InputError:
         return True
     return False
@@ -346,7 +347,7 @@ _ONE_SWEEP = 3.0
 """Span of temperatures of one sweep [K]."""
 
 
-def celsius(kelvin: float) -> str:
+def celsius_text(kelvin: float) -> str:
     """Return a temperature [K] as a case states it, such as `20 C`."""
     return f"{kelvin - ZERO_CELSIUS:.4g} C"
 
@@ -401,11 +402,11 @@ def conditions_proposal(rubber: Proposal, paths: list[Path], temperature: float 
     if temperature is None:
         return proposal
     if has_shift(paths, rubber):
-        proposal.add("temperature", celsius(temperature), "of the rubber before the contact")
+        proposal.add("temperature", celsius_text(temperature), "of the rubber before the contact")
     elif "reference_temperature" not in rubber.keys:
         text = (
             f"the rubber has one temperature and no shift, and cannot be brought to "
-            f"{celsius(temperature)}: state [rubber] shift and [conditions] temperature"
+            f"{celsius_text(temperature)}: state [rubber] shift and [conditions] temperature"
         )
         proposal.doubts.append(Doubt(Weight.FACTOR, text))
     return proposal

@@ -11,12 +11,12 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, InstanceOf, model_validator
 
 from gripscale.case_file.schema import (
-    Column,
+    CaseTable,
+    ColumnKey,
     Columns,
     Pressure,
     Reading,
     Strain,
-    Table,
     Temperature,
     TemperatureDifference,
     by_kind,
@@ -56,12 +56,12 @@ def _warn_or_refuse(value: Any) -> Any:
     return value
 
 
-class LayoutKeys(Table):
+class LayoutKeys(CaseTable):
     """Where the numbers of a measured file stand and what they are, as `FileLayout` takes them."""
 
     columns: Columns | None = None
     """Columns of frequency, storage and loss modulus, where their titles do not tell."""
-    sheet: Column | None = None
+    sheet: ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
     header: int | None = Field(default=None, ge=0, le=MOST_LINES)
     """Number of lines above the rows, where there are numbers among them."""
@@ -154,7 +154,7 @@ SOFTENING: dict[str, type] = {"kraus": Kraus, "table": StrainSweeps}
 """How a case states softening: a law with its numbers, or where one was measured."""
 
 
-class ConditionsTable(Table):
+class ConditionsTable(CaseTable):
     """Effects beside the rubber as measured, each off unless asked for."""
 
     temperature: Temperature | None = None

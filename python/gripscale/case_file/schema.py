@@ -167,7 +167,7 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
     return next((m for part in get_args(annotation) if (m := _model_in(part))), None)
 
 
-class Table(BaseModel):
+class CaseTable(BaseModel):
     """One table of the case file: unknown keys are refused, values are not bent into shape.
 
     The text below a key is its meaning in the list of keys and in the documentation.
@@ -232,20 +232,20 @@ _NUMBERS: dict[Any, dict[str, Any]] = {
 """What checks of fields ask for, of quantities and of plain numbers."""
 
 
-def table_of(law: Any) -> type[Table]:
+def table_of(law: Any) -> type[CaseTable]:
     """Return the table that states a law: a key for each field, read as its check says.
 
     The law is a `Checked` dataclass; the unit of a field says which quantity it is, and its check
     which values it takes. A law with a kind has a key for it. A table is returned as it is.
     """
-    if issubclass(law, Table):
-        return cast(type[Table], law)
+    if issubclass(law, CaseTable):
+        return cast(type[CaseTable], law)
     hints = get_type_hints(law)
     keys: dict[str, Any] = {"kind": (Literal[law.kind], ...)} if hasattr(law, "kind") else {}
     for item in fields(law):
         default = ... if item.default is MISSING else item.default
         keys[item.name] = (_type_of_key(item, hints[item.name]), default)
-    return create_model(law.__name__, __base__=Table, **keys)
+    return create_model(law.__name__, __base__=CaseTable, **keys)
 
 
 def _type_of_key(item: Field[Any], hint: Any) -> Any:
@@ -339,5 +339,5 @@ def _columns(value: Any) -> dict[str, str | int]:
     return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
 
 
-Column = Annotated[str | int, Reading(COLUMN, _column)]
+ColumnKey = Annotated[str | int, Reading(COLUMN, _column)]
 Columns = Annotated[dict[str, str | int], Reading(_COLUMNS, _columns)]

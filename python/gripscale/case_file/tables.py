@@ -10,14 +10,14 @@ from pydantic import Field, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource
 from gripscale.case_file.schema import (
-    Column,
+    CaseTable,
+    ColumnKey,
     Duration,
     Length,
     Position,
     Pressure,
     Reading,
     Speed,
-    Table,
     TemperatureDifference,
     unit_of_file,
 )
@@ -59,7 +59,7 @@ def _step(value: Any) -> Any:
     return numbers if isinstance(value, list | tuple) else numbers[0]
 
 
-class WaveTable(Table):
+class WaveTable(CaseTable):
     """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
 
     wavelength: Length
@@ -73,7 +73,7 @@ PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
 """Keys of [surface] that only a map, or only profiles have."""
 
 
-class SurfaceTable(Table):
+class SurfaceTable(CaseTable):
     """Measured profiles or a map and how they become sine waves, or the waves themselves."""
 
     files: list[str] | None = Field(default=None, min_length=1)
@@ -92,9 +92,9 @@ class SurfaceTable(Table):
     """The way of sliding in a map."""
     reader: Literal["auto", "text", "instrument"] = "auto"
     """How to read the files; auto goes by the suffix."""
-    channel: Column | None = None
+    channel: ColumnKey | None = None
     """Channel of an instrument's file that has several of heights."""
-    sheet: Column | None = None
+    sheet: ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
     step: Annotated[Any, Reading(_STEP, _step)] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
@@ -204,7 +204,7 @@ def _load_time(value: Any) -> float | str:
     return seconds
 
 
-class LoadTable(Table):
+class LoadTable(CaseTable):
     """How hard, how fast and over what length the rubber is pressed and slid."""
 
     pressure: Pressure
@@ -224,7 +224,7 @@ class LoadTable(Table):
         return Load(self.pressure, self.speed, self.footprint, self.load_time)
 
 
-class SolverTable(Table):
+class SolverTable(CaseTable):
     """The model of one wave and its mesh; what is not stated stays at the solver's default."""
 
     model: Literal["finite_strain", "half_plane"] = "finite_strain"
@@ -258,7 +258,7 @@ class SolverTable(Table):
         return self.model_dump(exclude={"model"}, exclude_none=True)
 
 
-class ChainOptions(Table):
+class ChainOptions(CaseTable):
     """What goes on from wave to wave."""
 
     pressure_classes: int = Field(default=1, ge=1, le=MOST_CLASSES)
@@ -319,7 +319,7 @@ def _pressure_error(value: Any) -> Any:
     return value
 
 
-class RangesTable(Table):
+class RangesTable(CaseTable):
     """What is known of a source: two ends, equally likely values, or a standard error."""
 
     height_noise: Length | None = None
@@ -342,7 +342,7 @@ class RangesTable(Table):
     """Numbers of sine waves, among those that follow the correlation; all of these by default."""
 
 
-class UncertaintyTable(Table):
+class UncertaintyTable(CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
     samples: int = Field(default=200, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
@@ -372,7 +372,7 @@ class UncertaintyTable(Table):
 FigureKind = Literal["png", "pdf", "svg"]
 
 
-class OutputTable(Table):
+class OutputTable(CaseTable):
     """Where the results go."""
 
     folder: str = "results"
@@ -381,14 +381,14 @@ class OutputTable(Table):
     """What each figure is written as."""
 
 
-class MeasuredTable(Table):
+class MeasuredTable(CaseTable):
     """Friction measured elsewhere: a table of speed and friction, drawn over what is predicted."""
 
     friction: str | None = None
     """A table of speed and friction, drawn over what is predicted."""
 
 
-class FinerTable(Table):
+class FinerTable(CaseTable):
     """A finer measurement of a face of a stone: a line or a map, with its units."""
 
     file: str | None = None
@@ -411,7 +411,7 @@ class FinerTable(Table):
         return self
 
 
-class BelowMeasurementTable(Table):
+class BelowMeasurementTable(CaseTable):
     """Roughness below the measured profiles; without down_to there is none."""
 
     down_to: Length | None = None
@@ -430,7 +430,7 @@ class BelowMeasurementTable(Table):
         return self
 
 
-class CompareTable(Table):
+class CompareTable(CaseTable):
     """What `gripscale compare` puts beside the models: fits of a theory."""
 
     layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
@@ -448,7 +448,7 @@ class CompareTable(Table):
         return self
 
 
-class CaseTables(Table):
+class CaseTables(CaseTable):
     """A whole case file."""
 
     surface: SurfaceTable

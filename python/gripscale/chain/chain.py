@@ -268,7 +268,7 @@ class Chain(Checked, model.Model):
             ending = {model.STATUS: str(failure), model.STATUS_WORD: str(failure.status or "")}
             return failure.partial.to_dataset().assign(ending)
         except ExtrapolationError as refusal:
-            empty = xr.Dataset(attrs=provenance.attributes())
+            empty = xr.Dataset(attrs=provenance.version_attributes())
             totals = dict.fromkeys(model.TOTALS, math.nan)
-            return model.answer(empty, totals, str(refusal), self.name, load)
+            return model.predicted_answer(empty, totals, str(refusal), self.name, load)
         return result.to_dataset()

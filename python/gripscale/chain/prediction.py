@@ -100,7 +100,7 @@ class PressureClasses:
         are the worst ones, iterations are summed. Pressure and deformed mesh are those of the class
         nearest to the mean pressure.
         """
-        failed = [wave for wave in solved if not usable(wave)]
+        failed = [wave for wave in solved if not passes_pressure(wave)]
         if failed or len(solved) == 1:
             return (failed or list(solved))[0]
         nearest = solved[int(np.argmin(np.abs(self.pressure - self.mean)))]
@@ -125,7 +125,7 @@ class PressureClasses:
         )
 
 
-def usable(wave: ScaleResult) -> bool:
+def passes_pressure(wave: ScaleResult) -> bool:
     """Return whether the next wave can be solved: this one converged and is in contact."""
     return wave.converged and 0.0 < wave.contact_fraction <= 1.0
 
@@ -305,9 +305,9 @@ class ChainResult:
             planned_waves=self.planned,
             conditions=json.dumps(None if self.conditions is None else self.conditions.to_dict()),
             method=f"{LW}, equations 1 to 3",
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         )
-        answer = model.answer(
+        answer = model.predicted_answer(
             data,
             totals,
             self.why,
@@ -367,8 +367,8 @@ class ChainResult:
             ) from error
 
     def _of_converged(self, values: Sequence[float]) -> Array:
-        usable = np.array([scale.converged for scale in self.scales], dtype=bool)
-        return np.where(usable, np.array(values, dtype=float), math.nan)
+        converged = np.array([scale.converged for scale in self.scales], dtype=bool)
+        return np.where(converged, np.array(values, dtype=float), math.nan)
 
 
 class RubberAt(Protocol):
@@ -425,7 +425,7 @@ class ChainSolve:
                 self.on_scale(result)
             if not scale.converged:
                 raise ChainError(result.failure(), result)
-            if not usable(scale):
+            if not passes_pressure(scale):
                 raise ChainError(
                     f"{result.last_wave()} has a contact fraction of {scale.contact_fraction:g}; "
                     "expected more than 0 and at most 1",

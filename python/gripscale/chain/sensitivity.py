@@ -38,7 +38,7 @@ from gripscale.half_space.sensitivity import (
     derivative_variables,
     derivatives_dataset,
 )
-from gripscale.half_space.sensitivity import sensitivity as contact_sensitivity
+from gripscale.half_space.sensitivity import contact_sensitivity as contact_sensitivity
 from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.rubber.banded import Band, BandedRubber

@@ -18,7 +18,7 @@ def messages() -> Iterator[Any]:
             return
 
 
-def draw(folder: FigureFolder) -> None:
+def draw_messages(folder: FigureFolder) -> None:
     """Draw each figure with its name, and write them from the message None on."""
     held: list[tuple[dict[str, bytes], str]] = []
     released = False
@@ -33,7 +33,7 @@ def draw(folder: FigureFolder) -> None:
 
 if __name__ == "__main__":
     try:
-        draw(next(messages()))
+        draw_messages(next(messages()))
     except GripscaleError as error:
         sys.stdout.write(str(error))
         sys.exit(1)

@@ -38,7 +38,7 @@ def spelled_out(text: str) -> str:
 
 
 @dataclass(frozen=True)
-class Axis:
+class PlotAxis:
     """An axis with its label, which ends with the unit; `low` above `high` turns it round."""
 
     label: str = ""
@@ -58,14 +58,14 @@ class Axis:
     """Room beside what is drawn, over its extent."""
 
 
-def wavelength_axis(wavelengths: ArrayLike) -> Axis:
+def wavelength_axis(wavelengths: ArrayLike) -> PlotAxis:
     """Return a logarithmic axis of wavelengths [mm] that falls to the right, as in the paper."""
     values = np.ravel(np.asarray(wavelengths, dtype=float))
     values = values[np.isfinite(values)]
     if not values.size:
-        return Axis(ticks={})
+        return PlotAxis(ticks={})
     ends = 1.4 * float(values.max()), float(values.min()) / 1.4
-    return Axis("wavelength $\\lambda$ [mm]", True, *ends)
+    return PlotAxis("wavelength $\\lambda$ [mm]", True, *ends)
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class Outline:
 
 
 @dataclass(frozen=True)
-class Band:
+class ShadedBand:
     """The area between two curves."""
 
     x: ArrayLike
@@ -208,15 +208,15 @@ class ValueMap:
     """Most contours; 0 for a smooth map to scale."""
 
 
-Mark = Series | Outline | Band | Bars | CrossLine | Note | ValueMap
+Mark = Series | Outline | ShadedBand | Bars | CrossLine | Note | ValueMap
 
 
 @dataclass(frozen=True)
 class Panel:
     """Marks over two axes; `name`, `caption` and `alt` are those of a chart of the page."""
 
-    x: Axis
-    y: Axis
+    x: PlotAxis
+    y: PlotAxis
     marks: Sequence[Mark] = ()
     title: str = ""
     name: str = ""
@@ -269,7 +269,7 @@ class Sheet:
 
 
 @dataclass(frozen=True)
-class Block:
+class DrawnBlock:
     """One wave: pressure and mesh of a solution, or the words why there is none."""
 
     caption: str
@@ -288,7 +288,7 @@ class Block:
 class Blocks:
     """Blocks of a figure on paper, row by row."""
 
-    blocks: Sequence[Block]
+    blocks: Sequence[DrawnBlock]
     pressure_unit: str
     columns: int
     width: float

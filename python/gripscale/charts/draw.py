@@ -19,12 +19,12 @@ def on_paper(drawing: Drawing) -> Figure:
         from gripscale.charts.paper import draw_sheet
 
         return draw_sheet(drawing)
-    from gripscale.questions.chain.charts_on_paper import draw_blocks
+    from gripscale.questions.chain.charts_on_paper import blocks_on_paper
 
-    return draw_blocks(drawing)
+    return blocks_on_paper(drawing)
 
 
-def on_page(panels: Iterable[Panel]) -> list[Chart]:
+def panels_on_page(panels: Iterable[Panel]) -> list[Chart]:
     """Draw interactive charts with Bokeh, which is imported here."""
     from gripscale.charts.page import draw_panel
 
@@ -40,6 +40,6 @@ def linked_on_page(panels: Sequence[Panel], name: str, caption: str, alt: str) -
 
 def image(picture: Picture) -> Image:
     """Return a picture as a page holds it, drawn with matplotlib."""
-    from gripscale.charts.picture import image as packed
+    from gripscale.charts.picture import packed_image as packed
 
     return packed(picture)

@@ -16,18 +16,18 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.charts import page_elements
 from gripscale.charts.bokeh_parts import Part, columns
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     Bars,
     CrossLine,
     Mark,
     Outline,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     ValueMap,
     spelled_out,
 )
-from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, stretches
+from gripscale.charts.style import BEYOND_LABEL, FAINT, GREY, INK, shades, stretches
 from gripscale.core.arrays import Array
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
@@ -70,12 +70,12 @@ _MARKERS = {
 
 def draw_panel(panel: Panel) -> page_elements.Chart:
     """Return a chart of the page: the panel's figure, with its caption and alternative."""
-    return page_elements.Chart(panel.name, panel.caption, panel.alt, _figure(panel, Store()))
+    return page_elements.Chart(panel.name, panel.caption, panel.alt, _figure(panel, DataStore()))
 
 
 def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> page_elements.Chart:
     """Return panels below each other as one chart, zoomed together along their abscissa."""
-    store = Store()
+    store = DataStore()
     figures = [_figure(panel, store, along=True) for panel in panels]
     for figure in figures:
         figure.update(x_range=figures[0]["x_range"], min_border_left=_LABELS, toolbar_location=None)
@@ -87,7 +87,7 @@ def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> p
     return page_elements.Chart(name, caption, alt, column, wide=True)
 
 
-class Store:
+class DataStore:
     """The columns that the outlines of a chart are drawn from, each array once."""
 
     def __init__(self) -> None:
@@ -106,7 +106,7 @@ class Store:
         return self._names[id(values)]
 
 
-def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
+def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
     figure = Part("Figure", height=None, frame_height=panel.height - _AROUND,
                   sizing_mode="stretch_width", match_aspect=panel.to_scale,
                   outline_line_color=None, renderers=[], toolbar=_toolbar(along), center=[],
@@ -124,7 +124,7 @@ def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
                 _draw_outline(figure, mark, store)
             case ValueMap(levels=0):
                 _draw_field(figure, mark)
-            case Band():
+            case ShadedBand():
                 _draw_band(figure, mark, positive=panel.y.log)
             case Bars():
                 _draw_bars(figure, mark)
@@ -138,7 +138,7 @@ def _figure(panel: Panel, store: Store, *, along: bool = False) -> Part:
                 figure["center"].append(Part("BoxAnnotation", **look))
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
-        _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND, line_color=GREY,
+        _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND_LABEL, line_color=GREY,
                    line_dash=_DASHES["dashed"])  # fmt: skip
     if named := [point for point in points if point["name"]]:
         points = named
@@ -169,7 +169,7 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
                 ends = [end for end in (mark.low, mark.high) if end is not None]
                 along = mark.level_bars == (which == "x")
                 parts += [getattr(mark, which), *(ends if along else [])]
-            case Band() | Outline():
+            case ShadedBand() | Outline():
                 parts += [mark.x] if which == "x" else [mark.low, mark.high]
             case Bars():
                 parts += [mark.x0, mark.x1] if which == "x" else [mark.y0, mark.y1]
@@ -181,7 +181,7 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
     return np.asarray(values[np.isfinite(values)])
 
 
-def _set_axis(figure: Part, which: str, axis: Axis, values: Array) -> None:
+def _set_axis(figure: Part, which: str, axis: PlotAxis, values: Array) -> None:
     """Draw an axis with its grid: where its numbers stand, and its limits."""
     kind = "Log" if axis.log else "Linear"
     drawn = Part(
@@ -213,7 +213,7 @@ def _set_axis(figure: Part, which: str, axis: Axis, values: Array) -> None:
     _set_ticks(drawn, axis, values)
 
 
-def _limits(which: str, axis: Axis, values: Array) -> Part:
+def _limits(which: str, axis: PlotAxis, values: Array) -> Part:
     """Return the limits of an axis, which Bokeh finds where they are not set."""
     if axis.low is not None and axis.high is not None:
         # room for markers at the ends, which Bokeh would cut
@@ -231,7 +231,7 @@ def _limits(which: str, axis: Axis, values: Array) -> Part:
     return Part("DataRange1d", **{end: at for end, at in limited.items() if at is not None})
 
 
-def _set_ticks(drawn: Part, axis: Axis, values: Array) -> None:
+def _set_ticks(drawn: Part, axis: PlotAxis, values: Array) -> None:
     """Set where the numbers of an axis stand, if Bokeh would not find it well."""
     if axis.ticks is not None:
         names = {float(at): spelled_out(name) for at, name in axis.ticks.items()}
@@ -325,7 +325,7 @@ def _glyph(kind: str, source: Part, **look: Any) -> Part:
     return Part(kind, **{name: Field(name) for name in source["data"]}, **look)
 
 
-def _draw_outline(figure: Part, outline: Outline, store: Store) -> None:
+def _draw_outline(figure: Part, outline: Outline, store: DataStore) -> None:
     """Draw a curve in pieces; `templates/outlines.js` draws it anew as the reader zooms."""
     x, y = outline.drawn(_COLUMNS)
     names = [store.name(values) for values in (outline.x, outline.low, outline.high)]
@@ -349,7 +349,7 @@ def _draw_field(figure: Part, drawn: ValueMap) -> None:
                                 title_text_font=FONT, title_text_font_style="normal"))  # fmt: skip
 
 
-def _draw_band(figure: Part, band: Band, *, positive: bool) -> None:
+def _draw_band(figure: Part, band: ShadedBand, *, positive: bool) -> None:
     arrays = np.broadcast_arrays(_stored(band.x), _stored(band.low, positive=positive), band.high)
     finite = np.isfinite(arrays).all(axis=0)
     x, low, high = (array[finite] for array in arrays)

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, WHY_NO_EXPONENT
-from gripscale.questions.vary.axis import LABELS
+from gripscale.questions.vary.axis import AXIS_LABELS
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def words_of(data: xr.Dataset, name: str) -> str:
     if name in _WORDS:
         return _WORDS[name]
     plain = name.replace("_", " ")
-    if name in LABELS or name not in data.variables:
+    if name in AXIS_LABELS or name not in data.variables:
         return plain
     return str(data[name].attrs.get("long_name", plain))
 

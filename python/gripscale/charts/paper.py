@@ -24,20 +24,20 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     Bars,
     CrossLine,
     Mark,
     Note,
     Outline,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     Sheet,
     ValueMap,
     spelled_out,
 )
-from gripscale.charts.style import BEYOND, FAINT, GREY, INK, shades, short_number, stretches
+from gripscale.charts.style import BEYOND_LABEL, FAINT, GREY, INK, shades, short_number, stretches
 from gripscale.core import checks
 from gripscale.io.netcdf import write_whole
 
@@ -168,7 +168,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
         axes.legend(loc=corner)
 
 
-def _end_axis(axes: Axes, which: str, axis: Axis) -> None:
+def _end_axis(axes: Axes, which: str, axis: PlotAxis) -> None:
     """Set the limits of an axis, and place numbers or names along it."""
     drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
     if axis.low is not None or axis.high is not None:
@@ -195,7 +195,7 @@ def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
         case Outline():
             _draw_series(axes, Series(*mark.drawn(_PIECES), mark.colour, mark.label,
                                       width=mark.width, coarse=True))  # fmt: skip
-        case Band():
+        case ShadedBand():
             _draw_band(axes, mark)
         case Bars():
             x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
@@ -248,7 +248,7 @@ def _draw_series(axes: Axes, series: Series) -> None:
             axes.plot(x[chosen], y[chosen], **points)
     label = series.label if series.listed else f"_{series.label}"
     for part, dashed in sorted(parts, key=lambda part: part[1]):
-        part_look = look | ({"ls": DASHES["dashed"], "gid": BEYOND} if dashed else {})
+        part_look = look | ({"ls": DASHES["dashed"], "gid": BEYOND_LABEL} if dashed else {})
         part_look |= {"marker": ""} if mixed else {}
         # nothing, unclipped, has no place on a logarithmic axis
         part_look["clip_on"] = series.clip or not np.isfinite(y[part]).any()
@@ -259,7 +259,7 @@ def _draw_series(axes: Axes, series: Series) -> None:
         axes.plot([], [], label=label, **look)
 
 
-def _draw_band(axes: Axes, band: Band) -> None:
+def _draw_band(axes: Axes, band: ShadedBand) -> None:
     x, low, high = (np.asarray(values, dtype=float) for values in (band.x, band.low, band.high))
     x, low, high = np.broadcast_arrays(x, low, high)
     look: dict[str, Any] = {"color": band.colour, "alpha": band.alpha, "lw": 0.0}
@@ -268,7 +268,7 @@ def _draw_band(axes: Axes, band: Band) -> None:
     axes.fill_between(x, low, high, label=band.label or None, **look)
     for part, beyond in stretches(np.broadcast_to(band.beyond, x.shape)):
         if beyond:
-            axes.fill_between(x[part], low[part], high[part], gid=BEYOND, **HATCHED)
+            axes.fill_between(x[part], low[part], high[part], gid=BEYOND_LABEL, **HATCHED)
 
 
 def _draw_note(axes: Axes, note: Note) -> None:
@@ -315,12 +315,12 @@ def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
         if axes.get_legend() is None:
             for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
                 entries.setdefault(label, handle)
-        dashed |= any(line.get_gid() == BEYOND for line in axes.lines)
-        hatched |= any(part.get_gid() == BEYOND for part in axes.collections)
+        dashed |= any(line.get_gid() == BEYOND_LABEL for line in axes.lines)
+        hatched |= any(part.get_gid() == BEYOND_LABEL for part in axes.collections)
     for key in sheet.keys:
         entries |= {getattr(key, "label", ""): _key(key)}
     at_side = sheet.legend == "beside"
-    beyond = BEYOND.replace("the ", "the\n") if at_side else BEYOND
+    beyond = BEYOND_LABEL.replace("the ", "the\n") if at_side else BEYOND_LABEL
     if hatched:
         entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
     elif dashed:

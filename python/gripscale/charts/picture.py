@@ -16,7 +16,7 @@ SHADES = 96
 """Colours the picture is reduced to: a third of the bytes, no visible loss."""
 
 
-def image(picture: Picture) -> Image:
+def packed_image(picture: Picture) -> Image:
     """Return a picture as a page holds it."""
     drawn, packed = io.BytesIO(png(picture.figure, PICTURE_DPI)), io.BytesIO()
     pixels = PIL.Image.open(drawn).convert("RGB")

@@ -29,11 +29,11 @@ RED = "#B00020"
 WIDE, NARROW = 7.0, 4.6
 """Widths of a figure over two columns and a little over one [inch]."""
 
-BEYOND = "beyond the measured band"
+BEYOND_LABEL = "beyond the measured band"
 """What a dashed line and a hatched band mean, in legends."""
 FLAG = "outside_band"
 
-Flags = NDArray[np.bool_]
+RowFlags = NDArray[np.bool_]
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -67,21 +67,21 @@ def stretches(beyond: ArrayLike) -> Iterator[tuple[slice, bool]]:
         yield slice(int(first), int(last) + 1), bool(joined[first])
 
 
-def predictions_beyond(data: xr.Dataset) -> Flags:
+def predictions_beyond(data: xr.Dataset) -> RowFlags:
     """Return for each prediction whether some of its friction rests on extrapolation."""
     if FRICTION_OUTSIDE_BAND not in data:
         return np.zeros(data["total_friction"].shape, dtype=bool)
     return np.asarray(data[FRICTION_OUTSIDE_BAND] > WORTH_SAYING)
 
 
-def waves_beyond(data: xr.Dataset) -> Flags:
+def waves_beyond(data: xr.Dataset) -> RowFlags:
     """Return for each wave whether it excites the rubber beyond the band."""
     if FLAG not in data:
         return np.zeros(data["wavelength"].shape, dtype=bool)
     return np.asarray(data[FLAG] == 1.0)
 
 
-def down_to(beyond: ArrayLike) -> Flags:
+def down_to(beyond: ArrayLike) -> RowFlags:
     """Return for sums over waves, largest first, whether a wave of the sum is beyond the band."""
     return np.asarray(np.logical_or.accumulate(np.asarray(beyond, dtype=bool)))
 

@@ -14,7 +14,7 @@ from gripscale.core.errors import InputError
 from gripscale.terminal import (
     CasePath,
     Cluster,
-    Measured,
+    MeasuredPath,
     OwnFolder,
     Workers,
     argument,
@@ -41,7 +41,7 @@ def compare(
             metavar="NAME=VALUES",
         ),
     ] = None,
-    measured: Measured = None,
+    measured: MeasuredPath = None,
     rungs: Annotated[
         str | None,
         option(
@@ -84,13 +84,13 @@ def compare(
     from gripscale.questions.compare.charts import at_measured_figure
     from gripscale.questions.compare.charts_of_ladder import varied
     from gripscale.questions.compare.comparison import (
-        VARIED,
+        COMPARED_OVER,
         at_measured,
         compare_case,
         compare_over,
     )
     from gripscale.questions.compare.ladder import WINDOWS, chosen
-    from gripscale.questions.compare.page import best_line, comparison_parts, failures
+    from gripscale.questions.compare.page import best_line, comparison_failures, comparison_parts
     from gripscale.questions.result import warning_lines
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
@@ -99,7 +99,7 @@ def compare(
     from gripscale.questions.vary.page_side_by_side import effects_table
     from gripscale.report.notices import friction_notices
 
-    axes = None if vary is None else dict([parse_vary(vary, VARIED)])
+    axes = None if vary is None else dict([parse_vary(vary, COMPARED_OVER)])
     file = read_case_file(case)
     read = read_case(file)
     friction = read.friction if measured is None else read_measured_friction(measured)
@@ -176,7 +176,7 @@ def compare(
 
     failed = [
         replace(failure, sentence=f"{where} did not converge: {failure}")
-        for where, failure in failures(data)
+        for where, failure in comparison_failures(data)
     ]
     terminal.conclude(
         console,
@@ -218,7 +218,7 @@ def names_of(arguments: Sequence[str]) -> list[str]:
 
 
 @command
-def compare_surfaces(
+def compare_surfaces_command(
     surfaces: Annotated[
         list[str],
         argument(

@@ -70,7 +70,7 @@ def design(
     from gripscale.charts.write import draw
     from gripscale.questions.answer.findings import case_notices
     from gripscale.questions.design.charts import design_pictures
-    from gripscale.questions.design.compound_design import RESULT, design_compound
+    from gripscale.questions.design.compound_design import DESIGN_FILE, design_compound
     from gripscale.questions.design.compound_limits import CompoundLimits
     from gripscale.questions.design.compound_search import default_goal
     from gripscale.questions.design.design_text import (
@@ -79,7 +79,7 @@ def design(
         parse_limit,
         write_targets,
     )
-    from gripscale.questions.design.page import compounds_table, design_lines, design_table
+    from gripscale.questions.design.page import design_lines, design_table, designed_compounds_table
     from gripscale.questions.inputs.page_record import InputRecord
 
     file = read_case_file(case)
@@ -113,7 +113,7 @@ def design(
         on_point=print_point,
     )
     write_targets(data, target)
-    compounds = compounds_table(data)
+    compounds = designed_compounds_table(data)
     figures = FigureFolder(target, file.case.output.figures)
     terminal.conclude(
         console,
@@ -121,10 +121,10 @@ def design(
         [design_table(data), *([] if compounds is None else [compounds])],
         results=[data],
         lead=list(design_lines(data)),
-        warnings=case_notices(None, InputRecord.of_file(target / RESULT)),
+        warnings=case_notices(None, InputRecord.of_file(target / DESIGN_FILE)),
         text="design.txt",
-        closing=f"Result ({RESULT}), figure, and master curve, Prony series and rubber of each "
-        "point (target_*) are in",
+        closing=f"Result ({DESIGN_FILE}), figure, and master curve, Prony series and rubber of "
+        "each point (target_*) are in",
         draw=lambda: draw(design_pictures(data), figures),
-        page=RESULT,
+        page=DESIGN_FILE,
     )

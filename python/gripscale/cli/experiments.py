@@ -10,7 +10,7 @@ import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import CasePath, Cluster, Measured, OwnFolder, Workers, command, option
+from gripscale.terminal import CasePath, Cluster, MeasuredPath, OwnFolder, Workers, command, option
 
 
 @command
@@ -54,7 +54,7 @@ def study(
     from gripscale.questions.vary.axis import parse_vary
     from gripscale.questions.vary.page import failed_predictions, study_parts
     from gripscale.questions.vary.page_of_answer import study_lines
-    from gripscale.questions.vary.study import RESULT, Study
+    from gripscale.questions.vary.study import STUDY_FILE, Study
 
     pairs = [parse_vary(text) for text in vary]
     axes = dict(pairs)
@@ -77,7 +77,7 @@ def study(
         target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
     )
     result = with_best_estimate(result)
-    netcdf.save(result, target / RESULT)
+    netcdf.save(result, target / STUDY_FILE)
     drawn = stored is not None and any(figures.path.iterdir())
 
     def draw_figures() -> None:
@@ -101,7 +101,7 @@ def study(
 
 
 @command
-def calibrate(
+def calibrate_command(
     case: CasePath,
     model: Annotated[
         str | None,
@@ -129,7 +129,7 @@ def calibrate(
             metavar="NAME=VALUE",
         ),
     ] = None,
-    measured: Measured = None,
+    measured: MeasuredPath = None,
     output: OwnFolder = None,
     workers: Workers = None,
     cluster: Cluster = None,
@@ -152,7 +152,11 @@ def calibrate(
         parse_fixed,
         shear_stress_table,
     )
-    from gripscale.questions.calibration.page import calibration_lines, calibration_parts, failures
+    from gripscale.questions.calibration.page import (
+        calibration_failure,
+        calibration_lines,
+        calibration_parts,
+    )
     from gripscale.questions.inputs import record
     from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.questions.uncertainty.charts import calibration_pictures
@@ -200,5 +204,5 @@ def calibrate(
         closing="Tables, figures, result and [conditions.shear_stress] are in",
         files={"shear_stress.toml": shear_stress_table(fitted)},
         draw=lambda: draw(calibration_pictures(data), figures),
-        failure=str(failures(data) or ""),
+        failure=str(calibration_failure(data) or ""),
     )

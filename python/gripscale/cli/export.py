@@ -110,10 +110,10 @@ def mesh(
     from gripscale.export import wave_of, write_mesh
     from gripscale.io import netcdf
 
-    data = netcdf.load(result)
+    data = netcdf.load_dataset(result)
     if "mesh_x" not in data:
         files = sorted(result.parent.glob("[!.]*.nc"))
-        names = [file.name for file in files if "mesh_x" in netcdf.load(file)]
+        names = [file.name for file in files if "mesh_x" in netcdf.load_dataset(file)]
         others = f"; {' and '.join(names)} beside it has" if names else ""
         raise InputError(
             f"{result} has no meshes, which the finite-strain block gives to each wave{others}"

@@ -40,7 +40,7 @@ _FIGURES = ("png", "pdf")
 """What figures of a command without a case are written as."""
 
 
-class Choice(StrEnum):
+class ExampleName(StrEnum):
     """Names of the examples."""
 
     road = "road"
@@ -53,13 +53,13 @@ class Choice(StrEnum):
 def init(
     folder: Annotated[Path, argument("Where to write; made if needed.", "FOLDER")],
     example: Annotated[
-        Choice,
+        ExampleName,
         typer.Option(
             help="road: a measured road and a measured tread rubber; synthetic: a made-up road "
             "and a named rubber; sweeps: the same road with a rubber in sweeps at 13 temperatures; "
             "map: a measured map, which needs gripscale[formats] to be read."
         ),
-    ] = Choice.road,
+    ] = ExampleName.road,
 ) -> None:
     """Write a commented case and example data to start from; nothing is overwritten."""
     from gripscale.case_file.examples import EXAMPLES, write_example
@@ -152,7 +152,7 @@ def fit_surface(
     from gripscale.case_file.proposals import open_surface
     from gripscale.io.folders import make_folder, require_writable
     from gripscale.questions.inputs.page import (
-        slopes_table,
+        rms_slopes_table,
         surface_lines,
         texture_table,
         waves_table,
@@ -194,7 +194,7 @@ def fit_surface(
     if prepared.measured is not None:
         parts.append(texture_table(prepared.measured.texture))
         if slopes:
-            parts.append(slopes_table(prepared.measured.slopes))
+            parts.append(rms_slopes_table(prepared.measured.slopes))
     print_parts(console, parts)
     if output is not None:
         from gripscale.charts.figure_folder import FigureFolder

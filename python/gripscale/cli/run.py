@@ -79,7 +79,7 @@ def run(
             _print_finished(console, target)
         else:
             require_writable(target)
-            terminal.RESULTS.set(target)
+            terminal.RESULTS_FOLDER.set(target)
             kinds = file.case.output.figures
             with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
                 _run(console, emit, file, target, figures, fresh)
@@ -88,11 +88,11 @@ def run(
 @contextmanager
 def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
     """Give what writes an event to standard output, if asked for; the last tells the exit code."""
-    from gripscale.questions.chain.events import RunFailed, RunFinished, to_json
+    from gripscale.questions.chain.events import RunFailed, RunFinished, event_to_json
 
     def emit(event: Event) -> None:
         if progress == ProgressFormat.JSON:
-            print(to_json(event), flush=True)
+            print(event_to_json(event), flush=True)
 
     try:
         yield emit
@@ -127,7 +127,7 @@ def _run(
     from gripscale.questions.chain.events import FileWritten
     from gripscale.questions.chain.run import ChainRun
     from gripscale.report.failures import explained
-    from gripscale.report.summary import FILE as SUMMARY
+    from gripscale.report.summary import SUMMARY_FILE as SUMMARY
 
     chain = ChainRun.of(read_case(file), target, fresh=fresh)
     other = case_replaced(file, target)
@@ -198,10 +198,10 @@ def _solve(
 ) -> xr.Dataset | None:
     """Solve and write the chain and, where the case asks for them, the effects of conditions."""
     from gripscale.case_file import run_case
-    from gripscale.questions.answer.answer import FILE as ANSWER
+    from gripscale.questions.answer.answer import ANSWER_FILE as ANSWER
     from gripscale.questions.chain.events import AnswerSolved, EffectsSolved, FileWritten
     from gripscale.questions.cut_off.question import cut_off_result
-    from gripscale.questions.vary.effects import FILE as EFFECTS
+    from gripscale.questions.vary.effects import EFFECTS_FILE as EFFECTS
     from gripscale.questions.vary.effects import case_effects
 
     case, target = chain.case, chain.folder
@@ -298,7 +298,7 @@ def _parts(
     from gripscale.questions.chain.run import DYNAMIC
     from gripscale.questions.chain.view import PredictionView
     from gripscale.questions.compare.page import judgement, slopes_table
-    from gripscale.questions.cut_off.page import basis_lines, rules_table
+    from gripscale.questions.cut_off.page import cut_off_basis, rules_table
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
     from gripscale.questions.vary.page_side_by_side import effects_table
@@ -321,12 +321,12 @@ def _parts(
     sampled = stored_uncertainty(target)
     parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
     if answer.curve is not None:
-        parts += ["", *basis_lines(answer.curve), rules_table(answer.curve)]
+        parts += ["", *cut_off_basis(answer.curve), rules_table(answer.curve)]
     return parts, heat
 
 
 @command
-def report(
+def report_command(
     result: Annotated[
         Path,
         argument(
@@ -371,7 +371,7 @@ def reproduce(context: typer.Context) -> None:
 
 
 @command
-def app(
+def open_app(
     case: Annotated[
         Path | None,
         argument("A case file to start with, instead of the shipped road.", "CASE.toml"),

@@ -12,7 +12,7 @@ from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
 
 
 @command
-def sensitivity(
+def sensitivity_command(
     case: CasePath,
     vary: Annotated[
         list[str] | None,
@@ -61,15 +61,19 @@ def sensitivity(
     from gripscale.questions.inputs.page_record import InputRecord
     from gripscale.questions.sensitivity.charts import height_pictures, sensitivity_figure
     from gripscale.questions.sensitivity.friction_sensitivity import (
-        FILE,
+        DERIVED_OVER,
+        SENSITIVITY_FILE,
         STORAGE,
-        VARIED,
         case_sensitivity,
     )
-    from gripscale.questions.sensitivity.page import answer_lines, failures, sensitivity_parts
+    from gripscale.questions.sensitivity.page import (
+        sensitivity_failures,
+        sensitivity_lines,
+        sensitivity_parts,
+    )
     from gripscale.questions.vary.axis import parse_vary
 
-    pairs = [parse_vary(text, VARIED) for text in vary or ()]
+    pairs = [parse_vary(text, DERIVED_OVER) for text in vary or ()]
     axes = dict(pairs) or None
     if axes is not None and len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
@@ -88,7 +92,7 @@ def sensitivity(
         on_task=terminal.progress_printer(console),
     )
 
-    record = InputRecord.of_file(target / FILE)
+    record = InputRecord.of_file(target / SENSITIVITY_FILE)
 
     def draw() -> None:
         if STORAGE in data:
@@ -97,16 +101,16 @@ def sensitivity(
             figures.save(sensitivity_figure(data), "sensitivity")
             write_pictures(height_pictures(data, record.data), figures)
 
-    failed = failures(data)
+    failed = sensitivity_failures(data)
     terminal.conclude(
         console,
         target,
         list(sensitivity_parts(data)),
         results=[data],
-        lead=list(answer_lines(data)),
+        lead=list(sensitivity_lines(data)),
         warnings=case_notices(None, record),
         text="sensitivity.txt",
-        closing=f"Result ({FILE}), tables and figure are in",
+        closing=f"Result ({SENSITIVITY_FILE}), tables and figure are in",
         draw=draw,
         failure=terminal.first_of(failed, data.prediction_status.size, "points"),
     )

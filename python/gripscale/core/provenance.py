@@ -22,7 +22,7 @@ def versions() -> dict[str, str]:
     return {**{name: version_of(name) for name in names}, "python": platform.python_version()}
 
 
-def attributes() -> dict[str, str]:
+def version_attributes() -> dict[str, str]:
     """Return the versions as attributes of a result."""
     return {f"version_{name}": version for name, version in versions().items()}
 

@@ -119,7 +119,7 @@ def spelled(unit: object, kind: str) -> str | None:
     return word if word in UNITS[kind] else None
 
 
-def in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
+def quantity_in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
     """Return a number or array given in a `unit` of `kind` in the SI unit.
 
     Raises `InputError`, which says that `name` must be one of the units of `kind`.
@@ -165,7 +165,7 @@ def parse_quantity(value: Any, kind: str) -> float:
         raise ValueError(f"the unit is missing; expected one of {listed(kind)}")
     if spelled(unit, kind) is None:
         raise ValueError(f"unknown unit {short_repr(unit)}; expected one of {listed(kind)}")
-    return _finite(in_si(float(number), unit, kind), kind)
+    return _finite(quantity_in_si(float(number), unit, kind), kind)
 
 
 def unit_of(value: object, kind: str) -> str:

@@ -101,17 +101,17 @@ class Design:
             keys[point.index] = key
             seconds[point.index] = answer.attrs.get("seconds", math.nan)
         dims = tuple(self.sizes)
-        kept_in = attributes("name of the file the prediction is kept in")
+        kept_in = variable_attributes("name of the file the prediction is kept in")
         data = stack(parts, self.sizes).assign(
-            prediction_status=(dims, status, attributes("converged, or why not")),
-            prediction_status_word=(dims, words, attributes("word of the status")),
+            prediction_status=(dims, status, variable_attributes("converged, or why not")),
+            prediction_status_word=(dims, words, variable_attributes("word of the status")),
             prediction_key=(dims, keys, kept_in),
-            seconds=(dims, seconds, attributes("time to solve the prediction", "s")),
+            seconds=(dims, seconds, variable_attributes("time to solve the prediction", "s")),
         )
         return data.assign_coords(self.coords)
 
 
-def attributes(long_name: str, unit: str = "1") -> dict[str, str]:
+def variable_attributes(long_name: str, unit: str = "1") -> dict[str, str]:
     """Return the attributes of a variable."""
     return {"units": unit, "long_name": long_name}
 
@@ -130,7 +130,7 @@ def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
         return xr.Dataset()
     errors = {
         name: ((), error_of_total(answer, name.removeprefix("total_").removesuffix("_error")),
-               attributes(text))
+               variable_attributes(text))
         for name, text in ESTIMATED_ERRORS.items()
     }  # fmt: skip
     return answer[[*BASIS]].assign(errors)

@@ -21,7 +21,7 @@ from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.labels import labelled
-from gripscale.core.units import UNITS, in_si, listed, plain, spelled
+from gripscale.core.units import UNITS, listed, plain, quantity_in_si, spelled
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
 from gripscale.model import PLAUSIBLE
 
@@ -236,7 +236,7 @@ def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
         raise FileError(
             f"{path}: {word} must be in one of {listed(kind)}; got {checks.short_repr(unit)}"
         )
-    return in_si(values, unit, kind)
+    return quantity_in_si(values, unit, kind)
 
 
 @dataclass(frozen=True)

@@ -104,7 +104,7 @@ def canonical_json(value: Any) -> Any:
 def load_stored(path: Path) -> xr.Dataset | None:
     """Return the Dataset at `path`, or None if it is not there whole."""
     try:
-        return netcdf.load(path)
+        return netcdf.load_dataset(path)
     except FileError:
         return None
 

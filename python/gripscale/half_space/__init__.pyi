@@ -10,7 +10,7 @@ from .location import shares_by_slope as shares_by_slope
 from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
-from .sensitivity import sensitivity as sensitivity
+from .sensitivity import contact_sensitivity as contact_sensitivity
 from .solve import solve_rough_contact as solve_rough_contact
 from .windows import WindowContacts as WindowContacts
 from .windows import one_period as one_period

@@ -68,7 +68,7 @@ FEW = 600
 """Points in contact up to which the system is eliminated if a run of GMRES does not reach its
 target. Not before: elimination wakes the threads of BLAS, whose waiting costs more than the
 iterations."""
-TOLERANCE = 1e-6
+CONTACT_TOLERANCE = 1e-6
 """Missing pressure over pressure at which the linear system counts as solved."""
 START_TOLERANCE = 1e-4
 """The same on a grid that another one starts from: its contact fraction is reported, too."""
@@ -285,7 +285,7 @@ def solve_grid(
     height: Array,
     start: Array,
     most_iterations: int,
-    goal: float = TOLERANCE,
+    goal: float = CONTACT_TOLERANCE,
     on_iteration: OnIteration | None = None,
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
@@ -338,7 +338,7 @@ def solve_grid(
         # tighter with fewer changes, and tenfold where the number of wrong points does not fall
         fewer = count < fewest
         wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * (count / len(where)))
-        tolerance = max(wanted, goal if fewer else TOLERANCE)
+        tolerance = max(wanted, goal if fewer else CONTACT_TOLERANCE)
         fewest = min(fewest, count)
         active = active ^ wrong
     return GridContact(

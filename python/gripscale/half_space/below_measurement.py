@@ -231,7 +231,9 @@ class ContactByCutOff:
             "speed": contact.speed,
         }
         coordinate = over(self.wavelength, "m", "shortest wavelength of the surface")
-        return xr.Dataset(data, {"cut_off": coordinate}, attributes | provenance.attributes())
+        return xr.Dataset(
+            data, {"cut_off": coordinate}, attributes | provenance.version_attributes()
+        )
 
 
 _CURVES = {

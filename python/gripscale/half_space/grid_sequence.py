@@ -51,7 +51,7 @@ import numpy as np
 import scipy
 
 from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.half_space.active_set import TOLERANCE, OnIteration, solve_grid
+from gripscale.half_space.active_set import CONTACT_TOLERANCE, OnIteration, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
@@ -232,7 +232,7 @@ class GridSequence:
     deadline: float = math.inf
     """When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s]."""
 
-    def solve(self, level: Level, tolerance: float = TOLERANCE) -> LevelContact:
+    def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before.
 
         `tolerance` is the missing pressure at the end, over the pressure.
@@ -273,7 +273,7 @@ class GridSequence:
         return self.last
 
     def _contact(
-        self, response: Response, height: Array, start: Array, tolerance: float = TOLERANCE
+        self, response: Response, height: Array, start: Array, tolerance: float = CONTACT_TOLERANCE
     ) -> GridContact:
         limit = self.most_iterations
         return solve_grid(response, height, start, limit, tolerance, self.on_iteration)

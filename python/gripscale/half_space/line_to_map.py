@@ -52,8 +52,8 @@ class RatioLaw(NamedTuple):
         return float(np.exp(self.constant + self.slope * upper_height))
 
 
-CONTACT_FRACTION = RatioLaw(-0.071, -0.188, 0.11)
-FRICTION = RatioLaw(-0.344, 0.177, 0.11)
+CONTACT_FRACTION_LAW = RatioLaw(-0.071, -0.188, 0.11)
+FRICTION_LAW = RatioLaw(-0.344, 0.177, 0.11)
 """Scatter: between that about the law (0.107, 0.090) and that of families which a law of the other
 families misses (0.124, 0.113)."""
 FULL_CONTACT_FRICTION = 1.11
@@ -79,17 +79,17 @@ def contact_fraction_ratio(upper_height: float, contact_fraction: ArrayLike) -> 
     from scipy.special import erf, erfinv
 
     area = np.clip(np.asarray(contact_fraction, dtype=float), _TINY, 1.0 - _TINY)
-    small = CONTACT_FRACTION.at(upper_height) ** (1.0 - 0.5 * area)
+    small = CONTACT_FRACTION_LAW.at(upper_height) ** (1.0 - 0.5 * area)
     ratio = erf(small * erfinv(area)) / area
-    return SurfaceOverLines(ratio, CONTACT_FRACTION.scatter * np.sqrt(1.0 - area**2))
+    return SurfaceOverLines(ratio, CONTACT_FRACTION_LAW.scatter * np.sqrt(1.0 - area**2))
 
 
 def friction_ratio(upper_height: float, contact_fraction: ArrayLike) -> SurfaceOverLines:
     """Return the friction ratio at an upper height t and contact fractions of the lines [-]."""
     full = np.asarray(contact_fraction, dtype=float) ** 4
-    law = math.log(FRICTION.at(upper_height))
+    law = math.log(FRICTION_LAW.at(upper_height))
     ratio = np.exp((1.0 - full) * law + full * math.log(FULL_CONTACT_FRICTION))
-    return SurfaceOverLines(ratio, np.full_like(ratio, FRICTION.scatter))
+    return SurfaceOverLines(ratio, np.full_like(ratio, FRICTION_LAW.scatter))
 
 
 def upper_height(profile: Profile | Sequence[Profile], largest_wavelength: float) -> float:

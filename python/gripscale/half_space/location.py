@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Lower ends of the classes of |dh/dx|; the last has no upper end."""
-SHARES = {
+SHARES_BY_SLOPE = {
     "friction_by_slope": "share of the friction from contact on slopes of the class",
     "load_by_slope": "share of the load carried on slopes of the class",
     "contact_by_slope": "share of the contact area on slopes of the class",
@@ -72,7 +72,7 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
         contact.active,
     )
     data = {}
-    for (name, text), amount in zip(SHARES.items(), amounts, strict=True):
+    for (name, text), amount in zip(SHARES_BY_SLOPE.items(), amounts, strict=True):
         sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
         share = sums / amount.sum() if amount is not force else sums / total
         data[name] = labelled("slope", share, "1", text, _SOURCE)

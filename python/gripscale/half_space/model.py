@@ -16,7 +16,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
-from gripscale.half_space.location import SHARES, contact_trace, with_traces
+from gripscale.half_space.location import SHARES_BY_SLOPE, contact_trace, with_traces
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
@@ -87,8 +87,10 @@ def _with_basis(
         for (name, text), number in zip(model.BASIS.items(), numbers, strict=True)
     }
     # the nominal pressure is the same: their loads are as their lengths
-    weights = dict(zip(SHARES, (friction, np.asarray(lengths, dtype=float), area), strict=True))
-    for name, text in SHARES.items():
+    weights = dict(
+        zip(SHARES_BY_SLOPE, (friction, np.asarray(lengths, dtype=float), area), strict=True)
+    )
+    for name, text in SHARES_BY_SLOPE.items():
         parts = [contact.shares_by_slope[name].values for contact in contacts]
         share = _weighted(weights[name], parts)
         variables[f"total_{name}"] = labelled("slope", share, "1", text, "direct")
@@ -236,7 +238,7 @@ class BlockOnProfile(Checked, model.Model):
                 on_progress(result)
         data = waves_to_dataset(results).drop_vars("scale").rename(scale="profile")
         data = data.assign_attrs(
-            title="Profiles in the finite-strain block", **provenance.attributes()
+            title="Profiles in the finite-strain block", **provenance.version_attributes()
         )
         why_not = ["" if result.converged else result.why for result in results]
         lengths = [result.wavelength for result in results]

@@ -39,7 +39,7 @@ from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
-from gripscale.half_space.location import SHARES as BY_SLOPE
+from gripscale.half_space.location import SHARES_BY_SLOPE as BY_SLOPE
 from gripscale.half_space.location import SLOPES, shares_by_slope
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import (
@@ -51,7 +51,7 @@ from gripscale.model import (
     between,
 )
 from gripscale.rubber import Rubber
-from gripscale.rubber.extrapolation import NONE, Extrapolation, of_spectrum
+from gripscale.rubber.extrapolation import NOTHING_BEYOND, Extrapolation, of_spectrum
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -242,7 +242,7 @@ class RoughContact:
         Heat shifts them: each harmonic counts with a_T of its scale times its frequency.
         """
         if self.speed == 0.0:
-            return NONE
+            return NOTHING_BEYOND
         omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
         if self.by_scale is not None:
             omega = omega * self.by_scale.shift(self.grid.wavenumber)
@@ -402,6 +402,6 @@ class RoughContact:
                 "nominal_pressure": self.nominal_pressure,
                 "speed": self.speed,
                 "notes": " ".join(self.notes),
-                **provenance.attributes(),
+                **provenance.version_attributes(),
             },
         )

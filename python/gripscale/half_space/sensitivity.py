@@ -326,7 +326,7 @@ class ContactFractionDifferences:
         return math.log(grid_contact_fraction(solved.active, solved.gap))
 
 
-def sensitivity(
+def contact_sensitivity(
     contact: RoughContact,
     *,
     bands_per_decade: int = 2,
@@ -427,7 +427,9 @@ def derivatives_dataset(
 ) -> xr.Dataset:
     """Return derivatives as a Dataset over the `frequency` of bands."""
     centre = labelled("frequency", bands.centre, "rad/s", "centre of the band", _SOURCE)
-    return xr.Dataset(data, {"frequency": centre}, {**attributes, **provenance.attributes()})
+    return xr.Dataset(
+        data, {"frequency": centre}, {**attributes, **provenance.version_attributes()}
+    )
 
 
 Derivatives = Mapping[str, Array | float]

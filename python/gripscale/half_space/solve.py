@@ -21,7 +21,7 @@ from gripscale.core import checks
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import worker_count
 from gripscale.core.status import Status
-from gripscale.half_space.active_set import START_TOLERANCE, TOLERANCE, OnIteration
+from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import PeriodicHeights, periodic_heights
 from gripscale.half_space.grid_sequence import (
@@ -259,7 +259,7 @@ def _solve_sequence(
     while plan:
         level = plan.pop(0)
         try:
-            solved = sequence.solve(level, START_TOLERANCE if plan else TOLERANCE)
+            solved = sequence.solve(level, START_TOLERANCE if plan else CONTACT_TOLERANCE)
         except OutOfTime:
             if not grids:
                 raise ConvergenceError(

@@ -65,7 +65,7 @@ def save(
         return write_whole(path, write)
 
 
-def load(path: str | Path) -> xr.Dataset:
+def load_dataset(path: str | Path) -> xr.Dataset:
     """Read the Dataset `save` wrote at `path` into memory, without its groups.
 
     Raises `FileError` if it does not exist, is not such a file or was damaged since.
@@ -79,7 +79,7 @@ def load(path: str | Path) -> xr.Dataset:
 def load_tree(path: str | Path) -> xr.DataTree:
     """Read the Dataset `save` wrote at `path` with its groups into memory.
 
-    Raises `FileError` as `load` does.
+    Raises `FileError` as `load_dataset` does.
     """
     import xarray as xr
 

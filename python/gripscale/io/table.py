@@ -73,7 +73,7 @@ def change(value: float) -> str:
     return f"{100.0 * value:+.1f} %"
 
 
-def whole(value: float) -> str:
+def whole_number(value: float) -> str:
     """Return a count, with thin spaces between thousands."""
     return f"{round(value):,}".replace(",", "\u202f")
 
@@ -326,7 +326,7 @@ class Table:
                 )
             strong = ' class="strong"' if row in self.strong else ""
             body.append(f"<tr{strong}>{''.join(cells)}</tr>")
-        notes = "".join(f'<p class="note">{with_code(note)}</p>' for note in self.notes)
+        notes = "".join(f'<p class="note">{code_marked(note)}</p>' for note in self.notes)
         return (
             f'<div class="scroll{" narrow" if self.narrow else ""}" tabindex="0" role="region" '
             f'aria-label="{caption}">\n'
@@ -339,7 +339,7 @@ class Table:
         )
 
 
-def with_code(text: str) -> str:
+def code_marked(text: str) -> str:
     """Return a text as HTML; what stands between backticks, such as a command, is code."""
     return re.sub("`([^`]+)`", r"<code>\1</code>", html.escape(text))
 

@@ -29,7 +29,7 @@ ROOMS = [
 
 
 @dataclass(frozen=True)
-class Field:
+class FormField:
     """An option of a command as a field of a form."""
 
     flag: str
@@ -49,7 +49,7 @@ class Form:
     command: str
     title: str
     about: str
-    fields: Sequence[Field] = ()
+    fields: Sequence[FormField] = ()
     others: str = ""
     """What files it needs beside the case, if any."""
 

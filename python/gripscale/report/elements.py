@@ -19,7 +19,7 @@ def with_code(text: str) -> str:
     """Return a text as `table.with_code` does, marked as HTML for a template."""
     from markupsafe import Markup  # of Jinja2, which only pages need
 
-    return Markup(table.with_code(text))
+    return Markup(table.code_marked(text))
 
 
 @dataclass(frozen=True)
@@ -135,11 +135,13 @@ class Page:
         return [e for section in self.sections for e in section.elements if isinstance(e, Chart)]
 
 
-def number(value: object, size: float = 1.0, format: Callable[[float], str] = significant) -> str:
+def number_text(
+    value: object, size: float = 1.0, format: Callable[[float], str] = significant
+) -> str:
     """Return `value` / `size` as a page shows it, a dash where it is missing."""
     return on_page(Column("", [value], size=size, format=format).texts()[0])
 
 
-def percent(value: object) -> str:
+def percent_text(value: object) -> str:
     """Return a ratio in per cent as a page shows it."""
-    return number(value, format=table.percent)
+    return number_text(value, format=table.percent)

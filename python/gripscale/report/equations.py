@@ -106,7 +106,7 @@ _EQUATIONS = [
 
 
 @lru_cache(maxsize=1)
-def equations() -> tuple[Equation, ...]:
+def method_equations() -> tuple[Equation, ...]:
     """Return the equations of the method, in the order of the chain."""
     return tuple(
         Equation(name, latex, *_embedded(picture(name)), words, source)
@@ -127,7 +127,7 @@ def _embedded(svg: str) -> tuple[str, int, int]:
     return base64.b64encode(svg.encode("utf-8")).decode("ascii"), width, height
 
 
-def draw(latex: str) -> str:
+def draw_equations(latex: str) -> str:
     """Return an equation as SVG; its LaTeX stands in it as a comment."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -151,4 +151,4 @@ if __name__ == "__main__":
     folder = Path(__file__).parent / "templates" / "equations"
     folder.mkdir(exist_ok=True)
     for name, latex, *_ in _EQUATIONS:
-        (folder / f"{name}.svg").write_text(draw(latex), encoding="utf-8")
+        (folder / f"{name}.svg").write_text(draw_equations(latex), encoding="utf-8")

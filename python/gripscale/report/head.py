@@ -15,15 +15,15 @@ from gripscale.questions.vary import page_of_answer as study_answer
 from gripscale.questions.vary import page_side_by_side as side_by_side
 from gripscale.questions.vary.page import study_table
 from gripscale.report.elements import Card, Page, Section
-from gripscale.report.source import Source, Study
+from gripscale.report.source import ReportSource, StudySource
 
 DIMENSIONS = {"compounds": ("rubber", "compound"), "roads": ("surface", "road")}
 """What stands side by side, and what a table calls it, by the kind of result."""
 
 
-def with_answer(page: Page, source: Source) -> Page:
+def with_answer(page: Page, source: ReportSource) -> Page:
     """Return the page of a result with its answer in front; of a run or comparison as it is."""
-    if not isinstance(source, Study):
+    if not isinstance(source, StudySource):
         return page
     data = source.data
     if source.kind == "calibration":

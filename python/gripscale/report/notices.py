@@ -19,15 +19,15 @@ from gripscale.io.table import NONE
 from gripscale.questions.answer.findings import LARGE_MISFIT, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards
 from gripscale.questions.answer.reliance import friction_sentence, has_answer, no_answer
-from gripscale.questions.chain.view import CONVERGED, PredictionView
-from gripscale.report.elements import Card, number, percent
+from gripscale.questions.chain.view import CONVERGED_WORD, PredictionView
+from gripscale.report.elements import Card, number_text, percent_text
 from gripscale.report.failures import Failure, chapter_words
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO
 from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
-    from gripscale.report.source import Run
+    from gripscale.report.source import RunSource
 
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",
@@ -127,11 +127,11 @@ def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
             yield Finding(Severity.WARNING, f"{label}: {text}", share, topic=Topic.RUBBER)
 
 
-def notices(run: Run) -> list[Finding]:
+def notices(run: RunSource) -> list[Finding]:
     """Return errors first, then warnings by what they change."""
     of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
     of_friction = friction_notices(friction_doubts(run.measured, run.predictions[0].speed))
-    return ranked([*failures(run), *of_friction, *of_case, *_of_predictions(run)])
+    return ranked([*run_failures(run), *of_friction, *of_case, *_of_predictions(run)])
 
 
 def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
@@ -139,7 +139,7 @@ def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
     yield from (Finding(Severity.DOUBT, text) for text in doubts)
 
 
-def failures(run: Run) -> Iterator[Finding]:
+def run_failures(run: RunSource) -> Iterator[Finding]:
     """Yield what has no numbers in a run: waves and predictions."""
     yield from (
         Finding(Severity.ERROR, text) for view in run.predictions for text in _failures(view)
@@ -155,7 +155,7 @@ def _failures(view: PredictionView) -> Iterator[str]:
         ).rstrip()
     if view.complete or not view.converged.all():
         return
-    if view.status != CONVERGED:
+    if view.status != CONVERGED_WORD:
         advice = _advice(view.status_word)
         yield f"{view.title}: {view.status}. There are no totals. {advice}".rstrip()
     else:
@@ -173,7 +173,7 @@ def _advice(word: str) -> str:
     return f"{status.advice} See {chapter_words(status.chapter)}."
 
 
-def _of_predictions(run: Run) -> Iterator[Finding]:
+def _of_predictions(run: RunSource) -> Iterator[Finding]:
     """Yield warnings about the waves, and about where the results come from."""
     answered = run.direct is not None and has_answer(run.direct)
     if run.direct is not None and not no_answer(run.direct):
@@ -227,7 +227,7 @@ def _compressible(view: PredictionView, bulk: float) -> Iterator[Finding]:
     low = np.nan_to_num(ratio, nan=0.5) < LEAST_POISSON_RATIO
     if low.any():
         words = (
-            f"Poisson's ratio is down to {number(ratio[low].min())}, less than "
+            f"Poisson's ratio is down to {number_text(ratio[low].min())}, less than "
             f"{LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli"
         )
         yield Finding(Severity.WARNING, f"{_named_waves(low)}: {words}.", topic=Topic.RUBBER)
@@ -237,13 +237,13 @@ def _mismatch(view: PredictionView) -> Iterator[Finding]:
     if not view.moving:
         return
     mismatch = np.nan_to_num(view.usable("friction_mismatch"))
-    worst = percent(mismatch.max(initial=0.0))
+    worst = percent_text(mismatch.max(initial=0.0))
     words = f"the two frictions are up to {worst} apart; take a finer mesh"
     large = mismatch > LARGE_MISMATCH
     yield from _of_waves(view, large, words, mismatch, Topic.SOLUTION)
 
 
-def cards(run: Run) -> list[Card]:
+def run_cards(run: RunSource) -> list[Card]:
     """Return the answer of the measured surface, then the totals of each prediction."""
     made = [] if run.direct is None else list(answer_cards(run.direct))
     if not made:
@@ -256,11 +256,11 @@ def _chain_cards(view: PredictionView) -> Iterator[Card]:
     if not view.complete:
         yield from _cards(view)
         return
-    area = number(view.total("contact_fraction"))
+    area = number_text(view.total("contact_fraction"))
     if not view.moving:
         yield Card("Chain of waves, A_r/A_0", area, view.title)
         return
-    friction = number(view.total("friction"))
+    friction = number_text(view.total("friction"))
     yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
 
 
@@ -269,20 +269,20 @@ def _cards(view: PredictionView) -> Iterator[Card]:
         yield Card("No totals", "not converged", view.title, bad=True)
         return
     waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
-    area = number(view.total("contact_fraction"))
+    area = number_text(view.total("contact_fraction"))
     yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
     if not view.moving:
         return
-    lost = number(view.total("friction_from_dissipation"))
-    friction = number(view.total("friction"))
+    lost = number_text(view.total("friction_from_dissipation"))
+    friction = number_text(view.total("friction"))
     yield Card("Friction coefficient μ", friction, f"{view.title}; {lost} from energy lost")
     both = model.with_adhesive(view.data)
     if both is not None:
-        yield Card("With the area term, μ", number(float(both)), f"{view.title}; as stated")
+        yield Card("With the area term, μ", number_text(float(both)), f"{view.title}; as stated")
     if not view.has("friction_mismatch"):
         return
     mismatch = view.usable("friction_mismatch")
-    largest = percent(np.nanmax(mismatch)) if np.isfinite(mismatch).any() else NONE
+    largest = percent_text(np.nanmax(mismatch)) if np.isfinite(mismatch).any() else NONE
     bad = bool(np.nanmax(mismatch, initial=0.0) > LARGE_MISMATCH)
     yield Card("Largest mismatch of μ", largest, "traction against energy lost", bad=bad)
 

@@ -47,9 +47,9 @@ from gripscale.questions.vary.charts_side_by_side import compound_pictures, road
 from gripscale.report import notices
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section, Text
-from gripscale.report.equations import equations
+from gripscale.report.equations import method_equations
 from gripscale.report.failures import Failure, explained
-from gripscale.report.source import Compared, Run, Source, Study
+from gripscale.report.source import Compared, ReportSource, RunSource, StudySource
 from gripscale.surface import SineStack
 
 METHOD = (
@@ -104,9 +104,9 @@ NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
 
 
-def page_of(source: Source) -> Page:
+def page_of(source: ReportSource) -> Page:
     """Return the page of a result."""
-    if isinstance(source, Run):
+    if isinstance(source, RunSource):
         return run_page(source)
     if isinstance(source, Compared):
         return comparison_page(source)
@@ -137,7 +137,7 @@ def _page(
     return Page(title, subtitle, ranked(heads), list(numbers), chapters, lines)
 
 
-def run_page(run: Run) -> Page:
+def run_page(run: RunSource) -> Page:
     """Return the report of `run`."""
     case = case_name(run.attrs)
     tables = {table.name: table for table in wave_tables(run.by_wave)}
@@ -153,7 +153,7 @@ def run_page(run: Run) -> Page:
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
         [*notices.notices(run), *([_OF_ANOTHER] if stale else [])],
-        [*notices.cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
+        [*notices.run_cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
             Section(
                 "contact",
@@ -162,9 +162,9 @@ def run_page(run: Run) -> Page:
             ),
             Section("inputs", "Inputs and their origin", origin),
             Section(
-                "surface", "Surface", [] if waves is None else surface_elements(run.record, waves)
+                "surface", "Surface", [] if waves is None else surface_section(run.record, waves)
             ),
-            Section("rubber", "Rubber", rubber_elements(run.record, moving)),
+            Section("rubber", "Rubber", rubber_section(run.record, moving)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
             Section("cut-off", "Against the cut-off", cut_off.cut_off_elements(run.cut_off)),
@@ -191,7 +191,7 @@ def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
     return [Text(_PICTURE), first, *comparison.slopes_table(direct), *others]
 
 
-def surface_elements(record: InputRecord, waves: SineStack | None = None) -> list[Element]:
+def surface_section(record: InputRecord, waves: SineStack | None = None) -> list[Element]:
     """Return cleaning, profiles, texture and correlation of a surface, and its sine waves."""
     if record.is_empty:
         return []
@@ -211,13 +211,13 @@ def surface_elements(record: InputRecord, waves: SineStack | None = None) -> lis
     return [*elements, inputs.waves_table(waves.wavelength, waves.amplitude)]
 
 
-def _waves(run: Run) -> SineStack | None:
+def _waves(run: RunSource) -> SineStack | None:
     if "sines_wavelength" not in run.data:
         return None
     return SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
 
 
-def rubber_elements(record: InputRecord, moving: PredictionView | None = None) -> list[Element]:
+def rubber_section(record: InputRecord, moving: PredictionView | None = None) -> list[Element]:
     """Return facts, moduli with their fit and Prony series of a rubber.
 
     `moving` is a prediction of the chain in motion, whose waves are marked.
@@ -230,7 +230,7 @@ def rubber_elements(record: InputRecord, moving: PredictionView | None = None) -
     return [*elements, inputs.prony_table(times, moduli)] if np.size(times) else elements
 
 
-def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
+def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:
     sentences = [(view.title, notices.exponent_sentence(view.data)) for view in run.predictions]
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
     below += judgement_elements(run)
@@ -244,7 +244,7 @@ def _results(run: Run, tables: dict[str, Table]) -> list[Element]:
     return [*elements, *below, *contact_charts(run.by_wave, run.direct)]
 
 
-def _measured(run: Run) -> list[Element]:
+def _measured(run: RunSource) -> list[Element]:
     """Return the measured friction that the case names, with the predictions."""
     sliding = [view for view in run.predictions if view.moving and view.complete]
     if run.measured is None or not sliding:
@@ -255,7 +255,7 @@ def _measured(run: Run) -> list[Element]:
     return [measured_chart(run.measured, [*sliding, *direct]), *map(Text, lines)]
 
 
-def judgement_elements(run: Run) -> list[Element]:
+def judgement_elements(run: RunSource) -> list[Element]:
     """Return the direct contact of the profiles, and the first prediction against it."""
     if run.direct is None:
         return []
@@ -267,7 +267,7 @@ def effects_elements(results: list[xr.Dataset]) -> list[Element]:
     return [Text(_EFFECTS), side_by_side.effects_table(*results)] if results else []
 
 
-def _comparison(run: Run) -> list[Element]:
+def _comparison(run: RunSource) -> list[Element]:
     """Return the comparison of just this case; another's is named and left out."""
     same = run.compared.of(run.attrs.get("case"))
     stale = len(same.parts) < len(run.compared.parts)
@@ -277,10 +277,10 @@ def _comparison(run: Run) -> list[Element]:
     return [*heads, *(Text(line.strip()) for line in lines), *comparison_elements(same)]
 
 
-def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
+def _verification(run: RunSource, tables: dict[str, Table]) -> list[Element]:
     if not run.by_wave:
         return []
-    errors: list[Element] = list(notices.failures(run))
+    errors: list[Element] = list(notices.run_failures(run))
     names = ("errors", "solution", "mesh")
     return [
         *(errors or [Finding(Severity.GOOD, "Every wave converged.")]),
@@ -292,10 +292,10 @@ def _verification(run: Run, tables: dict[str, Table]) -> list[Element]:
 
 def method_section() -> Section:
     """Return the equations with their sources."""
-    return Section("method", "Method", [Text(METHOD), *equations()])
+    return Section("method", "Method", [Text(METHOD), *method_equations()])
 
 
-def study_page(source: Study) -> Page:
+def study_page(source: StudySource) -> Page:
     """Return the report of a study."""
     data = source.data
     collapsed = [(f"{words} over a_T v", text) for words, text in study.collapse_sentences(data)]
@@ -315,7 +315,7 @@ def study_page(source: Study) -> Page:
     )
 
 
-def _study_sections(source: Study) -> list[Section]:
+def _study_sections(source: StudySource) -> list[Section]:
     """Return the chapters on inputs, totals and curves."""
     totals = study.totals_table(source.data)
     return [
@@ -326,7 +326,7 @@ def _study_sections(source: Study) -> list[Section]:
 
 
 def _study_notices(data: xr.Dataset) -> list[Finding]:
-    failed = list(study.failures(data))
+    failed = list(study.study_failures(data))
     heads = _errors(failed[:NAMED_FAILURES])
     if len(failed) > NAMED_FAILURES:
         rest = len(failed) - NAMED_FAILURES
@@ -350,8 +350,8 @@ def _errors(failed: Iterable[Failure]) -> list[Finding]:
     return [Finding(Severity.ERROR, explained(each)) for each in failed]
 
 
-def _study_cards(source: Study) -> list[Card]:
-    failed = len(list(study.failures(source.data)))
+def _study_cards(source: StudySource) -> list[Card]:
+    failed = len(list(study.study_failures(source.data)))
     count = math.prod(source.data.sizes[name] for name in source.axes)
     axes = " × ".join(words_of(source.data, axis) for axis in source.axes)
     return [
@@ -398,7 +398,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
         return []
     elements: list[Element] = [Text(_LADDER)]
     for data in compared.parts:
-        for where, failure in comparison.failures(data):
+        for where, failure in comparison.comparison_failures(data):
             placed = replace(failure, sentence=f"{where}: {failure}")
             level = "warning" if bool(data.best_friction.notnull().all()) else "error"
             text = f"{explained(placed)}."
@@ -418,7 +418,7 @@ def comparison_elements(compared: Compared) -> list[Element]:
     return elements
 
 
-def roads_page(source: Study) -> Page:
+def roads_page(source: StudySource) -> Page:
     """Return the report of roads side by side."""
     data = source.data
     statistics, friction = map(image, road_pictures(data))
@@ -443,7 +443,7 @@ def roads_page(source: Study) -> Page:
     )
 
 
-def compounds_page(source: Study) -> Page:
+def compounds_page(source: StudySource) -> Page:
     """Return the report of compounds side by side: differences, then what a study has."""
     data = source.data
     names = [str(name) for name in data.rubber.values]
@@ -466,10 +466,10 @@ def compounds_page(source: Study) -> Page:
     )
 
 
-def calibration_page(source: Study) -> Page:
+def calibration_page(source: StudySource) -> Page:
     """Return the report of a calibration."""
     data = source.data
-    case, failed = case_name(data.attrs), calibration.failures(data)
+    case, failed = case_name(data.attrs), calibration.calibration_failure(data)
     tables, facts = (
         uncertainty.as_elements(calibration.calibration_parts(data)),
         calibration.law_facts(data),
@@ -492,16 +492,19 @@ def calibration_page(source: Study) -> Page:
     )
 
 
-def sensitivity_page(source: Study) -> Page:
+def sensitivity_page(source: StudySource) -> Page:
     """Return the report of what decides the friction."""
     data = source.data
-    lead, *below = sensitivity.answer_lines(data)
+    lead, *below = sensitivity.sensitivity_lines(data)
     parts = [*below, *sensitivity.sensitivity_parts(data)]
     return _page(
         f"What decides the friction of {case_name(data.attrs) or 'a case'}",
         str(lead),
-        [*_errors(sensitivity.failures(data)), *findings.case_notices(None, source.record)],
-        sensitivity.cards(data),
+        [
+            *_errors(sensitivity.sensitivity_failures(data)),
+            *findings.case_notices(None, source.record),
+        ],
+        sensitivity.sensitivity_cards(data),
         [
             Section("effects", "What the friction depends on", uncertainty.as_elements(parts)),
             Section(
@@ -513,11 +516,11 @@ def sensitivity_page(source: Study) -> Page:
     )
 
 
-def design_page(source: Study) -> Page:
+def design_page(source: StudySource) -> Page:
     """Return the report of a compound that was designed."""
     data, case = source.data, case_name(source.data.attrs)
     answer_line, *basis = design.design_lines(data)
-    tables = [design.design_table(data), design.compounds_table(data)]
+    tables = [design.design_table(data), design.designed_compounds_table(data)]
     page = _page(
         f"Compound for {case or 'a case'}",
         answer_line,

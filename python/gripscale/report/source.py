@@ -9,11 +9,10 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.case_file.folder import CASE
 from gripscale.core.errors import FileError
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.io import netcdf
-from gripscale.questions.answer.answer import FILE as DIRECT
+from gripscale.questions.answer.answer import ANSWER_FILE as DIRECT
 from gripscale.questions.answer.best_estimate import with_best_estimate
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import varied
@@ -73,7 +72,7 @@ class Compared:
 
 
 @dataclass(frozen=True)
-class Run:
+class RunSource:
     """The predictions of one run, the record of its inputs and comparisons; both may be missing."""
 
     predictions: list[PredictionView]
@@ -121,7 +120,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Study:
+class StudySource:
     """The Dataset of many predictions.
 
     `kind` is study, compounds (a study over rubbers, with the differences to the first), roads,
@@ -140,10 +139,10 @@ class Study:
         return dimensions(self.data)
 
 
-Source = Run | Study | Compared | Result
+ReportSource = RunSource | StudySource | Compared | Result
 
 
-def read_result(path: Path) -> Source:
+def read_result(path: Path) -> ReportSource:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
@@ -176,10 +175,10 @@ def read_result(path: Path) -> Source:
     if not kind:
         return _run({path.stem: tree})
     data = with_best_estimate(tree.to_dataset())
-    return Study(kind, path.stem, data, InputRecord.of_tree(tree))
+    return StudySource(kind, path.stem, data, InputRecord.of_tree(tree))
 
 
-def _read_folder(folder: Path) -> Source:
+def _read_folder(folder: Path) -> ReportSource:
     paths = [folder / f"{name}.nc" for name in _PREDICTIONS]
     trees = {path.stem: _checked(path) for path in paths if path.is_file()}
     if trees:
@@ -195,7 +194,7 @@ def _read_folder(folder: Path) -> Source:
             uncertainty=stored_uncertainty(folder),
             direct=direct if direct is not None and direct.attrs.get("case") == case else None,
             cut_off=curve if curve is not None and curve.attrs.get("case") == case else None,
-            measured=_measured(folder / CASE),
+            measured=_measured(folder),
         )
     compared = replace(_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
     if compared.parts:
@@ -211,8 +210,12 @@ def _read_folder(folder: Path) -> Source:
     return read_result(others[0])
 
 
-def _measured(case: Path) -> MeasuredFriction | None:
-    """Read the measured friction that a saved case names; none without one."""
+def _measured(folder: Path) -> MeasuredFriction | None:
+    """Read the measured friction that the saved case names; none without one."""
+    # to import what reads a case takes longer than to read all results
+    from gripscale.case_file.folder import SAVED_CASE
+
+    case = folder / SAVED_CASE
     if not case.is_file():
         return None
     try:
@@ -221,7 +224,6 @@ def _measured(case: Path) -> MeasuredFriction | None:
         raise FileError(f"case file {case} is not valid TOML: {error}") from error
     if "measured" not in tables:
         return None
-    # to import what reads a case takes longer than to read all results
     from gripscale.case_file.prepare import stated_friction
     from gripscale.case_file.read import read_case_file
 
@@ -234,9 +236,9 @@ def _comparisons(folder: Path) -> Compared:
     return Compared.holding([_checked(path).to_dataset() for path in paths if path.is_file()])
 
 
-def _run(trees: dict[str, xr.DataTree]) -> Run:
+def _run(trees: dict[str, xr.DataTree]) -> RunSource:
     views = [PredictionView(tree.to_dataset(), name) for name, tree in trees.items()]
-    return Run(views, InputRecord.of_tree(next(iter(trees.values()))).data)
+    return RunSource(views, InputRecord.of_tree(next(iter(trees.values()))).data)
 
 
 def _checked(path: Path) -> xr.DataTree:

@@ -21,7 +21,7 @@ from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
-FILE = "summary.xlsx"
+SUMMARY_FILE = "summary.xlsx"
 ROWS = (STATUS, "status", "gain")
 """Numbers of which a result has a row for each value: the first that is in it counts."""
 OF_MODELS = ("rung", "model")
@@ -50,7 +50,7 @@ def write_summary(results: Sequence[xr.Dataset], folder: Path) -> Path | None:
     """
     if not results:
         return None
-    return write_workbook([summary_table(results)], folder / FILE)
+    return write_workbook([summary_table(results)], folder / SUMMARY_FILE)
 
 
 def summary_table(results: Sequence[xr.Dataset]) -> Table:

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
+from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.io.text_table import (
     ColumnTitle,
     Line,
@@ -153,7 +153,7 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
                 missing="temperature_unit",
             )
         degrees = float(value.replace(",", "."))
-        return float(in_si(degrees, chosen, "temperature", "temperature_unit"))
+        return float(quantity_in_si(degrees, chosen, "temperature", "temperature_unit"))
     return None
 
 

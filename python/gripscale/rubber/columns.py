@@ -37,7 +37,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import in_si, listed, spelled
+from gripscale.core.units import listed, quantity_in_si, spelled
 from gripscale.io.text_table import (
     TextTable,
 )
@@ -79,7 +79,7 @@ _STATED = re.compile(
 
 def quantity(name: str) -> str | None:
     """Return the quantity a column `name` clearly means, else None."""
-    text = _SHIFTED.sub("", plain(name))
+    text = _SHIFTED.sub("", plain_title(name))
     if logarithm := _RAISED.fullmatch(text):
         return quantity(logarithm[2])
     if _PHASE.fullmatch(text):
@@ -96,7 +96,7 @@ def quantity(name: str) -> str | None:
 
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
-    text = plain(name)
+    text = plain_title(name)
     kinds = set()
     for kind, words in (("E", "young|tensile"), ("G", "shear|schub")):
         letter = re.search(rf"(?<![A-Za-z]){kind}(?![A-Za-z])", text.replace("_", " "))
@@ -105,7 +105,7 @@ def modulus_kind(name: str) -> str | None:
     return kinds.pop() if len(kinds) == 1 else None
 
 
-def plain(name: str) -> str:
+def plain_title(name: str) -> str:
     """Return the name with one kind of prime, so that E'' can be told from E'."""
     return name.strip().translate(_PRIMES)
 
@@ -182,7 +182,7 @@ _Columns = Mapping[str, str | int] | Sequence[str | int]
 
 def unit_name(name: str, value: object) -> str:
     """Return a unit; raise `InputError` unless it is one of the kind `name` says: `strain_unit`."""
-    in_si(1.0, value, name.removesuffix("_unit"), name)  # type: ignore[arg-type]
+    quantity_in_si(1.0, value, name.removesuffix("_unit"), name)  # type: ignore[arg-type]
     return str(value)
 
 
@@ -286,7 +286,7 @@ class FileLayout(Checked):
         """Return a column in SI units, of a quantity that must be there; as `young_moduli`."""
         column = self.needed_column(table, wanted)
         values = (numbers or above_zero)(table, column, wanted)
-        return np.asarray(in_si(values, self.unit(table, column, wanted), wanted))
+        return np.asarray(quantity_in_si(values, self.unit(table, column, wanted), wanted))
 
     def unit(self, table: TextTable, column: int, kind: str) -> str:
         """Return the unit of a column; raise `InputError` if nothing states it."""
@@ -363,7 +363,7 @@ def young_moduli(
     units = {name: layout.unit(table, at[name], "modulus") for name in moduli}
     size = 3.0 if layout.modulus_of(table, [at[name] for name in moduli]) == "G" else 1.0
     values = {
-        name: size * in_si(read(table, at[name], name), unit, "modulus")
+        name: size * quantity_in_si(read(table, at[name], name), unit, "modulus")
         for name, unit in units.items()
     }
     if pair == ("storage", "loss"):
@@ -391,14 +391,14 @@ def _loss_factor(table: TextTable, column: int, name: str, read: ReadColumn) -> 
             f"{table.path}: the title of a phase angle must state its unit ({listed('angle')}), "
             f"such as {title.name or 'delta'} (deg); got {title.unit or 'none'}"
         )
-    angle = np.asarray(in_si(values, str(title.unit), "angle"))
+    angle = np.asarray(quantity_in_si(values, str(title.unit), "angle"))
     check_rows(table, column, angle < 0.5 * math.pi, values, "a phase angle below 90 degrees")
     return np.tan(angle)
 
 
 def _ratio_unit(table: TextTable, column: int) -> float:
     """Return the size of the unit of a loss factor: that of %, or 1."""
-    return in_si(1.0, spelled(table.columns[column].unit, "strain") or "1", "strain")
+    return quantity_in_si(1.0, spelled(table.columns[column].unit, "strain") or "1", "strain")
 
 
 def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:

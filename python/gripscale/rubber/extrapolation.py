@@ -54,7 +54,7 @@ class Extrapolation:
 
 UNKNOWN = Extrapolation(math.nan, math.nan, math.nan)
 """Of a rubber without a measured band, or a model that does not tell."""
-NONE = Extrapolation(0.0, 0.0, 0.0)
+NOTHING_BEYOND = Extrapolation(0.0, 0.0, 0.0)
 """At rest, where nothing is excited."""
 
 
@@ -98,7 +98,7 @@ def by_wavelength(
     frequency 2 pi speed/wavelength.
     """
     if speed == 0.0:
-        return NONE
+        return NOTHING_BEYOND
     parts = np.diff(running_friction, prepend=0.0)
     longer = np.append(wavelength[0], wavelength[:-1])
     return of_spectrum(rubber, 2.0 * np.pi * speed / np.sqrt(longer * wavelength), parts)

@@ -38,7 +38,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import in_si
+from gripscale.core.units import quantity_in_si
 from gripscale.io.text_table import file_path, read_sheets
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES
@@ -107,7 +107,7 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
     InputError
         If the unit is unknown.
     """
-    pascal = in_si(1.0, stress_unit, "modulus", "stress_unit")
+    pascal = quantity_in_si(1.0, stress_unit, "modulus", "stress_unit")
     path = file_path(path)
     rows = next(iter(read_sheets(path).values()))
     try:

@@ -98,7 +98,7 @@ def smooth(
     return best
 
 
-MODULI = {
+SHIFTED_MODULI = {
     "both": ("storage", "loss"),
     "storage": ("storage",),
     "loss": ("loss",),
@@ -131,9 +131,9 @@ class Rows:
         return self.x[chosen], self.y[:, chosen]
 
 
-def rows_of(sweeps: Sweeps, moduli: str) -> Rows:
-    """Return the rows of `sweeps`, for the choice of `moduli` among `MODULI`."""
-    names = MODULI[moduli]
+def sweep_rows(sweeps: Sweeps, moduli: str) -> Rows:
+    """Return the rows of `sweeps`, for the choice of `moduli` among `SHIFTED_MODULI`."""
+    names = SHIFTED_MODULI[moduli]
     x = np.log10(sweeps.frequency)
     y = np.array([np.log10(getattr(sweeps, name)) for name in names])
     counts = [len(sweep) for sweep in sweeps]

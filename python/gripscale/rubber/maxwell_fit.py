@@ -137,7 +137,7 @@ def relaxation_times(omega: Array, terms: int, beyond: float) -> Array:
 
 def fit_spectrum(curve: Curve, times: Array, prior: Prior) -> Spectrum:
     """Return the best non-negative moduli on the given `times` [s]."""
-    problem = equations(curve, times, prior)
+    problem = fit_equations(curve, times, prior)
     return problem.spectrum(non_negative(problem.matrix, problem.right))
 
 
@@ -149,7 +149,7 @@ def non_negative(matrix: Array, right: Array) -> Array:
     return np.asarray(solution)
 
 
-def equations(curve: Curve, times: Array, prior: Prior) -> Equations:
+def fit_equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     """Return the least-squares problem of a fit to `curve` on the given `times` [s]."""
     floor, unit = _LEAST_EQUILIBRIUM * float(curve.storage.min()), float(curve.storage.min())
     scale = np.minimum(_expected_modulus(curve, -np.log(times)), prior.largest_modulus)
@@ -281,7 +281,7 @@ class Screening:
         return max(self.storage_scatter, LEAST_SCATTER), max(self.loss_scatter, LEAST_SCATTER)
 
 
-def screen(curve: Curve, fit: Callable[[Mask], Spectrum], threshold: float) -> Screening:
+def screen_outliers(curve: Curve, fit: Callable[[Mask], Spectrum], threshold: float) -> Screening:
     """Return which rows belong to `curve`; `fit` is the Maxwell fit to a choice of rows."""
     kept = np.ones(len(curve.omega), dtype=bool)
     position = np.log(curve.omega)

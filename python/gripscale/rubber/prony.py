@@ -39,7 +39,7 @@ from gripscale.rubber.material import (
 )
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
 from gripscale.rubber.misread import likely_reading, moduli_doubts
-from gripscale.rubber.prony_report import PronyFit, report, rms, swapped_moduli
+from gripscale.rubber.prony_report import PronyFit, report_prony, root_mean_square, swapped_moduli
 
 _RISE = 9.0
 """Allowed rise of the sum of squares in units of the scatter."""
@@ -113,7 +113,7 @@ def open_equations(
     terms = min(max(2, round(_PER_DECADE * decades) + 1), _MOST_TERMS)
     times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
     weights = largest_modulus, 1.0 / scatter[0], 1.0 / scatter[1]
-    return maxwell_fit.equations(
+    return maxwell_fit.fit_equations(
         curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, *weights)
     )
 
@@ -159,7 +159,7 @@ _FEWEST_ROWS = 4
 _SMOOTHING = 0.1
 _SHRINKAGE = 10.0
 """Weight of slow relaxations beyond the data over that of the smoothing."""
-BEYOND, _MOST_DECADES = 2.0, 20.0
+DECADES_BEYOND, _MOST_DECADES = 2.0, 20.0
 _MOST_WEIGHT = 1e6
 _GLASS = 1.38
 """Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
@@ -175,7 +175,7 @@ def fit_prony(
     terms: int | None = None,
     bulk_modulus: float = BULK_MODULUS,
     outlier_threshold: float = 8.0,
-    extrapolate_decades: float = BEYOND,
+    extrapolate_decades: float = DECADES_BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> Rubber:
@@ -232,7 +232,7 @@ def fit_prony_report(
     terms: int | None = None,
     bulk_modulus: float = BULK_MODULUS,
     outlier_threshold: float = 8.0,
-    extrapolate_decades: float = BEYOND,
+    extrapolate_decades: float = DECADES_BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
 ) -> tuple[Rubber, PronyFit]:
@@ -260,7 +260,7 @@ def fit_prony_report(
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
     plain = Prior(_SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
     coarse = max(4, min(round(2.0 * master.decades), 60))
-    screening = maxwell_fit.screen(
+    screening = maxwell_fit.screen_outliers(
         curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold
     )
     kept, rows = screening.kept, curve.rows(screening.kept)
@@ -280,7 +280,7 @@ def fit_prony_report(
     spectrum = fit(kept, terms)
     # The scatter about the fit: what any series has to live with.
     storage_scatter, loss_scatter = (
-        max(least, rms(ratio - 1.0))
+        max(least, root_mean_square(ratio - 1.0))
         for least, ratio in zip(screening.believed_scatter, spectrum.ratios(rows), strict=True)
     )
     present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
@@ -296,7 +296,7 @@ def fit_prony_report(
         reference_temperature=master.reference_temperature,
         shift=master.shift,
     )
-    fit_report = report(master, rows, screening, candidates, rubber)
+    fit_report = report_prony(master, rows, screening, candidates, rubber)
     doubts = tuple(moduli_doubts(master, swapped, screening.storage_scatter))
     if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))

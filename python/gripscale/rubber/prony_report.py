@@ -157,7 +157,7 @@ def misfit(curve: Curve) -> float:
     times = relaxation_times(curve.omega, terms, _BEYOND)
     spectrum = fit_spectrum(curve, times, Prior(0.0, 0.0, limit))
     with np.errstate(divide="ignore"):
-        return rms(np.clip(np.log(spectrum.ratios(curve)), -_WORST, _WORST))
+        return root_mean_square(np.clip(np.log(spectrum.ratios(curve)), -_WORST, _WORST))
 
 
 def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterator[str]:
@@ -271,7 +271,7 @@ class PronyFit:
         return "\n".join([*lines, *self.doubts, *(self.findings if findings else ())])
 
 
-def report(
+def report_prony(
     master: MasterCurve,
     rows: Curve,
     screening: Screening,
@@ -294,9 +294,9 @@ def report(
         outlier_frequency=master.frequency[left_out],
         outlier_storage_deviation=screening.storage_deviation[left_out],
         outlier_loss_deviation=screening.loss_deviation[left_out],
-        rms_storage=rms(errors[0]),
-        rms_loss=rms(errors[1]),
-        rms_loss_factor=rms(loss_factor_error),
+        rms_storage=root_mean_square(errors[0]),
+        rms_loss=root_mean_square(errors[1]),
+        rms_loss_factor=root_mean_square(loss_factor_error),
         mean_loss_factor_error=float(loss_factor_error.mean()),
         storage_scatter=screening.storage_scatter,
         loss_scatter=screening.loss_scatter,
@@ -308,6 +308,6 @@ def report(
     )
 
 
-def rms(values: Array) -> float:
+def root_mean_square(values: Array) -> float:
     """Return the root mean square."""
     return float(np.sqrt(np.mean(values**2)))

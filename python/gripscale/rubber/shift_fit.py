@@ -29,7 +29,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import ZERO_CELSIUS, in_si, listed, spelled
+from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import file_path, read_table, read_text
 from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
@@ -295,7 +295,7 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
             f"header states {'none' if unit is None else repr(unit)}",
             missing="temperature_unit",
         )
-    kelvin = in_si(columns["temperature"], unit, "temperature")
+    kelvin = quantity_in_si(columns["temperature"], unit, "temperature")
     vertical = columns.get("log_b")
     if vertical is None and "b" in columns:
         if not (columns["b"] > 0.0).all():
@@ -304,7 +304,7 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
     reference = None
     if match := _REFERENCE.search(read_text(file)):
         try:
-            reference = float(in_si(float(match[2]), match[1], "temperature"))
+            reference = float(quantity_in_si(float(match[2]), match[1], "temperature"))
         except ValueError as error:
             raise FileError(
                 f"{file}: expected a number as reference temperature; got {match[2]}"

@@ -24,7 +24,7 @@ from gripscale.rubber.columns import (
     FileLayout,
     young_moduli,
 )
-from gripscale.rubber.sweeps import TOLERANCE, row_temperatures
+from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, row_temperatures
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
 """What an amplitude may be, and what makes it a single one."""
@@ -144,7 +144,7 @@ def read_strain_sweep(
     if temperature is None and (blocks[0].temperature is not None or column is not None):
         kelvin = row_temperatures(blocks[0], layout, None)
         kelvin = kelvin[np.isfinite(kelvin)]
-        if kelvin.size and np.ptp(kelvin) > 2.0 * TOLERANCE:
+        if kelvin.size and np.ptp(kelvin) > 2.0 * TEMPERATURE_TOLERANCE:
             raise FileError(
                 f"{file}: expected one temperature; got {kelvin.min():.2f} to {kelvin.max():.2f} K"
             )

@@ -24,7 +24,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.rubber.joint_shift import MODULI, Joint, Rows, align, rows_of
+from gripscale.rubber.joint_shift import SHIFTED_MODULI, Joint, Rows, align, sweep_rows
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.sweeps import Sweeps
@@ -168,7 +168,7 @@ class Superposition:
         return "\n".join([*lines, *self.findings])
 
 
-def report(
+def report_superposition(
     sweeps: Sweeps, shift: Shift, reference: float, joint: dict[str, float]
 ) -> Superposition:
     """Return how the sweeps meet under a shift to a reference temperature [K].
@@ -308,7 +308,7 @@ def superpose_report(
     checks.instance("sweeps", sweeps, Sweeps)
     reference = checks.positive("reference_temperature", reference_temperature, unit="K")
     lifted = checks.flag("vertical", vertical)
-    checks.one_of("moduli", moduli, MODULI)
+    checks.one_of("moduli", moduli, SHIFTED_MODULI)
     scatter: dict[str, float] = {}
     if shift is None:
         shift, scatter = _fitted_shift(sweeps, reference, lifted, moduli)
@@ -329,7 +329,7 @@ def superpose_report(
         source=sweeps.source,
         shift=shift,
     )
-    return master, report(sweeps, shift, reference, scatter)
+    return master, report_superposition(sweeps, shift, reference, scatter)
 
 
 def _fitted_shift(
@@ -348,7 +348,7 @@ def _fitted_shift(
         )
     if len(kelvin) == 1:
         return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}
-    both = rows_of(sweeps, "both")
+    both = sweep_rows(sweeps, "both")
     pairs = pairwise([both.of(sweep) for sweep in range(both.sweeps)])
     for colder, ((x, cold), (next_x, warm)) in enumerate(pairs):
         # E' of neighbours, their first modulus, must have a value in common.
@@ -360,10 +360,10 @@ def _fitted_shift(
                 f"at {low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side "
                 "alone"
             )
-    rows = rows_of(sweeps, moduli)
-    first = "storage" if "storage" in MODULI[moduli] and not lifted else moduli
-    joint = align(rows, *start(rows_of(sweeps, first), lifted), lifted)
-    scatter = dict(zip(MODULI[moduli], joint.scatter.tolist(), strict=True))
+    rows = sweep_rows(sweeps, moduli)
+    first = "storage" if "storage" in SHIFTED_MODULI[moduli] and not lifted else moduli
+    joint = align(rows, *start(sweep_rows(sweeps, first), lifted), lifted)
+    scatter = dict(zip(SHIFTED_MODULI[moduli], joint.scatter.tolist(), strict=True))
     return _table(kelvin, reference, joint, lifted), scatter
 
 

@@ -22,7 +22,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.core.units import ZERO_CELSIUS, in_si
+from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks
 from gripscale.rubber.columns import (
@@ -34,7 +34,7 @@ from gripscale.rubber.columns import (
 )
 from gripscale.rubber.shift import WLF
 
-TOLERANCE = 1.0
+TEMPERATURE_TOLERANCE = 1.0
 """Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
 _WIDEST = 3.0
 """Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
@@ -88,7 +88,7 @@ class Sweeps(Checked, eq=False):
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    tolerance: float = checked(checks.not_negative, unit="K", default=TOLERANCE)
+    tolerance: float = checked(checks.not_negative, unit="K", default=TEMPERATURE_TOLERANCE)
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
 
@@ -144,7 +144,7 @@ class Sweeps(Checked, eq=False):
     def is_ramp(self) -> bool:
         """Whether one frequency was measured while the temperature ran."""
         span = float(np.ptp(self.temperature))
-        return is_single_frequency(self.frequency) and span > _WIDEST * TOLERANCE
+        return is_single_frequency(self.frequency) and span > _WIDEST * TEMPERATURE_TOLERANCE
 
     @property
     def temperatures(self) -> Array:
@@ -227,7 +227,7 @@ def _repeats(block: Block, layout: FileLayout) -> bool:
         table.numbers(at, "a number", missing=True) for at in columns if at is not None
     )
     degrees = degrees[np.isfinite(degrees)]
-    if not degrees.size or np.ptp(degrees) <= 2.0 * TOLERANCE:
+    if not degrees.size or np.ptp(degrees) <= 2.0 * TEMPERATURE_TOLERANCE:
         return False
     return len(np.unique(hertz)) <= len(hertz) // 2 or is_single_frequency(hertz)
 
@@ -317,7 +317,7 @@ def read_sweeps(
     path: str | Path | Sequence[str | Path],
     *,
     temperature: float | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float = TEMPERATURE_TOLERANCE,
     temperature_step: float | None = None,
     name: str | None = None,
     source: str = "",
@@ -397,7 +397,7 @@ def named_temperature(path: Path) -> float | None:
     if len(temperatures) != 1:
         return None
     ((number, unit),) = temperatures
-    return float(in_si(float(number.replace(",", ".")), unit, "temperature"))
+    return float(quantity_in_si(float(number.replace(",", ".")), unit, "temperature"))
 
 
 def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
@@ -439,6 +439,6 @@ def row_temperatures(block: Block, layout: FileLayout, temperature: float | None
         )
     degrees = table.numbers(column, "a temperature", missing=True)
     unit = layout.unit(table, column, "temperature")
-    kelvin = np.asarray(in_si(degrees, unit, "temperature"))
+    kelvin = np.asarray(quantity_in_si(degrees, unit, "temperature"))
     check_rows(table, column, kelvin > 0.0, kelvin, "a temperature above absolute zero")
     return kelvin

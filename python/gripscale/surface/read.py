@@ -20,7 +20,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
-from gripscale.core.units import in_si
+from gripscale.core.units import quantity_in_si
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import (
@@ -123,13 +123,13 @@ def read_instrument_file(
     z_unit = length_unit(path, "the file", unit, "z_unit", z_unit)
     if heights.ndim not in (1, 2) or min(heights.shape) == 0:
         raise FileError(f"{path}: expected a line or a map; got heights of shape {heights.shape}")
-    heights = in_si(heights, z_unit, "length")
+    heights = quantity_in_si(heights, z_unit, "length")
     if reliable is not None:
-        reliable = in_si(reliable, x_unit, "length")
+        reliable = quantity_in_si(reliable, x_unit, "length")
     if heights.ndim == 1:
-        x = in_si(np.asarray(positions), x_unit, "length")
+        x = quantity_in_si(np.asarray(positions), x_unit, "length")
         return HeightField(heights[:, None], x, None, reliable)
-    x, y = (in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
+    x, y = (quantity_in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
     return HeightField(heights, x[:, 0], y[0, :], reliable)
 
 
@@ -302,7 +302,7 @@ def _checked_path(
     checks.one_of("reader", reader, ("auto", "text", "instrument"))
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
-            in_si(1.0, unit, "length", name)
+            quantity_in_si(1.0, unit, "length", name)
     return file_path(path)
 
 

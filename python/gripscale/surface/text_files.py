@@ -41,7 +41,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
-from gripscale.core.units import in_si, spelled
+from gripscale.core.units import quantity_in_si, spelled
 from gripscale.io.text_table import Line, TextTable, column_in, read_lines, table_in
 from gripscale.surface.profile import (
     FEWEST_POINTS,
@@ -88,7 +88,9 @@ def length_unit(
     """
     unit = spelled(named, "length")
     if argument is not None:
-        if unit is not None and in_si(1.0, unit, "length") != in_si(1.0, argument, "length", name):
+        if unit is not None and quantity_in_si(1.0, unit, "length") != quantity_in_si(
+            1.0, argument, "length", name
+        ):
             raise InputError(f"{name} is {argument!r}, but {path} says {unit!r}; give one of them")
         return argument
     if unit is not None:
@@ -187,8 +189,8 @@ def read_text_profile(
         notes.append(
             f"{rows} of the even grid not in the file, of {grid.size}: taken as missing heights"
         )
-    x = in_si(grid.points(x), x_unit, "length")
-    z = in_si(grid.spread(z), z_unit, "length")
+    x = quantity_in_si(grid.points(x), x_unit, "length")
+    z = quantity_in_si(grid.spread(z), z_unit, "length")
     doubts = () if is_captif(lines) else depth_doubts(table, z_column)
     with about_file(path):
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
@@ -254,7 +256,7 @@ def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str 
         )
     z_unit = _column_unit(column, 0, "z_unit", z_unit)
     printed, notes = _heights(column, 0, z_unit)
-    z = in_si(printed, z_unit, "length")
+    z = quantity_in_si(printed, z_unit, "length")
     with about_file(path):
         x = np.asarray(step * np.arange(z.size), float)
         doubts = depth_doubts(column, 0)
@@ -299,7 +301,7 @@ def read_text_map(
             table.numbers(column, f"a height in column {column + 1}", missing=True)
             for column in range(count)
         ]
-        z = in_si(without_codes(np.array(heights))[0], z_unit, "length")
+        z = quantity_in_si(without_codes(np.array(heights))[0], z_unit, "length")
         x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
     with about_file(path):
         return HeightMap(x, y, z, path.stem, str(path), doubts=doubts)
@@ -321,7 +323,7 @@ def _points(
                 f"{distances.size} distances in column {column + 1}"
             )
         grid = printed_grid(table, column, distances)
-        axes.append(in_si(grid.points(distances), unit, "length"))
+        axes.append(quantity_in_si(grid.points(distances), unit, "length"))
         numbers.append(grid.number[which])
     printed = table.numbers(columns[2], f"a number in column {columns[2] + 1}", missing=True)
     heights, _ = without_codes(printed)
@@ -340,7 +342,7 @@ def _points(
         )
     z = np.full(nx * ny, np.nan)
     z[at] = heights
-    return axes[0], axes[1], in_si(z.reshape(nx, ny), units[2], "length")
+    return axes[0], axes[1], quantity_in_si(z.reshape(nx, ny), units[2], "length")
 
 
 _COUNTS, _SCALES = ("NumPoints", "NumProfiles"), ("Xscale", "Yscale", "Zscale")

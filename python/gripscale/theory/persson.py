@@ -106,7 +106,7 @@ class TheoryResult:
             rubber=f"{self.rubber.name}; {self.rubber.source}".strip("; "),
             rubber_parameters=json.dumps(self.rubber.to_dict()),
             method=self.source,
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         )
         speed, friction = self.load.speed, self.running_friction
         area = getattr(self, "running_contact_fraction", np.full(number.size, math.nan))
@@ -116,7 +116,9 @@ class TheoryResult:
             totals["total_contact_fraction"] = self.contact_fraction
             exponents = of_curve(self.wavelength, area, friction, moving=speed > 0.0)
         beyond = by_wavelength(self.rubber, speed, self.wavelength, friction)
-        return model.answer(out, totals, str(self.status), self.name, self.load, beyond, exponents)
+        return model.predicted_answer(
+            out, totals, str(self.status), self.name, self.load, beyond, exponents
+        )
 
 
 def divided(nodes: Array, intervals: int) -> Array:

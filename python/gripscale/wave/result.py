@@ -198,7 +198,7 @@ class ScaleResult:
         pressure, |p_k|^2 Im(M)/|M|^2 each, as on a half-plane.
         """
         if self.speed == 0.0:
-            return extrapolation.NONE
+            return extrapolation.NOTHING_BEYOND
         if self.rubber is None:
             return extrapolation.UNKNOWN
         if "smallest_wavelength" in self.details:

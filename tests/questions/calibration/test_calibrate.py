@@ -191,7 +191,7 @@ def test_the_table_of_a_case_gives_the_law_back() -> None:
 
 def test_everything_is_in_the_dataset(tmp_path) -> None:
     fit = calibrate(*measurement(), hold_out="speed")
-    data = netcdf.load(netcdf.save(fit.to_dataset(), tmp_path / "calibration.nc"))
+    data = netcdf.load_dataset(netcdf.save(fit.to_dataset(), tmp_path / "calibration.nc"))
     assert data.parameter.values.tolist() == [
         "stress_0", "width", "speed_0", "activation_energy",
     ]  # fmt: skip

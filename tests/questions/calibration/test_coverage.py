@@ -12,7 +12,12 @@ import scipy.stats
 
 from gripscale.conditions import LeGalKlueppelStress
 from gripscale.questions import Calibration, calibrate
-from gripscale.questions.calibration.calibration_law import Problem, best, family_of, points_of
+from gripscale.questions.calibration.calibration_law import (
+    CalibrationProblem,
+    best,
+    family_of,
+    points_of,
+)
 from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile, threshold_of
 
 from .synthetic import REFERENCE, TRUTH, measurement
@@ -42,7 +47,7 @@ def below_threshold(factor: float) -> dict[str, int]:
         measured, predicted = measurement(seed=seed)
         object.__setattr__(measured, "spread", factor * measured.spread)
         points = points_of(measured, predicted)
-        problem = Problem(points, family_of("gaussian", points, REFERENCE))
+        problem = CalibrationProblem(points, family_of("gaussian", points, REFERENCE))
         optimum = best(problem)
         for place, one in enumerate(problem.family.free):
             excess, _ = LikelihoodProfile(problem, optimum, place).excess(

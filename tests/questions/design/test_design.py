@@ -334,7 +334,7 @@ def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Pat
     assert text.startswith("Answer: ")
     assert "styrene_butadiene" in text
     assert (tmp_path / "design.png").stat().st_size > 10_000
-    stored = netcdf.load(tmp_path / "design.nc")
+    stored = netcdf.load_dataset(tmp_path / "design.nc")
     point = int(np.abs(stored.rolling_ratio.values - 1.0).argmin())
     name = designed_rubber(stored, point).name
     curve = gs.read_master_curve(tmp_path / f"{name}.csv", modulus="E")

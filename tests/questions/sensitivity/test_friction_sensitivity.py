@@ -20,14 +20,14 @@ from gripscale.questions import FrictionSensitivity, case_sensitivity
 from gripscale.questions.sensitivity.friction_sensitivity import (
     CARRIED,
     FEEDBACK,
-    FILE,
     KELVIN_STEP,
     LOSS,
+    SENSITIVITY_FILE,
     STORAGE,
 )
 from gripscale.questions.sensitivity.page import (
-    answer_lines,
     decades_table,
+    sensitivity_lines,
     sensitivity_parts,
     sums_table,
 )
@@ -190,7 +190,7 @@ def test_the_chain_answers_the_same_command(folder, shell: Shell):
     assert "by the chain" in next(
         line for line in result.stdout.splitlines() if line.startswith("Answer")
     )
-    data = netcdf.load(out / FILE)
+    data = netcdf.load_dataset(out / SENSITIVITY_FILE)
     case = read_case(folder / "case.toml")
     solved = case.chain.solve(case.rubber, case.surface.sines, case.load)
     expected = gs.sensitivity(solved, bands_per_decade=4, reference_temperature=293.15)
@@ -216,6 +216,6 @@ def test_says_why_there_is_no_answer(data):
     why = np.full(3, "profile 1 of 1: active set not settled", dtype=object)
     missing = data.drop_vars([LOSS, STORAGE]).assign(prediction_status=("temperature", why))
     assert not list(sensitivity_parts(missing))
-    (only,) = answer_lines(missing)
+    (only,) = sensitivity_lines(missing)
     assert only.startswith("Answer: none.")
     assert "active set" in only

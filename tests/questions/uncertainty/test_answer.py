@@ -13,8 +13,8 @@ from scipy import stats
 from gripscale.case_file import read_case
 from gripscale.questions import Uncertainty, propagate
 from gripscale.questions.answer.answer import answer
-from gripscale.questions.uncertainty.page import answer_lines_of, part_tables
-from gripscale.questions.uncertainty.sampled_answer import REST, RUN, sampled_error
+from gripscale.questions.uncertainty.page import answer_lines_of, part_tables, uncertainty_parts
+from gripscale.questions.uncertainty.sampled_answer import OF_RUN, REST, sampled_error
 from gripscale.questions.uncertainty.sources import SOURCES
 from tests.samples import THREE_WAVES, case_text
 
@@ -55,7 +55,7 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
         mine, theirs = (float(data[f"best_{name}{end}"]) for data in (certain, of_run))
         assert math.isfinite(mine)
         assert mine == pytest.approx(theirs, rel=1e-9)
-    assert float(certain[f"best_{name}_{RUN}"]) == pytest.approx(
+    assert float(certain[f"best_{name}_{OF_RUN}"]) == pytest.approx(
         float(of_run[f"best_{name}_half_width"]), rel=1e-12
     )
 
@@ -151,9 +151,8 @@ def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
     single = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
     for name in ("best_friction", "best_contact_fraction_half_width"):
         assert float(data[name].sel(speed=0.3)) == pytest.approx(float(single[name]))
-    first = next(iter(answer_lines_of(data)))
-    assert not isinstance(first, str)
-    assert first.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
+    table = next(part for part in uncertainty_parts(data) if not isinstance(part, str))
+    assert table.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
 
 
 def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(

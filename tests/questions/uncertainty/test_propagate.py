@@ -12,7 +12,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
 from gripscale.questions import Uncertainty, propagate, summary
-from gripscale.questions.uncertainty.page import failures, page_notices, too_many_failed
+from gripscale.questions.uncertainty.page import page_notices, sampling_failure, too_many_failed
 from gripscale.report import write_report
 
 QUICK = Uncertainty(without=["waves"])
@@ -119,7 +119,7 @@ def test_failures_are_counted_and_said(half_failing):
     assert int(data.failed.sum()) == 5
     assert np.isfinite(data.friction.values).sum() == 5
     assert summary(data).endswith("in 90 % of 5 of 10 samples, 5 failed")
-    assert str(failures(data)).startswith(
+    assert str(sampling_failure(data)).startswith(
         "5 of 10 samples have no answer and count in no quantile; 5"
     )
     assert np.isfinite(data.friction_quantile).all()
@@ -148,7 +148,7 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
     data = propagate(read_case(case), choice, samples=10, models=["chain"])
     assert int(data.failed.sum()) == 5
-    assert "equilibrium_modulus [Pa] must be" in str(failures(data))
+    assert "equilibrium_modulus [Pa] must be" in str(sampling_failure(data))
     assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
 
 
@@ -230,7 +230,7 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
         f"{name}.png" for name in ("answer", "distributions", "tornado_chain")
     }
-    assert netcdf.load(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
+    assert netcdf.load_dataset(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
     text = (tmp_path / "uncertainty.txt").read_text()
     assert (tmp_path / "summary.xlsx").is_file()
     assert "Quantiles of the samples, without the factors of the answer" in text

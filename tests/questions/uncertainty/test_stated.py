@@ -111,7 +111,7 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
     options = ["--samples", "10", "--without", "waves", "--output", str(tmp_path / "out")]
     outcome = CliRunner().invoke(app, ["uncertainty", str(case(STATED)), *options])
     assert outcome.exit_code == 0, outcome.output
-    data = netcdf.load(tmp_path / "out" / "uncertainty.nc")
+    data = netcdf.load_dataset(tmp_path / "out" / "uncertainty.nc")
     assert data.sizes["sample"] == 10
     assert data.attrs["seed"] == 3
     assert "modulus" in data.source.values

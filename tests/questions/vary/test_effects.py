@@ -118,7 +118,7 @@ def test_finished_answers_are_not_found_again(tmp_path: Path) -> None:
 def test_numbers_have_units_and_the_file_says_what_it_is_of(
     both: list[xr.Dataset], tmp_path: Path
 ) -> None:
-    kept = netcdf.load(netcdf.save(both[1], tmp_path / "effects.nc"))
+    kept = netcdf.load_dataset(netcdf.save(both[1], tmp_path / "effects.nc"))
     assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
     assert kept.attrs["model"] == "direct"
     assert kept.attrs["nominal_speed"] == 1.0

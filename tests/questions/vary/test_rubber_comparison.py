@@ -18,7 +18,7 @@ from gripscale.questions.vary.page_side_by_side import (
     CHAIN_RANKS_NOTHING,
     compounds_sentences,
     ratio_lines,
-    totals_table,
+    side_by_side_totals,
 )
 from gripscale.report import write_report
 from gripscale.rubber import WLF, MasterCurve, fit_prony
@@ -162,7 +162,9 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     assert [text.startswith("chain: μ of lossy is ") for text in said] == [True]
     assert "leave open" not in said[0]
     assert last == CHAIN_RANKS_NOTHING
-    headings = [column.heading for column in totals_table(data, "rubber", "compound").columns]
+    headings = [
+        column.heading for column in side_by_side_totals(data, "rubber", "compound").columns
+    ]
     assert headings[-2] == "difference of μ from the first"
     ranking, chain, _ = compound_friction_figure(data).axes
     assert ranking.get_title() == "direct contact: the ranking"

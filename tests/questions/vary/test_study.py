@@ -76,7 +76,7 @@ def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> 
 
 def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:
     result = Study(read_case(case), {"speed": SPEEDS}).run(tmp_path)
-    kept = netcdf.load(tmp_path / "study.nc")
+    kept = netcdf.load_dataset(tmp_path / "study.nc")
     assert kept.identical(result)
     assert all({"units", "long_name"} <= set(kept[name].attrs) for name in kept.variables)
     assert kept.speed.attrs["units"] == "m/s"
@@ -317,7 +317,7 @@ def test_a_refused_point_says_why_and_the_others_stand(case: Path, shell: Any) -
     done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
     assert done.exit_code == 3
     assert "1 of 2 predictions failed" in done.stderr
-    result = netcdf.load(case.parent / "study" / "study.nc")
+    result = netcdf.load_dataset(case.parent / "study" / "study.nc")
     assert np.isfinite(result.total_friction.values).tolist() == [False, True]
     assert "below the measured band" in str(result.prediction_status.values[0])
     assert result.prediction_status.values[1] == "converged"
@@ -329,7 +329,7 @@ def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
     sentence = "1 of 2 predictions, up to 100 % of their friction, lie up to 1.2 decades below the"
     for text in (done.stdout, (case.parent / "study" / "study.txt").read_text()):
         assert sentence in " ".join(text.split())
-    result = netcdf.load(case.parent / "study" / "study.nc")
+    result = netcdf.load_dataset(case.parent / "study" / "study.nc")
     assert result.total_friction_outside_band.values.tolist() == [1.0, 0.0]
     assert result.total_decades_below_band.values[0] == pytest.approx(
         np.log10(0.01 / (2e-4 * np.pi))

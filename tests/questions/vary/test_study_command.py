@@ -23,7 +23,7 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
     assert written == files | {"figures/totals.png"}
     for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
         assert words in result.stdout
-    data = netcdf.load(target / "study.nc")
+    data = netcdf.load_dataset(target / "study.nc")
     assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
     assert result.stdout.count("converged") == 6
     assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100

@@ -42,7 +42,7 @@ from gripscale.report.elements import Page
 if TYPE_CHECKING:
     from gripscale.charts.chart import Sheet
 
-FILE = "answer.nc"
+ANSWER_FILE = "answer.nc"
 """Name of the saved answer in a results folder."""
 
 
@@ -149,7 +149,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     notes = friction_doubts(case.friction, case.load.speed)
     inputs = record.inputs(case, friction_notes=notes)
     samples = solve_direct_contact(case)
-    attrs = {"case_file": case.origin.name, **case.attributes, **provenance.attributes()}
+    attrs = {"case_file": case.origin.name, **case.attributes, **provenance.version_attributes()}
     if samples is None:
         return Answer(xr.Dataset(attrs=attrs), inputs)
     curve = continued_curve(case, case.load, folder)

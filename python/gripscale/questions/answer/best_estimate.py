@@ -19,17 +19,17 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.experiment.design import Index, attributes, stack
+from gripscale.experiment.design import Index, stack, variable_attributes
 from gripscale.half_space import line_to_map, location
 from gripscale.half_space.model import DirectContact
 from gripscale.model import BASIS, STATUS
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
 from gripscale.questions.answer.samples import (
-    QUANTITIES,
+    SAMPLED_QUANTITIES,
     SMOOTH,
     estimated_error,
     ratio,
-    sampling_error,
+    road_error,
     usable,
 )
 from gripscale.questions.vary.study import UPPER_HEIGHT
@@ -106,7 +106,7 @@ class SampledErrors(NamedTuple):
     """Whether they hold the sampling of the road, which then counts here and nowhere else."""
 
 
-SHARES = ("steep_share", "missing_share")
+BASIS_SHARES = ("steep_share", "missing_share")
 """What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
 
 AnyFactor = FactorOf | IsotropicSurface | Factor
@@ -149,17 +149,17 @@ def best_estimate(
     labels = [label for label, _ in solved]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
     direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
-    for share in SHARES:
+    for share in BASIS_SHARES:
         data[f"best_{share}"] = unknown
         if direct is not None and share in direct:
             data[f"best_{share}"] = usable(direct, share).mean("sample")
-    for share in location.SHARES:
+    for share in location.SHARES_BY_SLOPE:
         if direct is not None and share in direct:
             data[f"best_{share}"] = usable(direct, share).mean("sample")
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
-            mean, road = usable(direct, name).mean("sample"), sampling_error(direct, name)
+            mean, road = usable(direct, name).mean("sample"), road_error(direct, name)
             # even within the estimated error, and the same for all profiles
             grid = estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
         errors = [road, _certain(grid)]
@@ -282,13 +282,15 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
         stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
         data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
         label = parts[(0,) * total.ndim]["factor_label"]
-        data["factor_label"] = label.assign_attrs(attributes("factors of the best estimate"))
+        data["factor_label"] = label.assign_attrs(
+            variable_attributes("factors of the best estimate")
+        )
     return data
 
 
 def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
     """Return the best estimate of one prediction of a study, a sample of all its profiles."""
-    names = [*QUANTITIES, *(f"{name}_error" for name in SMOOTH)]
+    names = [*SAMPLED_QUANTITIES, *(f"{name}_error" for name in SMOOTH)]
     names += [name.removeprefix("total_") for name in BASIS]
     numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
     if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
@@ -307,5 +309,7 @@ def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
         best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
         for end, text in OF_A_POINT.items():
             part = best[f"best_{name}{end}"].reset_coords(drop=True)
-            kept[f"best_{name}{end}"] = part.assign_attrs(attributes(text.format(_WORDS[name])))
+            kept[f"best_{name}{end}"] = part.assign_attrs(
+                variable_attributes(text.format(_WORDS[name]))
+            )
     return kept

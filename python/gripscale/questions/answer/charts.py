@@ -15,14 +15,14 @@ import xarray as xr
 
 from gripscale.charts import draw
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     CrossLine,
     Mark,
     Note,
     Outline,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     Sheet,
     ValueMap,
 )
@@ -120,7 +120,7 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
         "the tools above move the line and zoom by the wheel.",
         f"Heights of surface and rubber, pressure, and running friction along {name}.",
     )
-    return [lines, *draw.on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
+    return [lines, *draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
 
 
 def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
@@ -132,7 +132,7 @@ def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
         _stretch_panel(trace, name),
         Panel(
             _along(trace, x),
-            Axis("d ln $\\mu$ / d $z$\n[% / (µm mm)]"),
+            PlotAxis("d ln $\\mu$ / d $z$\n[% / (µm mm)]"),
             [
                 Series(x, 100.0 * values, GREEN, "change of $\\mu$ by the height", width=0.9),
                 CrossLine(0.0),
@@ -180,9 +180,9 @@ def _lengths(values: xr.DataArray, trace: xr.Dataset) -> Array:
     return np.asarray(values.values, dtype=float) / _unit(trace)[0]
 
 
-def _along(trace: xr.Dataset, x: Array) -> Axis:
+def _along(trace: xr.Dataset, x: Array) -> PlotAxis:
     label = f"distance $x$ [{_unit(trace)[1]}]"
-    return Axis(label, low=float(x[0]), high=float(x[-1]))
+    return PlotAxis(label, low=float(x[0]), high=float(x[-1]))
 
 
 def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Dataset:
@@ -257,8 +257,8 @@ def _line_panels(trace: xr.Dataset) -> list[Panel]:
         Panel(
             _along(trace, x)
             if number == len(rows)
-            else Axis("", low=float(x[0]), high=float(x[-1])),
-            Axis(label, low=None if number == 1 else 0.0),
+            else PlotAxis("", low=float(x[0]), high=float(x[-1])),
+            PlotAxis(label, low=None if number == 1 else 0.0),
             [shade, *marks],
             height=250 if number == 1 else 190,
         )
@@ -290,11 +290,11 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
             makes = "the stretch of a line with most friction"
     return Panel(
         _along(trace, x),
-        Axis(f"height $z$ [{unit}]", low=lowest, high=top),
+        PlotAxis(f"height $z$ [{unit}]", low=lowest, high=top),
         [
-            Band(x, np.full(x.size, lowest), np.maximum(surface, lowest), FAINT, alpha=1.0),
-            Band(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
-            Band(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
+            ShadedBand(x, np.full(x.size, lowest), np.maximum(surface, lowest), FAINT, alpha=1.0),
+            ShadedBand(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
+            ShadedBand(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
             Series(x, np.where(surface < lowest, np.nan, surface), INK, "surface", width=0.8),
             Series(x, rubber, BLUE, "rubber", width=0.9),
             Series(x, contact, ORANGE, "contact", width=2.2),
@@ -327,8 +327,8 @@ def _field_panels(trace: xr.Dataset, name: str = "") -> list[Panel]:
     section = CrossLine(float(trace.section) / _unit(trace)[0], BLUE, "section", width=1.2)
     return [
         Panel(
-            Axis(f"$x$, the way of sliding [{unit}]", grid=False),
-            Axis(f"$y$ [{unit}]", grid=False),
+            PlotAxis(f"$x$, the way of sliding [{unit}]", grid=False),
+            PlotAxis(f"$y$ [{unit}]", grid=False),
             [field, section],
             name=f"field-{_word(name)}",
             caption=f"{name}: contact pressure, white out of contact, and the section below.",

@@ -25,10 +25,10 @@ from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavele
 from gripscale.model import (
     STATUS,
     Load,
-    answer,
     cut_off_exponents_of,
     extrapolation_of,
     input_doubts,
+    predicted_answer,
     with_area_term,
 )
 from gripscale.questions.answer import samples as reduce
@@ -172,7 +172,10 @@ def direct_contact_totals(
     sampled : SampledErrors, optional
         Errors of the inputs, which widen the interval.
     """
-    means = {name: float(reduce.usable(samples, name).mean("sample")) for name in reduce.QUANTITIES}
+    means = {
+        name: float(reduce.usable(samples, name).mean("sample"))
+        for name in reduce.SAMPLED_QUANTITIES
+    }
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     best = best_estimate(
         samples.expand_dims(rung=[DIRECT]),
@@ -184,7 +187,7 @@ def direct_contact_totals(
         best[CONTINUED_TO] = case.below_measurement.down_to
     end = resolved_wavelength(case.surface)
     best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
-    totals = answer(
+    totals = predicted_answer(
         best,
         {f"total_{name}": value for name, value in means.items()},
         str(reduce.status(samples).item()),

@@ -22,7 +22,7 @@ from gripscale.questions.answer.reliance import (
 )
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import number, percent
+from gripscale.report.elements import number_text, percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
 
@@ -52,7 +52,7 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
     if steep > WORTH_SAYING:
         yield Finding(
             Severity.WARNING,
-            f"{percent(steep)} of the friction comes from slopes above 1, where neither small "
+            f"{percent_text(steep)} of the friction comes from slopes above 1, where neither small "
             "strain nor a measured profile is reliable.",
             friction=steep,
             topic=Topic.SOLUTION,
@@ -76,7 +76,7 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"The two frictions of the direct contact, from traction and from losses, differ by "
-            f"{percent(apart)}; the answer takes the one from losses.",
+            f"{percent_text(apart)}; the answer takes the one from losses.",
             friction=apart,
             topic=Topic.SOLUTION,
         )
@@ -96,7 +96,7 @@ def in_words(changed: dict[str, float]) -> str:
     """Return relative changes in words, such as `the friction changes by +38 %`."""
     words = {"friction": "the friction", "contact_fraction": "the contact area"}
     first, *others = [
-        (words[name], f"by {'+-'[change < 0.0]}{percent(abs(change))}")
+        (words[name], f"by {'+-'[change < 0.0]}{percent_text(abs(change))}")
         for name, change in changed.items()
     ]
     return " and ".join([" changes ".join(first), *map(" ".join, others)])
@@ -133,7 +133,7 @@ def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> I
         if not limit > 1.01 * end:
             return
         changed = changes(direct, limit / end)
-    lengths = (f"{number(length, MILLI)} mm" for length in (limit, end))
+    lengths = (f"{number_text(length, MILLI)} mm" for length in (limit, end))
     text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
     yield Finding(
         Severity.WARNING,
@@ -151,7 +151,7 @@ def _misfits(record: InputRecord) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"At the frequencies of the waves the loss factor of the Prony series is "
-            f"{percent(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
+            f"{percent_text(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
             "error of the friction is about as large.",
             loss,
             topic=Topic.RUBBER,
@@ -162,7 +162,8 @@ def _misfits(record: InputRecord) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "
-            f"{percent(height)} of their height. The friction of the chain has a similar error.",
+            f"{percent_text(height)} of their height. The friction of the chain has a similar "
+            "error.",
             height,
             topic=Topic.SURFACE,
         )

@@ -33,7 +33,7 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import Card, Page, Section, percent
+from gripscale.report.elements import Card, Page, Section, percent_text
 
 
 def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
@@ -76,7 +76,7 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     source = "not to be relied on" if no_answer(data) else "best estimate"
     for name in estimated_names(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        ends = interval(data, name)
+        ends = interval_text(data, name)
         detail = f"{source}; {ends} ({100.0 * LEVEL:.0f} %)" if ends else source
         value = significant(float(data[f"best_{name}"]))
         yield Card(title, value, detail, bad=bool(no_answer(data)))
@@ -84,11 +84,11 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
 
 def number_and_interval(data: xr.Dataset, name: str) -> str:
     """Return a best estimate and its interval, such as `0.19 (0.15 to 0.23)`."""
-    ends = interval(data, name)
+    ends = interval_text(data, name)
     return f"{significant(float(data[f'best_{name}']))}{f' ({ends})' if ends else ''}"
 
 
-def interval(data: xr.Dataset, name: str) -> str:
+def interval_text(data: xr.Dataset, name: str) -> str:
     """Return the interval of a best estimate, such as `0.15 to 0.23`; empty if there is none."""
     ends = interval_ends(data[f"best_{name}"], data[f"best_{name}_half_width"])
     low, high = map(float, ends)
@@ -113,20 +113,20 @@ def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
         sigma = float(data[f"best_{names[0]}_factor_uncertainty"][at])
         numbers = ", ".join(f"{SYMBOLS[name]} × {significant(v)}" for name, v in values.items())
         assumed = np.allclose(list(values.values()), 1.0)
-        yield f"{label} ({f'1 ± {percent(sigma)}' if assumed else numbers})"
+        yield f"{label} ({f'1 ± {percent_text(sigma)}' if assumed else numbers})"
 
 
 def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     """Yield the error of the sampling, what is assumed or left out, and the area term."""
     sampling = float(data[f"best_{name}_sampling_error"])
     if math.isfinite(sampling):
-        yield f"sampling of the road ± {percent(sampling)} (standard error)"
+        yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
         yield (
-            f"{percent(float(below))} of the friction in waves shorter than {limit}, which were "
-            "not measured"
+            f"{percent_text(float(below))} of the friction in waves shorter than {limit}, which "
+            "were not measured"
         )
     labels = data.factor_label.values
     if IsotropicSurface.label in labels:
@@ -154,8 +154,8 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
     contact = pages.contact_elements(data, record) if is_solved(data) else []
     sections = [
         Section("contact", "Rubber on the surface", contact),
-        Section("surface", "Surface", pages.surface_elements(record)),
-        Section("rubber", "Rubber", pages.rubber_elements(record)),
+        Section("surface", "Surface", pages.surface_section(record)),
+        Section("rubber", "Rubber", pages.rubber_section(record)),
         pages.method_section(),
         rerun_section(data.attrs),
     ]

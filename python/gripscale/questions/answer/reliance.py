@@ -16,7 +16,7 @@ from gripscale.chain.chain import Chain
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import interval_ends
-from gripscale.report.elements import percent
+from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
 MOST_ON_GUESSES = 0.5
@@ -76,7 +76,7 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
         )
     missing = float(data.get("best_missing_share", math.nan))
     if missing > WORTH_NAMING:
-        text = f"{percent(missing)} of the contact lies on filled gaps of the measurement."
+        text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."
         yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
 
 
@@ -101,7 +101,7 @@ def friction_sentence(beyond: Extrapolation) -> str:
     """Return how much of a friction and how far; empty where it is not worth saying."""
     if not beyond.share > WORTH_SAYING:
         return ""
-    return f"{percent(beyond.share)} of the friction lies {beyond.furthest}."
+    return f"{percent_text(beyond.share)} of the friction lies {beyond.furthest}."
 
 
 def is_moving(data: xr.Dataset) -> bool:

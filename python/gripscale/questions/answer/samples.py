@@ -39,7 +39,7 @@ from gripscale.model import (
 )
 from gripscale.questions.answer.intervals import LogError
 
-QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
+SAMPLED_QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
 """Totals every sample has, as `gripscale.model.TOTALS` without `total_`."""
 
 _ROUNDING = 1e-6
@@ -60,15 +60,15 @@ def sample_numbers(
     `conditions`, it is that of its contact area at the temperature before the contact.
     """
     rest = float(answer["nominal_speed"]) == 0.0
-    numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in QUANTITIES}
+    numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
-    for share in location.SHARES:
+    for share in location.SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]
     if rest:
-        numbers |= {name: 0.0 * numbers[name] for name in QUANTITIES if "friction" in name}
+        numbers |= {name: 0.0 * numbers[name] for name in SAMPLED_QUANTITIES if "friction" in name}
         numbers["friction_error"] = math.nan
     if ADHESIVE_FRICTION in answer or conditions is None:
         numbers["adhesive_friction"] = float(answer.get(ADHESIVE_FRICTION, math.nan))
@@ -209,7 +209,7 @@ def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
     return error / abs(mean).where(mean != 0.0)
 
 
-def sampling_error(samples: xr.Dataset, name: str) -> LogError:
+def road_error(samples: xr.Dataset, name: str) -> LogError:
     """Return how well the mean of a number stands for its road, with its degrees of freedom.
 
     From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
@@ -237,8 +237,8 @@ def sampling_error(samples: xr.Dataset, name: str) -> LogError:
 
 
 def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
-    """Return the relative standard uncertainty of a mean: `sampling_error` and estimated errors."""
-    return in_quadrature(sampling_error(samples, name).sigma, estimated_error(samples, name))
+    """Return the relative standard uncertainty of a mean: `road_error` and estimated errors."""
+    return in_quadrature(road_error(samples, name).sigma, estimated_error(samples, name))
 
 
 def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
@@ -251,7 +251,7 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
     if not paired(over, under):
         means = [usable(samples, name).mean("sample") for samples in (over, under)]
         uncertainties = (relative_uncertainty(samples, name) for samples in (over, under))
-        first, second = (sampling_error(samples, name).freedom for samples in (over, under))
+        first, second = (road_error(samples, name).freedom for samples in (over, under))
         fewest = first.where(first < second, second)
         value = means[0] / means[1].where(means[1] != 0.0)
         return value, LogError(in_quadrature(*uncertainties), fewest)

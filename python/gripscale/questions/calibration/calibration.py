@@ -33,7 +33,7 @@ from gripscale.questions.calibration import profile_likelihood as likelihood
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     in_spread,
-    points_of,
+    measured_design,
     predicted_of,
 )
 from gripscale.questions.vary.inputs import default_model
@@ -73,9 +73,9 @@ class Calibration:
     measured: MeasuredFriction
     predicted: Predicted
     """The hysteresis and the contact at the measured points, which are not fitted."""
-    problem: fit.Problem
+    problem: fit.CalibrationProblem
     """What was fitted: the points that have an answer, and the law with its free parameters."""
-    optimum: fit.Optimum
+    optimum: fit.FittedLaw
     """The least sum of squares."""
     ends: tuple[tuple[float, float], ...]
     """Of each interval in the numbers of the search; infinite where not determined."""
@@ -164,7 +164,7 @@ class Calibration:
     @property
     def band(self) -> Array:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
-        tail = 0.5 * (1.0 + likelihood.LEVEL)
+        tail = 0.5 * (1.0 + likelihood.LIKELIHOOD_LEVEL)
         return self.friction_error * float(
             scipy.special.ndtri(tail)
             if self.spread_known
@@ -253,13 +253,13 @@ def calibrate(
     checks.instance("predicted", predicted, Predicted)
     held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
     points = fit.points_of(measured, predicted)
-    problem = fit.Problem(points, fit.family_of(law, points, held))
+    problem = fit.CalibrationProblem(points, fit.family_of(law, points, held))
     groups = None
     if hold_out is not None:
         groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
         groups = groups[predicted.has_answer]
 
-    def intervals(optimum: fit.Optimum) -> list[tuple[float, float]]:
+    def intervals(optimum: fit.FittedLaw) -> list[tuple[float, float]]:
         threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
         profiles = [
             likelihood.LikelihoodProfile(problem, optimum, at)
@@ -331,7 +331,7 @@ def calibrate_case(
             require_measured(warm, surface.sines.wavelength, float(speed))
     predicting = case.chain if model == "chain" else DirectContact(conditions=case.conditions)
     with bench_in(folder, workers, client, on_task) as bench:
-        design = points_of(friction, predicting, rubber, surface, case.load)
+        design = measured_design(friction, predicting, rubber, surface, case.load)
         predicted = predicted_of(solve_design(design, bench))
     return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
 
@@ -418,13 +418,13 @@ def calibration_dataset(calibration: Calibration) -> xr.Dataset:
             "law": json.dumps(shear_stress_to_dict(calibration.law)),
             "held": json.dumps(dict(calibration.problem.family.held)),
             "measured_source": calibration.measured.source,
-            "level": likelihood.LEVEL,
+            "level": likelihood.LIKELIHOOD_LEVEL,
             "threshold": calibration.threshold,
             "held_out_by": calibration.held_out_by,
             "spread_known": int(calibration.spread_known),
             "sum_of_squares": calibration.optimum.sum_of_squares,
             "degrees_of_freedom": calibration.freedom,
             "scatter": calibration.scatter,
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         },
     )

@@ -268,7 +268,7 @@ _AT_LIMIT = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Optimum:
+class FittedLaw:
     """The least sum of squares that was found."""
 
     theta: Array
@@ -279,7 +279,7 @@ class Optimum:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class CalibrationProblem:
     """A law to be fitted to points by weighted least squares.
 
         S(theta) = sum_i ((mu_i - mu_hysteresis,i - tau_f(v_i, T_i; theta) A_r,i/(A_0 p_i)) / s_i)^2
@@ -310,7 +310,7 @@ class Problem:
             if value != 0.0
         )
 
-    def holding(self, index: int, scaled: float) -> Problem:
+    def holding(self, index: int, scaled: float) -> CalibrationProblem:
         """Return the problem with the free parameter at `index` held."""
         parameter = self.family.free[index]
         free = self.family.free[:index] + self.family.free[index + 1 :]
@@ -318,7 +318,7 @@ class Problem:
         return replace(self, family=replace(self.family, free=free, held=held))
 
 
-def best(problem: Problem) -> Optimum:
+def best(problem: CalibrationProblem) -> FittedLaw:
     """Return the least sum of squares over a grid of starts."""
     free = problem.family.free
     grid = product(*([parameter.scaled(value) for value in parameter.starts] for parameter in free))
@@ -332,11 +332,11 @@ def best(problem: Problem) -> Optimum:
     return min(optima, key=lambda optimum: optimum.sum_of_squares)
 
 
-def refined(problem: Problem, start: Array) -> Optimum:
+def refined(problem: CalibrationProblem, start: Array) -> FittedLaw:
     """Return the least sum of squares near `start`."""
     if not problem.family.free:
         residuals = problem.residuals(start)
-        return Optimum(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
+        return FittedLaw(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
     low, high = np.array([parameter.limits for parameter in problem.family.free]).T
     solution = scipy.optimize.least_squares(
         problem.residuals,
@@ -346,10 +346,10 @@ def refined(problem: Problem, start: Array) -> Optimum:
         ftol=_TOLERANCE,
         gtol=_TOLERANCE,
     )
-    return Optimum(solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))
+    return FittedLaw(solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))
 
 
-def _with_best_stress(problem: Problem, theta: Array) -> Array:
+def _with_best_stress(problem: CalibrationProblem, theta: Array) -> Array:
     """Return `theta` with the stress, which is a factor, the best for all others."""
     names = [parameter.name for parameter in problem.family.free]
     if "stress_0" not in names:

@@ -13,7 +13,7 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, parse_quantity
 from gripscale.questions.calibration.calibration import Calibration, Estimate
-from gripscale.questions.calibration.profile_likelihood import LEVEL
+from gripscale.questions.calibration.profile_likelihood import LIKELIHOOD_LEVEL
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 KINDS_OF_QUANTITY = {
@@ -114,7 +114,8 @@ def shear_stress_table(calibration: Calibration) -> str:
     source = Path(calibration.measured.source).name or "a measurement"
     lines = [
         f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
-        f"# intervals of {LEVEL:.0%} by profile likelihood, for this rubber on this surface.",
+        f"# intervals of {LIKELIHOOD_LEVEL:.0%} by profile likelihood, for this rubber on this "
+        "surface.",
         "[conditions.shear_stress]",
         f'kind = "{law.pop("kind")}"',
     ]
@@ -126,7 +127,9 @@ def shear_stress_table(calibration: Calibration) -> str:
         unit = HELD_UNITS.get(name, "") if estimate is None else estimate.unit
         text = written(float(value), unit)
         text = f'"{text}"' if unit else text
-        lines.append(f"{name} = {text}  # {'held' if estimate is None else interval(estimate)}")
+        lines.append(
+            f"{name} = {text}  # {'held' if estimate is None else estimate_interval(estimate)}"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -138,7 +141,7 @@ def written(value: float, unit: str, digits: int | None = None) -> str:
     return f"{text} {display_unit.unit}".strip()
 
 
-def interval(estimate: Estimate) -> str:
+def estimate_interval(estimate: Estimate) -> str:
     """Return the interval of a parameter in words, in the unit it is written in."""
     low, high = (f"{written(end, estimate.unit, 3)}" for end in (estimate.low, estimate.high))
     if estimate.determined:

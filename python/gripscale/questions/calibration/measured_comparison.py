@@ -205,10 +205,12 @@ def predictions_at(
         As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
     bench = Bench(store, workers, client, on_task)
-    return predicted_of(solve_design(points_of(measured, model, rubber, surface, load), bench))
+    return predicted_of(
+        solve_design(measured_design(measured, model, rubber, surface, load), bench)
+    )
 
 
-def points_of(
+def measured_design(
     measured: MeasuredFriction,
     model: Model,
     rubber: Rubber,
@@ -246,7 +248,7 @@ def points_of(
 
 
 def predicted_of(data: xr.Dataset) -> Predicted:
-    """Return the predictions in the solved Dataset of `points_of`."""
+    """Return the predictions in the solved Dataset of `measured_design`."""
     area, pressure = data["total_contact_fraction"], data["nominal_pressure"]
     kelvin = data["temperature"]
     if ADHESIVE_FRICTION in data:  # what the probe says

@@ -15,9 +15,9 @@ from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.table import Column, Table, digits, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.calibration import Estimate
-from gripscale.questions.calibration.calibration_text import HELD_UNITS, interval, written
+from gripscale.questions.calibration.calibration_text import HELD_UNITS, estimate_interval, written
 from gripscale.questions.calibration.page_of_measured import residual_table
-from gripscale.questions.chain.view import CONVERGED
+from gripscale.questions.chain.view import CONVERGED_WORD
 from gripscale.report.elements import Card, Facts
 from gripscale.report.failures import Failure
 
@@ -36,7 +36,7 @@ PARAMETERS = {
 def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the fitted area term with its intervals, and what it does to friction."""
     values = [
-        f"{PARAMETERS[e.name]} = {written(e.value, e.unit, 3)} ({interval(e)})"
+        f"{PARAMETERS[e.name]} = {written(e.value, e.unit, 3)} ({estimate_interval(e)})"
         if e.determined
         else f"{PARAMETERS[e.name]} not determined by the data"
         for e in estimates(data)
@@ -105,7 +105,9 @@ def parameter_table(data: xr.Dataset) -> Table:
         Column("parameter", [e.name for e in fitted]),
         Column("value", [written(e.value, e.unit, 4) for e in fitted], words=False),
         Column("standard_error", errors, "standard error", words=False),
-        Column("interval", [interval(e) for e in fitted], f"{level} % by profile likelihood"),
+        Column(
+            "interval", [estimate_interval(e) for e in fitted], f"{level} % by profile likelihood"
+        ),
     ]
     bad = [not e.determined for e in fitted]
     return Table("parameters", columns, "Parameters of the law", bad=bad)
@@ -148,7 +150,9 @@ def held_out_table(data: xr.Dataset) -> Table:
 def calibration_cards(data: xr.Dataset) -> list[Card]:
     """Return a card for each parameter, with its interval."""
     return [
-        Card(PARAMETERS[e.name], written(e.value, e.unit, 3), interval(e), not e.determined)
+        Card(
+            PARAMETERS[e.name], written(e.value, e.unit, 3), estimate_interval(e), not e.determined
+        )
         for e in estimates(data)
     ]
 
@@ -172,10 +176,10 @@ def law_facts(data: xr.Dataset) -> Facts:
     return Facts("The fit", pairs)
 
 
-def failures(data: xr.Dataset) -> Failure | None:
+def calibration_failure(data: xr.Dataset) -> Failure | None:
     """Return how many measured points have no prediction and why the first; None if none."""
     statuses = zip(data[STATUS].values, status_words(data).values, strict=True)
-    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED]
+    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED_WORD]
     if not failed:
         return None
     why, word = failed[0]

@@ -24,16 +24,16 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.questions.calibration.calibration_law import (
-    Optimum,
+    CalibrationProblem,
+    FittedLaw,
     Points,
-    Problem,
     best,
     family_of,
     refined,
 )
 from gripscale.questions.calibration.measured_comparison import rms
 
-LEVEL = 0.9
+LIKELIHOOD_LEVEL = 0.9
 """Share of measurements like this one whose interval holds the true value."""
 _REACH = 2.0
 """How much further each step of a search for an end goes."""
@@ -57,8 +57,8 @@ class BetterMinimumFound(Exception):
 class LikelihoodProfile:
     """The profile of one parameter, in the numbers the search works with."""
 
-    problem: Problem
-    optimum: Optimum
+    problem: CalibrationProblem
+    optimum: FittedLaw
     index: int
     """Of the free parameter."""
 
@@ -142,12 +142,12 @@ class LikelihoodProfile:
         return end
 
 
-def threshold_of(optimum: Optimum, *, spread_known: bool) -> float:
+def threshold_of(optimum: FittedLaw, *, spread_known: bool) -> float:
     """Return the excess that ends an interval, with spreads known or taken from the residuals."""
     if spread_known:
-        return float(scipy.special.chdtri(1, 1.0 - LEVEL))
+        return float(scipy.special.chdtri(1, 1.0 - LIKELIHOOD_LEVEL))
     points, free = optimum.jacobian.shape
-    ratio = float(scipy.special.fdtri(1, points - free, LEVEL))
+    ratio = float(scipy.special.fdtri(1, points - free, LIKELIHOOD_LEVEL))
     return ratio * optimum.sum_of_squares / float(points - free)
 
 
@@ -160,8 +160,10 @@ def covariance(jacobian: Array) -> Array:
 
 
 def settled(
-    problem: Problem, optimum: Optimum, find: Callable[[Optimum], list[tuple[float, float]]]
-) -> tuple[Optimum, list[tuple[float, float]]]:
+    problem: CalibrationProblem,
+    optimum: FittedLaw,
+    find: Callable[[FittedLaw], list[tuple[float, float]]],
+) -> tuple[FittedLaw, list[tuple[float, float]]]:
     """Return the optimum and what `find` makes of it, begun again where a better one is met."""
     while True:
         try:
@@ -224,9 +226,10 @@ def held_out(
             why = f"the other points do not determine {', '.join(sorted(missing))}"
             results.append(replace(unknown, why_not=why))
             continue
-        theta = best(Problem(rest, family)).theta
+        theta = best(CalibrationProblem(rest, family)).theta
         inside, outside = (
-            Problem(part, family).friction(theta) - part.difference for part in (rest, some)
+            CalibrationProblem(part, family).friction(theta) - part.difference
+            for part in (rest, some)
         )
         relative = np.full(count, np.nan) if some.spread is None else outside / some.spread
         within, beyond, over = (float(rms(errors)) for errors in (inside, outside, relative))

@@ -15,14 +15,14 @@ import xarray as xr
 
 from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     Bars,
     CrossLine,
     Mark,
     Note,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     Sheet,
     ValueMap,
 )
@@ -78,7 +78,7 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
     abscissa, pressure_unit = _wavelengths(predictions), predictions[0].display_unit("pressure")
     panels.append(Panel(
         abscissa,
-        Axis(f"pressure, modulus [{pressure_unit.unit}]", log=True),
+        PlotAxis(f"pressure, modulus [{pressure_unit.unit}]", log=True),
         _pairs(
             predictions,
             {"mean pressure": "pressure_received", "|E*|": "modulus"},
@@ -93,7 +93,7 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
         columns = {"largest": "max_stretch", "smallest": "min_stretch"}
         panels.append(Panel(
             abscissa,
-            Axis("principal stretch [-]"),
+            PlotAxis("principal stretch [-]"),
             _pairs(predictions, columns, PredictionView.usable),
             name="stretch",
             caption="Largest and smallest principal stretch in the block; where strains are small, "
@@ -101,18 +101,18 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
             alt="Largest and smallest principal stretch against wavelength.",
         ))  # fmt: skip
     panels += [_pressure_panel(view) for view in predictions if view.has("surface_pressure")]
-    return draw.on_page(panels)
+    return draw.panels_on_page(panels)
 
 
 def _total_panel(views: Views, name: str) -> Panel:
     """Return the panel of the contact fraction or the friction, of and down to each wave."""
     if name == "contact_fraction":
         words, sum_of, title = "real contact area", "A_r/A_0", "contact-area"
-        axis = Axis(f"{words} $A_r/A_0$ [-]", log=True, high=1.15)
+        axis = PlotAxis(f"{words} $A_r/A_0$ [-]", log=True, high=1.15)
     else:
         words, sum_of, title = HEADINGS[name], "sum", name
         least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
-        axis = Axis(f"{words} [-]", low=min(0.0, *least, 0.0))
+        axis = PlotAxis(f"{words} [-]", low=min(0.0, *least, 0.0))
     abscissa = _wavelengths(views)
     return Panel(
         abscissa,
@@ -127,7 +127,7 @@ def _total_panel(views: Views, name: str) -> Panel:
     )  # fmt: skip
 
 
-def _wavelengths(views: Views) -> Axis:
+def _wavelengths(views: Views) -> PlotAxis:
     """Return the axis of the wavelengths of all predictions."""
     columns = [view.column("wavelength") / MILLI for view in views if view.waves]
     return chart.wavelength_axis(np.concatenate([*columns, []]))
@@ -153,7 +153,7 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
                  filled=False)  # fmt: skip
 
 
-def _answer(view: PredictionView, quantity: str, along: Axis) -> Iterator[Mark]:
+def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Mark]:
     """Yield the best estimate with its interval, if there is one."""
     best, low, high = view.answer(quantity)
     if not np.isfinite(best):
@@ -162,7 +162,7 @@ def _answer(view: PredictionView, quantity: str, along: Axis) -> Iterator[Mark]:
     yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)
     if measured:
         ends = (0.0, 1.0) if along.low is None or along.high is None else (along.low, along.high)
-        yield Band(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
+        yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
 def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:
@@ -199,8 +199,8 @@ def _pressure_panel(view: PredictionView) -> Panel:
             Series(phase, pressure_unit.of(pressure), colour if good else RED, label, width=1.2)
         )
     return Panel(
-        Axis("$x/\\lambda$, crest at 0 [-]"),
-        Axis(f"contact pressure [{pressure_unit.unit}]"),
+        PlotAxis("$x/\\lambda$, crest at 0 [-]"),
+        PlotAxis(f"contact pressure [{pressure_unit.unit}]"),
         marks,
         name=f"pressure-{view.name}",
         caption=f"{view.title}: contact pressure along each wave. Click a wave to hide it.",
@@ -217,7 +217,7 @@ def verification_charts(predictions: Views) -> list[Chart]:
             traction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
             panels.append(Panel(
                 _wave_axis([view]),
-                Axis("friction coefficient of the wave [-]"),
+                PlotAxis("friction coefficient of the wave [-]"),
                 [
                     Series(view.number, traction, BLUE, "from the contact traction", "",
                            marker="o", size=7.0, filled=False),
@@ -239,18 +239,18 @@ def verification_charts(predictions: Views) -> list[Chart]:
         ]
         panels.append(Panel(
             _wave_axis(predictions),
-            Axis("residual force / applied force [-]", log=True),
+            PlotAxis("residual force / applied force [-]", log=True),
             [*residuals, *_failed(predictions, "residual", by_number=True)],
             name="residual",
             caption="Residual of the equations at the end of Newton's iteration.",
             alt="Residual of each wave on a logarithmic axis.",
         ))  # fmt: skip
-    return draw.on_page([*panels, _iterations_panel(predictions)])
+    return draw.panels_on_page([*panels, _iterations_panel(predictions)])
 
 
-def _wave_axis(views: Views) -> Axis:
+def _wave_axis(views: Views) -> PlotAxis:
     most = max(view.waves for view in views)
-    return Axis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
+    return PlotAxis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
 
 
 def _errors_panel(view: PredictionView) -> Panel:
@@ -265,7 +265,7 @@ def _errors_panel(view: PredictionView) -> Panel:
         errors.append(("estimated error of contact fraction", GREEN, error))
     return Panel(
         _wave_axis([view]),
-        Axis("error [%]", log=True),
+        PlotAxis("error [%]", log=True),
         [Series(view.number, 100.0 * v, colour, label, marker="o") for label, colour, v in errors],
         name=f"errors-{view.name}",
         caption="Errors of the discretisation: friction relative, contact fraction absolute (of "
@@ -286,7 +286,7 @@ def _iterations_panel(views: Views) -> Panel:
                 marks.append(Bars(*ends, 0.0, count[rows], shade, label))
     return Panel(
         _wave_axis(views),
-        Axis("Newton iterations [-]", low=0.0),
+        PlotAxis("Newton iterations [-]", low=0.0),
         marks,
         name="iterations",
         caption="Newton iterations over all load steps; red where the wave did not converge.",
@@ -309,8 +309,8 @@ def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
             if np.isfinite(friction)
         ]  # fmt: skip
     panel = Panel(
-        Axis(f"speed [{speed_unit.unit}]", log=True),
-        Axis("friction coefficient [-]", low=0.0),
+        PlotAxis(f"speed [{speed_unit.unit}]", log=True),
+        PlotAxis("friction coefficient [-]", low=0.0),
         marks,
         name="measured-friction",
         caption="Measured friction over speed, with what is predicted at the speed of the case. "
@@ -318,7 +318,7 @@ def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
         alt="Measured friction against speed, and predicted friction at one speed.",
         height=400,
     )
-    return draw.on_page([panel])[0]
+    return draw.panels_on_page([panel])[0]
 
 
 PARTS = {
@@ -381,7 +381,7 @@ def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
     marks.append(Series(length, surface, INK, "at the surface, in contact", "", marker="o",
                         size=4.0, filled=False))  # fmt: skip
     label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
-    panel = Panel(chart.wavelength_axis(length), Axis(label, margin=0.08), marks)
+    panel = Panel(chart.wavelength_axis(length), PlotAxis(label, margin=0.08), marks)
     look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
     return Sheet([panel], 1, NARROW, 3.4, **look)
 
@@ -410,18 +410,18 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     top = 1.1 * float(contact.scales.warming.max())
     octaves = Panel(
         chart.wavelength_axis(length),
-        Axis("warming where the octave loses energy [K]", low=0.0, high=top),
+        PlotAxis("warming where the octave loses energy [K]", low=0.0, high=top),
         [Series(length, contact.scales.warming, ORANGE, marker="o")],
     )
     x, warming = contact.x / MILLI, contact.surface_warming
-    along = Axis("along the way of sliding $x$ [mm]", margin=0.0)
+    along = PlotAxis("along the way of sliding $x$ [mm]", margin=0.0)
     if contact.height.ndim == 1:
         top = float(np.max(warming))
         level = float(np.average(warming, weights=contact.pressure))
         touching = np.where(contact.active, -0.06 * top, np.nan)
         surface = Panel(
             along,
-            Axis("warming of the surface [K]", low=-0.12 * top, high=1.25 * top),
+            PlotAxis("warming of the surface [K]", low=-0.12 * top, high=1.25 * top),
             [
                 Series(x, warming, ORANGE, width=0.9, coarse=True),
                 CrossLine(level, GREY, "mean in the contact, by pressure", "dashdot"),
@@ -431,7 +431,9 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
         )
     else:
         field = ValueMap(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
-        surface = Panel(Axis(along.label, grid=False), Axis("$y$ [mm]", grid=False), [field])
+        surface = Panel(
+            PlotAxis(along.label, grid=False), PlotAxis("$y$ [mm]", grid=False), [field]
+        )
     layout = {"width_ratios": [1.0, 1.5]}
     return draw.on_paper(
         Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout)
@@ -474,7 +476,7 @@ def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
     """Describe what `effects_figure` draws; arguments and errors are its own."""
     names = [str(name) for name in results[0].effect.values]
     ticks = {float(i): EFFECTS.get(name, name) for i, name in enumerate(names)}
-    rows = Axis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
+    rows = PlotAxis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
     panels = []
     for name, label in PANELS.items():
         values = [result[name].values for result in results if name in result]
@@ -488,7 +490,7 @@ def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
             for mark in _effect_bars(result, name, colour, longest, (k, len(results)))
         ]
         high = 1.3 * longest or None
-        panels.append(Panel(Axis(label, low=0.0, high=high, numbers=4), rows, marks))
+        panels.append(Panel(PlotAxis(label, low=0.0, high=high, numbers=4), rows, marks))
     return Sheet(
         panels,
         len(panels),

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from gripscale.charts import draw
-from gripscale.charts.chart import Block, Blocks
+from gripscale.charts.chart import Blocks, DrawnBlock
 from gripscale.charts.page_elements import Image, Picture
 from gripscale.charts.style import WIDE
 from gripscale.core import checks
@@ -58,14 +58,14 @@ def _described(view: PredictionView, waves: Iterable[int], columns: int, width: 
     return Blocks(blocks, view.display_unit("pressure").unit, columns, width)
 
 
-def _block(view: PredictionView, i: int) -> Block:
+def _block(view: PredictionView, i: int) -> DrawnBlock:
     """Describe wave `i`; what a failed wave ended with is no result."""
     unit, solved = view.display_unit("pressure"), bool(view.converged[i])
     pressure = None
     if solved:
         x, pascal = view.pressure_along(i)
         pressure = x, unit.of(pascal)
-    return Block(
+    return DrawnBlock(
         caption=_caption(view, i),
         steepness=float(view.column("amplitude")[i] / view.column("wavelength")[i]),
         mean=float(unit.of(view.column("pressure_received")[i])),

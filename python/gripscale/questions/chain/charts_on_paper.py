@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from gripscale.charts.chart import Block, Blocks
+from gripscale.charts.chart import Blocks, DrawnBlock
 from gripscale.charts.paper import DASHES, DPI, ROUND, RULES
 from gripscale.charts.style import BLUE, FAINT, GREY, INK, ORANGE
 from gripscale.core.arrays import Array
@@ -31,7 +31,7 @@ _HEAD, MIDDLE, FOOT, LAST = 0.5, 0.2, 0.22, 0.22
 """Of a row of panels: its titles, between pressure and block, numbers; below the last [inch]."""
 
 
-def draw_blocks(sheet: Blocks) -> Figure:
+def blocks_on_paper(sheet: Blocks) -> Figure:
     """Return the figure of blocks; matplotlib's own rules stay as they are.
 
     The panels are placed by hand: they are alike, and a layout engine takes as long as drawing.
@@ -75,7 +75,7 @@ def _draw(sheet: Blocks) -> Figure:
     return figure
 
 
-def _window(blocks: Sequence[Block]) -> tuple[float, float]:
+def _window(blocks: Sequence[DrawnBlock]) -> tuple[float, float]:
     """Return the heights shown [wavelengths]: the deepest valley and a part of the block."""
     if not blocks:
         return -0.16, 0.16
@@ -84,7 +84,7 @@ def _window(blocks: Sequence[Block]) -> tuple[float, float]:
     return -steepest - 0.06, steepest + (MESH_DEPTH if meshed else FOR_WORDS)
 
 
-def _pressure(axes: Axes, block: Block) -> None:
+def _pressure(axes: Axes, block: DrawnBlock) -> None:
     """Draw the contact pressure along one wavelength and its mean; of a failed wave the mean."""
     if block.pressure is None:
         axes.text(0.5, 0.75, "no solution", transform=axes.transAxes, ha="center", va="center")
@@ -99,7 +99,7 @@ def _pressure(axes: Axes, block: Block) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(2, steps=ROUND, min_n_ticks=2))
 
 
-def _block(axes: Axes, block: Block, window: tuple[float, float]) -> None:
+def _block(axes: Axes, block: DrawnBlock, window: tuple[float, float]) -> None:
     """Draw the rigid wave and, of a solution that has one, the deformed mesh."""
     x = np.linspace(-0.5, 0.5, 200)
     wave = block.steepness * np.cos(2.0 * math.pi * x)
@@ -113,7 +113,7 @@ def _block(axes: Axes, block: Block, window: tuple[float, float]) -> None:
     axes.grid(False)
 
 
-def _annotate(above: Axes, below: Axes, block: Block) -> None:
+def _annotate(above: Axes, below: Axes, block: DrawnBlock) -> None:
     """Name the dashed line and, where the rubber slides, its direction (along x)."""
     mean = (-0.48, block.mean)
     above.annotate("mean", mean, (0, 2), textcoords="offset points", color=GREY, fontsize=6.5)

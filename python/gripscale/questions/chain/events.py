@@ -181,7 +181,7 @@ Event: TypeAlias = (
 OnEvent: TypeAlias = Callable[[Event], None]
 
 
-def to_json(event: Event) -> str:
+def event_to_json(event: Event) -> str:
     """Return an event as one line of JSON."""
     names = [item.name for item in dataclasses.fields(event) if item.name != "so_far"]
     values = {name: getattr(event, name) for name in names}
@@ -190,7 +190,7 @@ def to_json(event: Event) -> str:
     return json.dumps({"event": type(event).__name__, **values}, allow_nan=False)
 
 
-def from_json(line: str) -> Event | None:
+def event_from_json(line: str) -> Event | None:
     """Return the event of a line of JSON, or None if the line is none that this version knows."""
     kinds = {kind.__name__: kind for kind in get_args(Event)}
     try:

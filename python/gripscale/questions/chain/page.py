@@ -23,11 +23,11 @@ from gripscale.io.table import (
     fixed,
     percent,
     significant,
-    whole,
+    whole_number,
     yes_no,
 )
 from gripscale.model import with_adhesive
-from gripscale.questions.chain.view import CONVERGED, PredictionView
+from gripscale.questions.chain.view import CONVERGED_WORD, PredictionView
 from gripscale.questions.inputs.page import numbers
 from gripscale.report.notices import conditions_notices, exponent_sentence, prediction_sentence
 
@@ -87,7 +87,7 @@ _CONDITIONS = [
         format=fixed(1),
     ),
     Column("temperature_extrapolated", heading="beyond shift", format=yes_no),
-    Column("passes", heading="passes", format=whole),
+    Column("passes", heading="passes", format=whole_number),
 ]
 ERRORS = [
     Column("friction_mismatch", heading="mismatch of μ", format=percent),
@@ -99,15 +99,15 @@ ERRORS = [
 ]
 SOLUTION = [
     Column("residual", heading="residual", unit="force", format=digits(2)),
-    Column("load_steps", heading="load steps", format=whole),
-    Column("newton_iterations", heading="Newton", unit="steps", format=whole),
+    Column("load_steps", heading="load steps", format=whole_number),
+    Column("newton_iterations", heading="Newton", unit="steps", format=whole_number),
 ]
 MESH = [
-    Column("columns", heading="columns", format=whole),
-    Column("coarser_columns", heading="columns", unit="of the coarser mesh", format=whole),
-    Column("rows", heading="rows", format=whole),
+    Column("columns", heading="columns", format=whole_number),
+    Column("coarser_columns", heading="columns", unit="of the coarser mesh", format=whole_number),
+    Column("rows", heading="rows", format=whole_number),
     Column("depth", heading="depth", unit="wavelengths"),
-    Column("element_order", heading="order", format=whole),
+    Column("element_order", heading="order", format=whole_number),
     Column("indentation", heading="indentation", unit="mm", size=MILLI),
     Column("load_reached", heading="load reached", format=percent),
 ]
@@ -137,7 +137,9 @@ _TABLES = {
     "mesh": ("Mesh of each wave", MESH),
 }
 """Tables of a page by name: caption and columns."""
-ALL = {column.name: column for column in chain(WAVE, *(columns for _, columns in _TABLES.values()))}
+ALL_WAVES = {
+    column.name: column for column in chain(WAVE, *(columns for _, columns in _TABLES.values()))
+}
 _NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did not converge."
 
 IN_TERMINAL = {
@@ -183,19 +185,21 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
     columns = [
         numbers("wave", view.waves, "#"),
         *(
-            replace(filled(view, ALL[name]), group=group)
+            replace(filled(view, ALL_WAVES[name]), group=group)
             for group, names in IN_TERMINAL.items()
             for name in names
         ),
         Column(
             "stretch",
-            np.stack([filled(view, ALL[f"{end}_stretch"]).values for end in ("min", "max")], 1),
+            np.stack(
+                [filled(view, ALL_WAVES[f"{end}_stretch"]).values for end in ("min", "max")], 1
+            ),
             unit="min-max",
             format=fixed(2),
             group="contact",
             joint="-",
         ),
-        replace(filled(view, ALL["newton_iterations"]), group="contact"),
+        replace(filled(view, ALL_WAVES["newton_iterations"]), group="contact"),
         Column("status", [view.why(i) for i in range(view.waves)], group="contact", words=True),
     ]
     if view.moving and view.converged.all():
@@ -214,7 +218,7 @@ def totals(data: xr.Dataset) -> str:
     view = PredictionView(data)
     if not view.converged.all():
         return f"No totals: wave {view.waves} did not converge ({view.why(view.waves - 1)})."
-    if not view.waves and view.status != CONVERGED:
+    if not view.waves and view.status != CONVERGED_WORD:
         return f"No totals: {view.status}."
     waves = f"{view.waves} wave{'s' if view.waves != 1 else ''}: " if view.waves else ""
     area = f"{waves}real contact area A_r/A_0 = {significant(view.total('contact_fraction'))}"
@@ -239,7 +243,7 @@ def heat_table(data: xr.Dataset) -> Table:
 
 
 def _plain(value: float) -> str:
-    return whole(value) if value.is_integer() else significant(value)
+    return whole_number(value) if value.is_integer() else significant(value)
 
 
 def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
@@ -248,7 +252,7 @@ def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
         return []
     further: dict[str, Column] = {}
     for name, variable in chain(*(view.data.data_vars.items() for view in predictions)):
-        if name not in ALL and variable.dims == ("scale",) and variable.dtype.kind in "fiu":
+        if name not in ALL_WAVES and variable.dims == ("scale",) and variable.dtype.kind in "fiu":
             unit = str(variable.attrs.get("units", "")).replace("1", "")
             further[str(name)] = Column(str(name), unit=unit, format=_plain)
     all_tables = _TABLES | {"further": ("Further columns of the result", list(further.values()))}
@@ -272,7 +276,7 @@ def _table(
         ]
         if name == "solution":
             states = [
-                f"{'' if good else 'NOT CONVERGED: '}{view.why(i)}"
+                f"{'' if good else 'NOT CONVERGED_WORD: '}{view.why(i)}"
                 for i, good in enumerate(view.converged)
             ]
             states += ["not reached"] * (rows - view.waves)

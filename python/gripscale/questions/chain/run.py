@@ -204,7 +204,7 @@ def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     above it: under one pressure class, without conditions that are solved in several passes.
     """
     try:
-        data = netcdf.load(path)
+        data = netcdf.load_dataset(path)
         prediction = ChainResult.from_dataset(data) if data.attrs.get(_KEY) == key else None
     except (FileError, InputError):
         return None

@@ -32,7 +32,7 @@ AXIS_TITLES = {
 }
 """Headings and symbols at an axis, without the unit."""
 
-CONVERGED = "converged"
+CONVERGED_WORD = "converged"
 
 
 def believed(data: xr.Dataset, name: str) -> str:
@@ -103,7 +103,7 @@ class PredictionView:
     @property
     def complete(self) -> bool:
         """Whether everything was solved and may be used."""
-        good = self.status == CONVERGED and bool(self.converged.all())
+        good = self.status == CONVERGED_WORD and bool(self.converged.all())
         return good and self.waves >= self.planned
 
     @property
@@ -117,7 +117,7 @@ class PredictionView:
         if "status" not in self.data:
             return np.zeros(self.waves, dtype=bool)
         states = self.data["status"].values
-        return np.array([str(state) == CONVERGED for state in states], dtype=bool)
+        return np.array([str(state) == CONVERGED_WORD for state in states], dtype=bool)
 
     def why(self, i: int) -> str:
         """Return the status of wave `i`, and how much of its pressure was reached."""

@@ -17,9 +17,19 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.chart import (
+    Bars,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    PlotAxis,
+    Series,
+    ShadedBand,
+    Sheet,
+)
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import BEYOND, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
+from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.half_space.model import DirectContact
@@ -61,7 +71,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
             height=0.95 + 0.33 * len(labels),
             gap=0.05,
             legend="below" if star else "",
-            keys=[Series([], [], INK, BEYOND, dash="", marker="$*$")] if star else (),
+            keys=[Series([], [], INK, BEYOND_LABEL, dash="", marker="$*$")] if star else (),
             layout={"sharey": True},
         )
     )
@@ -80,7 +90,7 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     on_surface = ladder.on_the_surface(comparison)
     if np.isfinite(on_surface.running_friction.values).any():
         panels += [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
-    return draw.on_page(panels)
+    return draw.panels_on_page(panels)
 
 
 def _quantities(comparison: xr.Dataset) -> list[str]:
@@ -114,8 +124,8 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
                        for end in ("", STAR)}  # fmt: skip
     words, capital = _words(name)
     return Panel(
-        Axis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
-        Axis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
+        PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
+        PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,
         name=f"ladder-{name}",
@@ -183,7 +193,7 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
         chart.wavelength_axis(length),
-        Axis(f"{AXIS_TITLES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
+        PlotAxis(f"{AXIS_TITLES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
         caption=f"{capital} down to each wavelength, of every model: where area is lost "
@@ -220,7 +230,7 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return area and friction of every rung over the axis of a comparison."""
-    return draw.on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
+    return draw.panels_on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
 
 
 _MARGIN = 0.03
@@ -241,7 +251,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         if np.isfinite(spread).any():
             # A spread above the number itself has no end on a logarithmic axis.
             low = np.maximum(values - spread, 1e-3 * values)
-            marks.append(Band(x, low, values + spread, look.colour, curve.label, alpha=0.18))
+            marks.append(ShadedBand(x, low, values + spread, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"best_{name}_factor"]).any():
         best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
         ends = {
@@ -267,8 +277,8 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     least = min(0.0, float(comparison.total_friction.min()))
     text = axis.replace("_", " ")
     return Panel(
-        Axis(axis_label(comparison, axis), log=log, low=low, high=high),
-        Axis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
+        PlotAxis(axis_label(comparison, axis), log=log, low=low, high=high),
+        PlotAxis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
         name=f"over-{axis}-{name}",
         caption=f"{capital} of every model over {text}; bands are the standard deviation "
@@ -315,8 +325,8 @@ def measured_sheet(
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(
-            Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
-            Axis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
+            PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
+            PlotAxis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
             [*marks_of(values, speed_unit), points],
             title=values.label.removeprefix("measured").removeprefix(", "),
         ))  # fmt: skip

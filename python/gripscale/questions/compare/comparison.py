@@ -40,7 +40,7 @@ from gripscale.questions.vary.study import Study
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.measured_rubber import MeasuredRubber
 
-VARIED = (
+COMPARED_OVER = (
     "speed",
     "pressure",
     "temperature",
@@ -60,7 +60,7 @@ OnStage = Callable[[Comparison], None]
 """Called with the comparison as it stands, while more samples are solved."""
 
 
-class Choice(NamedTuple):
+class ComparisonOptions(NamedTuple):
     """What is compared, how finely, and beside what."""
 
     seeds: int = 3
@@ -126,7 +126,7 @@ def compare_case(
         extrapolation and a wave excites the rubber beyond the measured band.
     """
     factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
-    choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
+    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     task = Task(case.rubber, case.surface, case.load, case.chain)
     with bench_in(folder, workers, client, on_task) as bench:
         return _compared(case, {"": task}, [case.measured_rubber], choice, None, bench)
@@ -166,14 +166,14 @@ def compare_over(
     """
     study = Study(case, vary, static=False, model=Chain.name)
     axis = study.axes[0]
-    if len(study.axes) > 1 or axis.name not in VARIED:
+    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
         names = ", ".join(other.name for other in study.axes)
-        raise InputError(f"a comparison varies one of {', '.join(VARIED)}; got {names}")
+        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
     if not axis.numeric:
         raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
     if len(axis.values) < 2:
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    choice = Choice(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
+    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     tasks = {point.label: point.task for point in study.points}
     with bench_in(folder, workers, client, on_task) as bench:
         return _compared(case, tasks, study.measured_rubbers, choice, axis, bench)
@@ -183,7 +183,7 @@ def _compared(
     case: Case,
     tasks: Mapping[str, Task],
     rubbers: Sequence[MeasuredRubber],
-    choice: Choice,
+    choice: ComparisonOptions,
     axis: Axis | None,
     bench: Bench,
 ) -> Comparison:
@@ -339,7 +339,9 @@ def at_measured(
         for number, (model, surface, _) in enumerate(specs, start=1):
             label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
             met = setup.rubber_for(model)
-            design = measured_comparison.points_of(measured, model, met, surface, setup.load, label)
+            design = measured_comparison.measured_design(
+                measured, model, met, surface, setup.load, label
+            )
             designs[rung.name].append(design)
             tasks |= design.tasks
     if not designs:

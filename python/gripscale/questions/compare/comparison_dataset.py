@@ -27,7 +27,7 @@ from gripscale.model import (
     input_doubts,
 )
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.best_estimate import SHARES, Factor, best_estimate
+from gripscale.questions.answer.best_estimate import BASIS_SHARES, Factor, best_estimate
 from gripscale.questions.compare.ladder import ComparisonSetup, Rung
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import coordinates
@@ -92,12 +92,12 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
         array = np.asarray(values if outer else values[0])
         add(name, xr.DataArray(array, dims=(*outer, *dims)), long_name, *dims, unit=unit)
 
-    for name in reduce.QUANTITIES:
+    for name in reduce.SAMPLED_QUANTITIES:
         text = f"{TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
     reach = upper_height_of(setups[0].surface)
     best = best_estimate(samples, comparison.factors, upper_height=reach)
-    for name, text in zip(SHARES, list(BASIS.values())[-2:], strict=True):
+    for name, text in zip(BASIS_SHARES, list(BASIS.values())[-2:], strict=True):
         add(f"best_{name}", best[f"best_{name}"], text)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
@@ -197,7 +197,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,
             "measured_source": "" if measured is None else measured.source,
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         },
     )
 

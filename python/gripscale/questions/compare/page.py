@@ -21,7 +21,7 @@ from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards
 from gripscale.questions.answer.reliance import has_answer, no_answer
-from gripscale.questions.chain.view import CONVERGED, HEADINGS, SYMBOLS, PredictionView
+from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS, PredictionView
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
@@ -169,8 +169,8 @@ def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
     bad = int(rung.converged_samples) < int(rung.samples)
     for name, symbol in SYMBOLS.items():
         words = f"{HEADINGS[name].capitalize()} {symbol}"
-        detail = f"{rung.label.item()}; ± {elements.percent(rung[f'{name}_uncertainty'])}"
-        yield Card(words, elements.number(rung[f"total_{name}"]), detail, bad)
+        detail = f"{rung.label.item()}; ± {elements.percent_text(rung[f'{name}_uncertainty'])}"
+        yield Card(words, elements.number_text(rung[f"total_{name}"]), detail, bad)
 
 
 def best_line(comparison: xr.Dataset) -> str:
@@ -186,7 +186,7 @@ def best_line(comparison: xr.Dataset) -> str:
 def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     """Yield the direct contact of the measured profiles, and how the chain compares with it."""
     status = str(direct.prediction_status.item())
-    if status != CONVERGED:
+    if status != CONVERGED_WORD:
         yield f"The direct contact of the measured profiles has no result: {status}."
         return
     area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
@@ -220,7 +220,7 @@ def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
     yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)
 
 
-def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
+def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
     """Yield where a model has a sample that did not converge, and what it says."""
     axis = varied(comparison)
     for at in range(comparison.sizes[axis]) if axis else [None]:
@@ -231,7 +231,7 @@ def failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
             where = f"{axis.replace('_', ' ')} {value}, "
         words = status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
-            if str(text) != CONVERGED:
+            if str(text) != CONVERGED_WORD:
                 yield f"{where}{label}", Failure(str(text), str(word))
 
 

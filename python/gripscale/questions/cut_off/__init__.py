@@ -1,14 +1,14 @@
 """What lies below the measurement: friction and contact area against the cut-off."""
 
-from gripscale.questions.registry import Field, Form
+from gripscale.questions.registry import Form, FormField
 
 KINDS = {"cut_off": "question:CutOff"}
-COMMANDS = {"cut-off": "command:cut_off"}
+COMMANDS = {"cut-off": "command:cut_off_command"}
 FORMS = (
     Form(
         "cut-off",
         "Cut-off",
         "Friction by the shortest wavelength that counts.",
-        (Field("--down-to", "down to", "20 um"),),
+        (FormField("--down-to", "down to", "20 um"),),
     ),
 )

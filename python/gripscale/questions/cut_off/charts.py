@@ -9,12 +9,12 @@ import xarray as xr
 
 from gripscale.charts import draw
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     CrossLine,
     Mark,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     Sheet,
     wavelength_axis,
 )
@@ -38,7 +38,7 @@ _SAME = 0.01
 
 def cut_off_charts(data: xr.Dataset) -> list[Chart]:
     """Return the panels as charts of the page."""
-    return draw.on_page(_panels(data))
+    return draw.panels_on_page(_panels(data))
 
 
 def cut_off_sheet(data: xr.Dataset) -> Sheet:
@@ -53,12 +53,12 @@ def _panels(data: xr.Dataset) -> list[Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
     axis = wavelength_axis(lengths)
-    axis = Axis("cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high)
+    axis = PlotAxis("cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high)
     rules = list(_rules(data))
     panels = []
     for name, (label, colour, title) in _CURVES.items():
         marks: list[Mark] = [
-            Band(
+            ShadedBand(
                 lengths,
                 data[f"{name}_lower"].values,
                 data[f"{name}_upper"].values,
@@ -71,7 +71,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         panels.append(
             Panel(
                 axis,
-                Axis(label, log=name == AREA, low=None if name == AREA else 0.0),
+                PlotAxis(label, log=name == AREA, low=None if name == AREA else 0.0),
                 marks,
                 name=f"cut-off-{'friction' if name == FRICTION else 'area'}",
                 caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
@@ -87,7 +87,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
     panels.append(
         Panel(
             axis,
-            Axis("rms slope in contact [-]", low=0.0),
+            PlotAxis("rms slope in contact [-]", low=0.0),
             slope,
             name="cut-off-slope",
             caption="Rms slope of the road where it touches: small strain ends near 1.",

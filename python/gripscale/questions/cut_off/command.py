@@ -9,7 +9,7 @@ from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
 
 
 @command
-def cut_off(
+def cut_off_command(
     case: CasePath,
     down_to: Annotated[
         str | None,

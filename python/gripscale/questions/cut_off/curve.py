@@ -11,7 +11,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
-from gripscale.experiment.design import attributes, surface_numbers
+from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
 from gripscale.half_space.below_measurement import FACTS, cut_off_at
@@ -92,7 +92,7 @@ def _at_rules(data: xr.Dataset, surface: Surface) -> xr.Dataset:
         ),
     }
     variables = {
-        name: ("rule", numbers, attributes(text, unit))
+        name: ("rule", numbers, variable_attributes(text, unit))
         for name, (numbers, text, unit) in values.items()
     }
     return xr.Dataset(variables, {"rule": list(names)})

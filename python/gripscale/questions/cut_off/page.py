@@ -13,7 +13,7 @@ from gripscale.core.units import MILLI, display_unit_of, in_mm
 from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.chain.view import CONVERGED, HEADINGS, SYMBOLS
+from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS
 from gripscale.questions.cut_off.charts import cut_off_charts
 from gripscale.questions.cut_off.curve import (
     AREA,
@@ -31,14 +31,14 @@ NAMES = {"friction": FRICTION, "contact_fraction": AREA}
 
 def cut_off_parts(data: xr.Dataset) -> Iterator[Table]:
     """Yield the rules of cut-off and the curve; nothing without one."""
-    if not failures(data):
+    if not cut_off_failures(data):
         yield rules_table(data)
         yield curve_table(data)
 
 
-def answer_lines(data: xr.Dataset) -> Iterator[str]:
+def cut_off_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield friction and contact at the last cut-off, at the measured one, and the evidence."""
-    if failures(data):
+    if cut_off_failures(data):
         yield f"Answer: none. {data[STATUS].item()}"
         return
     end = float(data.cut_off[-1])
@@ -50,10 +50,10 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
     )
     level = f" ({100.0 * LEVEL:.0f} % bands)" if below else ""
     yield f"Answer: {numbers} with roughness down to {in_mm(end, 3)}{level}"
-    yield from (f"  {line}" for line in basis_lines(data))
+    yield from (f"  {line}" for line in cut_off_basis(data))
 
 
-def basis_lines(data: xr.Dataset) -> Iterator[str]:
+def cut_off_basis(data: xr.Dataset) -> Iterator[str]:
     """Yield the load, the numbers of the measured roughness, and how it is continued."""
     resolved = float(data.resolved)
     load = [
@@ -134,9 +134,9 @@ def curve_table(data: xr.Dataset) -> Table:
     return Table("curve", columns, "By octave of the cut-off", keys=1)
 
 
-def cards(data: xr.Dataset) -> Iterator[Card]:
+def cut_off_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact at the last cut-off."""
-    if failures(data):
+    if cut_off_failures(data):
         return
     end = in_mm(float(data.cut_off[-1]), 3)
     for name, curve in _drawn(data):
@@ -146,33 +146,33 @@ def cards(data: xr.Dataset) -> Iterator[Card]:
         )
 
 
-def failures(data: xr.Dataset) -> list[Failure]:
+def cut_off_failures(data: xr.Dataset) -> list[Failure]:
     """Return why there is no curve; empty if there is one."""
     sentence = str(data[STATUS].item())
-    if sentence == CONVERGED:
+    if sentence == CONVERGED_WORD:
         return []
     return [Failure(sentence, str(data[f"{STATUS}_word"].item()))]
 
 
 def cut_off_elements(data: xr.Dataset | None) -> list[Element]:
     """Return curves, rules and tables of a result against the cut-off; nothing without one."""
-    if data is None or failures(data):
+    if data is None or cut_off_failures(data):
         return []
-    return [*map(Text, basis_lines(data)), *cut_off_charts(data), *cut_off_parts(data)]
+    return [*map(Text, cut_off_basis(data)), *cut_off_charts(data), *cut_off_parts(data)]
 
 
 def cut_off_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
     """Return the page of contact and friction against the cut-off."""
     case = case_name(data.attrs) or "case.toml"
-    errors = [Finding(Severity.ERROR, explained(failure)) for failure in failures(data)]
+    errors = [Finding(Severity.ERROR, explained(failure)) for failure in cut_off_failures(data)]
     sections = [
         Section("cut-off", "Against the cut-off", cut_off_elements(data)),
         rerun_section(data.attrs),
     ]
     return Page(
         f"Contact and friction of {case} against the cut-off",
-        next(answer_lines(data)),
+        next(cut_off_lines(data)),
         [*errors, *findings],
-        list(cards(data)),
+        list(cut_off_cards(data)),
         [section for section in sections if section.elements],
     )

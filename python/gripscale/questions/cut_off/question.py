@@ -38,7 +38,7 @@ class CutOff(Result):
     @property
     def lines(self) -> Sequence[str]:
         """Friction and contact at the last cut-off, and how the roughness is continued."""
-        return tuple(page.answer_lines(self.data))
+        return tuple(page.cut_off_lines(self.data))
 
     @property
     def findings(self) -> Sequence[Finding]:
@@ -48,7 +48,7 @@ class CutOff(Result):
     @property
     def failure(self) -> str:
         """Why there is no curve; empty if there is one."""
-        return " ".join(map(str, page.failures(self.data)))
+        return " ".join(map(str, page.cut_off_failures(self.data)))
 
     def parts(self) -> Iterator[str | Table]:
         """Yield the rules of cut-off, and friction and contact by octave."""
@@ -115,6 +115,6 @@ def cut_off_result(data: xr.Dataset, case: Case) -> CutOff:
     attrs = {
         "title": "Contact and friction against the cut-off",
         "case_file": case.origin.name,
-        **provenance.attributes(),
+        **provenance.version_attributes(),
     }
     return CutOff(data.assign_attrs(case.attributes, **attrs), record.inputs(case))

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.units import MEGA
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 PERCENT = 100.0
 SAME = 5e-3
 """Relative difference of rolling resistances that is none."""
-_FREQUENCY = Axis("frequency [Hz]", log=True, numbers=5)
+_FREQUENCY = PlotAxis("frequency [Hz]", log=True, numbers=5)
 _APART = 0.05
 """Difference of rolling resistances over today's from which both curves can be told apart."""
 COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
@@ -102,7 +102,9 @@ def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Pa
                        high=ends[1])
             )  # fmt: skip
     return Panel(
-        Axis("change of tan δ when rolling [%]"), Axis("friction gained [%]", margin=0.1), marks
+        PlotAxis("change of tan δ when rolling [%]"),
+        PlotAxis("friction gained [%]", margin=0.1),
+        marks,
     )
 
 
@@ -133,7 +135,7 @@ def _moduli_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel
         marks.append(
             Note(frequency[0], today[0], "$E'$" if name == "storage" else "$E''$", offset=(3, 6))
         )
-    return Panel(_FREQUENCY, Axis("modulus [MPa]", log=True), marks)
+    return Panel(_FREQUENCY, PlotAxis("modulus [MPa]", log=True), marks)
 
 
 def _loss_factor_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
@@ -143,7 +145,7 @@ def _loss_factor_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> 
     for at, colour, _ in points:
         ratio = data.loss.values[at] / data.storage.values[at]
         marks.append(Series(frequency, ratio, colour, width=1.0, order=3.0))
-    return Panel(_FREQUENCY, Axis("loss factor tan δ [-]", low=0.0), marks)
+    return Panel(_FREQUENCY, PlotAxis("loss factor tan δ [-]", low=0.0), marks)
 
 
 def _change_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
@@ -157,4 +159,4 @@ def _change_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel
         Series([], [], INK, "$E''$ over today's", width=1.2),
         Series([], [], INK, "$E'$ over today's", "dashdot", width=1.2),
     ]
-    return Panel(_FREQUENCY, Axis("modulus over today's [-]"), [CrossLine(1.0), *marks, *keys])
+    return Panel(_FREQUENCY, PlotAxis("modulus over today's [-]"), [CrossLine(1.0), *marks, *keys])

@@ -26,7 +26,7 @@ from gripscale.case import Case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.experiment.design import attributes
+from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
 from gripscale.io import netcdf
@@ -46,8 +46,8 @@ from gripscale.questions.vary.inputs import identity, measured_rubber_of, readin
 from gripscale.questions.vary.rubber_comparison import at_one_temperature
 from gripscale.rubber import Rubber
 
-RESULT = "design.nc"
-TOLERANCE = 0.05
+DESIGN_FILE = "design.nc"
+DESIGN_TOLERANCE = 0.05
 """Estimated relative error of the contacts whose friction is stated, as in comparisons."""
 
 FRUITLESS = "levels_without_more_friction"
@@ -70,7 +70,9 @@ class Reference:
         value, _ = friction.log_friction(np.ones(1 + friction.rubber.moduli.size))
         series = series_derivatives(friction, friction.contacts(friction.rubber))
         return cls(
-            friction.contacts(friction.rubber, tolerance=TOLERANCE, warm=False), value, series
+            friction.contacts(friction.rubber, tolerance=DESIGN_TOLERANCE, warm=False),
+            value,
+            series,
         )
 
 
@@ -131,11 +133,11 @@ def design_compound(
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     key = _key(case, problem, wanted, rubbers or {})
-    target = Path(folder) / RESULT
+    target = Path(folder) / DESIGN_FILE
     make_folder(target.parent)
     stored, fruitless = _stored_points(target, key)
     reference = Reference.of(problem.friction)
-    base = today(problem, reference.contacts, TOLERANCE).assign_attrs(
+    base = today(problem, reference.contacts, DESIGN_TOLERANCE).assign_attrs(
         case.attributes,
         case_file=case.origin.name,
         design_key=key,
@@ -187,7 +189,7 @@ def _solved_point(
     optimum = nearest_design(friction, admissible, best)
     rubber = changed(problem.rubber, optimum.ratio)
     series = series_derivatives(friction, friction.contacts(rubber))
-    contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
+    contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
     result = gain(friction, reference.contacts, contacts)
     rolling = problem.rolling_ratio(rubber)
     worth = problem.worth_of_limits(level, best.slope)
@@ -224,7 +226,7 @@ def _solved_point(
     return scalars(numbers).assign(
         of_compound(problem, rubber, contacts)
         | of_change(admissible, optimum.ratio)
-        | {"limit_worth": ("widened", np.array(list(worth.values())), attributes(text))}
+        | {"limit_worth": ("widened", np.array(list(worth.values())), variable_attributes(text))}
     )
 
 
@@ -252,7 +254,7 @@ def _compounds(
     parts = []
     for name in rubbers:
         rubber, friction = together[name], problem.friction
-        contacts = friction.contacts(rubber, tolerance=TOLERANCE, warm=False)
+        contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
         result = gain(friction, reference.contacts, contacts)
         low, high = result.interval
         rolling = math.nan

@@ -35,7 +35,7 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.material import loss_shape, storage_shape
 from gripscale.rubber.shift import EDGE
 
-QUANTITIES = ("storage_modulus", "loss_factor")
+LIMITED_QUANTITIES = ("storage_modulus", "loss_factor")
 HANDLING = ZERO_CELSIUS + 20.0
 """Temperature of the storage modulus that is kept by default [K]."""
 _AT_LIMIT = 1e-4
@@ -59,7 +59,7 @@ class PointLimit(Checked):
         Temperature in whose place `temperature` stands because the shift ends there [K].
     """
 
-    quantity: str = checked(checks.one_of, choices=QUANTITIES)
+    quantity: str = checked(checks.one_of, choices=LIMITED_QUANTITIES)
     low: float = checked(checks.not_negative)
     high: float = checked(checks.positive, infinite=True)
     frequency: float = checked(checks.positive, unit="Hz", default=10.0)

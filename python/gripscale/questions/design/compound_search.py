@@ -140,7 +140,7 @@ def _most(admissible: AdmissibleChanges, slope: Array) -> float:
 
 
 @dataclass(frozen=True)
-class Optimum:
+class CompoundOptimum:
     """The best admissible change at one level."""
 
     ratio: Array
@@ -153,7 +153,9 @@ class Optimum:
     """What any admissible change could still gain in ln mu, to first order [-]."""
 
 
-def best_change(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Optimum:
+def best_change(
+    friction: GoalFriction, admissible: AdmissibleChanges, start: Array
+) -> CompoundOptimum:
     """Return the admissible change with the largest friction, sought from `start`.
 
     Raises `InputError` if no change is admissible.
@@ -168,8 +170,8 @@ def best_change(friction: GoalFriction, admissible: AdmissibleChanges, start: Ar
 
 
 def nearest_design(
-    friction: GoalFriction, admissible: AdmissibleChanges, optimum: Optimum
-) -> Optimum:
+    friction: GoalFriction, admissible: AdmissibleChanges, optimum: CompoundOptimum
+) -> CompoundOptimum:
     """Return the change nearest to today's with almost the friction of the optimum.
 
     Friction falls faster than to first order away from the optimum: the step is halved until it
@@ -193,7 +195,7 @@ def nearest_design(
     for _ in range(MOST_HALVINGS):
         value, slope = friction.log_friction(ratio)
         if value >= optimum.log_friction - GIVEN_AWAY - PRECISION:
-            return Optimum(ratio, value, slope, optimum.log_friction - value + optimum.gap)
+            return CompoundOptimum(ratio, value, slope, optimum.log_friction - value + optimum.gap)
         ratio = 0.5 * (ratio + optimum.ratio)
     return optimum
 
@@ -214,7 +216,9 @@ def _programme(
     }
 
 
-def _corner_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Optimum:
+def _corner_steps(
+    friction: GoalFriction, admissible: AdmissibleChanges, start: Array
+) -> CompoundOptimum:
     """Return the end of steps to the best corner of the linear programme, shorter where it fails.
 
     The start may be outside the polytope; the first step then goes the whole way.
@@ -238,7 +242,7 @@ def _corner_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: 
             break
         else:
             step *= 0.25
-    return Optimum(ratio, value, slope, gap)
+    return CompoundOptimum(ratio, value, slope, gap)
 
 
 def _quadratic_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Array:

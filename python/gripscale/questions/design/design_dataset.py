@@ -12,7 +12,7 @@ import xarray as xr
 from gripscale.core import provenance
 from gripscale.core.arrays import Array
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import attributes
+from gripscale.experiment.design import variable_attributes
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.design.compound_limits import (
     AdmissibleChanges,
@@ -39,7 +39,7 @@ FREQUENCIES_PER_DECADE = 8
 def scalars(values: Mapping[str, tuple[float, str]]) -> xr.Dataset:
     """Return numbers with what they are as variables without a dimension."""
     return xr.Dataset(
-        {name: ((), value, attributes(text)) for name, (value, text) in values.items()}
+        {name: ((), value, variable_attributes(text)) for name, (value, text) in values.items()}
     )
 
 
@@ -54,8 +54,12 @@ def of_change(admissible: AdmissibleChanges, ratio: Array) -> dict[str, Any]:
         )
         values.append(design / today)
     return {
-        "modulus_ratio": ("term", ratio, attributes("modulus over today's, E_inf first")),
-        "limited_ratio": ("limit", np.array(values), attributes("limited modulus over today's")),
+        "modulus_ratio": ("term", ratio, variable_attributes("modulus over today's, E_inf first")),
+        "limited_ratio": (
+            "limit",
+            np.array(values),
+            variable_attributes("limited modulus over today's"),
+        ),
     }
 
 
@@ -83,14 +87,30 @@ def of_compound(
         wet = float(body.loss_factor(2.0 * math.pi * WET.frequency))
     rolling = problem.rolling_loss_factor(rubber)
     return {
-        "friction": ("goal", lost, attributes("friction coefficient from the energy lost")),
-        "friction_from_traction": ("goal", traction, attributes("the same from the traction")),
-        "contact_fraction": ("goal", area, attributes("real over nominal contact area")),
-        "modulus": ("term", moduli, attributes("E_inf, and moduli of the Prony series", "Pa")),
-        "storage": ("frequency", storage, attributes("storage modulus", "Pa")),
-        "loss": ("frequency", loss, attributes("loss modulus", "Pa")),
-        "rolling_loss_factor": ((), rolling, attributes("tan(delta) at the rolling condition")),
-        "wet_loss_factor": ((), wet, attributes("tan(delta) of the rule for wet grip")),
+        "friction": (
+            "goal",
+            lost,
+            variable_attributes("friction coefficient from the energy lost"),
+        ),
+        "friction_from_traction": (
+            "goal",
+            traction,
+            variable_attributes("the same from the traction"),
+        ),
+        "contact_fraction": ("goal", area, variable_attributes("real over nominal contact area")),
+        "modulus": (
+            "term",
+            moduli,
+            variable_attributes("E_inf, and moduli of the Prony series", "Pa"),
+        ),
+        "storage": ("frequency", storage, variable_attributes("storage modulus", "Pa")),
+        "loss": ("frequency", loss, variable_attributes("loss modulus", "Pa")),
+        "rolling_loss_factor": (
+            (),
+            rolling,
+            variable_attributes("tan(delta) at the rolling condition"),
+        ),
+        "wet_loss_factor": ((), wet, variable_attributes("tan(delta) of the rule for wet grip")),
     }
 
 
@@ -114,16 +134,20 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     limits = [str(point) for point in problem.admissible().points[:-1]]
     widened = [LARGEST_FACTOR, PER_DECADE, *limits, ROLLING_LEVEL]
     data |= {
-        "excited_low": ((), min(low for low, _ in excited), attributes("excited from", "Hz")),
-        "excited_high": ((), max(high for _, high in excited), attributes("up to", "Hz")),
-        "goal_weight": ("goal", friction.weights, attributes("weight of the goal")),
+        "excited_low": (
+            (),
+            min(low for low, _ in excited),
+            variable_attributes("excited from", "Hz"),
+        ),
+        "excited_high": ((), max(high for _, high in excited), variable_attributes("up to", "Hz")),
+        "goal_weight": ("goal", friction.weights, variable_attributes("weight of the goal")),
     }
     coordinates = {
         "goal": ("goal", np.array(goals, dtype=object)),
         "limit": ("limit", np.array(limits, dtype=object)),
         "widened": ("widened", np.array(widened, dtype=object)),
-        "relaxation_time": ("term", times, attributes("relaxation time", "s")),
-        "frequency": ("frequency", _frequencies(rubber), attributes("frequency", "Hz")),
+        "relaxation_time": ("term", times, variable_attributes("relaxation time", "s")),
+        "frequency": ("frequency", _frequencies(rubber), variable_attributes("frequency", "Hz")),
     }
     kelvin = rubber.reference_temperature
     about = {
@@ -135,7 +159,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
         "largest_factor": problem.limits.largest_factor,
         "factor_per_decade": problem.limits.factor_per_decade,
         "tolerance": tolerance,
-        **provenance.attributes(),
+        **provenance.version_attributes(),
     }
     return xr.Dataset(data, coordinates, about)
 

@@ -15,13 +15,13 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
 from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, write_csv
-from gripscale.questions.design.compound_limits import QUANTITIES, PointLimit, changed
+from gripscale.questions.design.compound_limits import LIMITED_QUANTITIES, PointLimit, changed
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
 GOAL_KEYS = {"speed": "speed", "pressure": "pressure", "temperature": "temperature"}
 """What a goal may state, with the kind of quantity; beside `weight` and `road`."""
-WORTH_SAYING = 0.2
+LEAST_CHANGE = 0.2
 """Change of E' or E'' from which a frequency counts as changed."""
 
 
@@ -57,9 +57,9 @@ def parse_limit(text: str) -> PointLimit:
     """
     parts = [part.strip() for part in text.split(",")]
     low, sign, high = parts[-1].partition(":")
-    if len(parts) not in (3, 4) or not sign or parts[0] not in QUANTITIES:
+    if len(parts) not in (3, 4) or not sign or parts[0] not in LIMITED_QUANTITIES:
         raise InputError(
-            f'limit must be such as "{QUANTITIES[0]}, 10 Hz, 20 C, 0.9:1.1"; '
+            f'limit must be such as "{LIMITED_QUANTITIES[0]}, 10 Hz, 20 C, 0.9:1.1"; '
             f"got {checks.short_repr(text)}"
         )
     try:
@@ -103,7 +103,7 @@ def rolling_at_todays_friction(data: xr.Dataset) -> float:
 def changed_frequencies(data: xr.Dataset, point: xr.Dataset) -> list[tuple[float, float]]:
     """Return the ranges of frequency [Hz] in which E' or E'' of a point is not today's."""
     ratios = np.stack([point[name] / data[f"today_{name}"] for name in ("storage", "loss")])
-    flags = np.concatenate([[False], (np.abs(ratios - 1.0) > WORTH_SAYING).any(axis=0), [False]])
+    flags = np.concatenate([[False], (np.abs(ratios - 1.0) > LEAST_CHANGE).any(axis=0), [False]])
     ends = np.flatnonzero(np.diff(flags.astype(int)))
     frequency = data.frequency.values
     return [

@@ -14,7 +14,7 @@ from gripscale.questions.design.charts import SAME
 from gripscale.questions.design.compound_design import FRUITLESS
 from gripscale.questions.design.compound_search import ROLLING_LEVEL
 from gripscale.questions.design.design_text import (
-    WORTH_SAYING,
+    LEAST_CHANGE,
     at_todays_rolling,
     changed_frequencies,
     rolling_at_todays_friction,
@@ -115,7 +115,7 @@ def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
     for name, symbol in (("storage", "E'"), ("loss", "E''")):
         ratio = (point[name] / data[f"today_{name}"]).values
         for at in sorted({int(np.argmin(ratio)), int(np.argmax(ratio))}):
-            if abs(ratio[at] - 1.0) > WORTH_SAYING:
+            if abs(ratio[at] - 1.0) > LEAST_CHANGE:
                 texts.append(f"{symbol} × {ratio[at]:.2f} at {data.frequency.values[at]:.2g} Hz")
     ranges = [f"{low:.2g} to {high:.2g} Hz" for low, high in changed_frequencies(data, point)]
     if not ranges:
@@ -174,7 +174,7 @@ def design_table(data: xr.Dataset) -> Table:
     return Table("design", columns, _TITLE, notes)
 
 
-def compounds_table(data: xr.Dataset) -> Table | None:
+def designed_compounds_table(data: xr.Dataset) -> Table | None:
     """Return the other compounds of a design as a table, None without any."""
     if "compound" not in data.dims:
         return None

@@ -15,7 +15,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.charts import chart, draw
-from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.core.arrays import Array
@@ -41,8 +41,8 @@ from gripscale.rubber.superposition import temperatures_in
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-OMEGA = Axis("angular frequency $\\omega$ [rad/s]", log=True)
-CELSIUS = Axis("temperature [°C]")
+OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
+CELSIUS = PlotAxis("temperature [°C]")
 KILO = 1e3
 _MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
 
@@ -109,7 +109,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
             marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
         panels.append(Panel(
             OMEGA,
-            Axis("Prony series / measured − 1 [%]"),
+            PlotAxis("Prony series / measured − 1 [%]"),
             marks,
             name="prony-residual",
             caption="Residual of the Prony series at the fitted rows.",
@@ -120,8 +120,8 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
         foot = np.full_like(moduli, float(moduli.min()) / 10.0)
         stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
         panels.append(Panel(
-            Axis("relaxation time $\\tau$ [s]", log=True),
-            Axis("modulus of the element [MPa]", log=True),
+            PlotAxis("relaxation time $\\tau$ [s]", log=True),
+            PlotAxis("modulus of the element [MPa]", log=True),
             [
                 Series(np.repeat(times, 3), stems, width=1.1),
                 Series(times, moduli, dash="", marker="o", size=5.0),
@@ -130,7 +130,7 @@ def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Ch
             caption="The Maxwell elements of the Prony series.",
             alt="Modulus of each Maxwell element against its relaxation time.",
         ))  # fmt: skip
-    return draw.on_page(panels)
+    return draw.panels_on_page(panels)
 
 
 def _moduli_panels(
@@ -147,7 +147,7 @@ def _moduli_panels(
         if f"series_low_{part}" in inputs:
             sides = (f"series_{side}_{part}" for side in ("low", "high"))
             least, most = (inputs[side].values / MEGA for side in sides)
-            moduli.append(Band(omega, least, most, colour, "admissible"))
+            moduli.append(ShadedBand(omega, least, most, colour, "admissible"))
         values = inputs[f"series_{part}"].values / MEGA
         moduli.append(Series(omega, values, colour, f"{name}, Prony series", beyond=beyond))
     for part, name, colour in _MODULI if measured else ():
@@ -173,7 +173,7 @@ def _moduli_panels(
     return [
         Panel(
             OMEGA,
-            Axis("modulus $E'$, $E''$ [MPa]", log=True),
+            PlotAxis("modulus $E'$, $E''$ [MPa]", log=True),
             [*moduli, *borders, *waves[0]],
             name="master-curve",
             caption="Storage and loss modulus: measured, and the Prony series that is solved with.",
@@ -182,7 +182,7 @@ def _moduli_panels(
         ),
         Panel(
             OMEGA,
-            Axis("loss factor $E''/E'$ [-]", low=0.0),
+            PlotAxis("loss factor $E''/E'$ [-]", low=0.0),
             [*loss, *borders, *waves[1]],
             name="loss-factor",
             caption="Loss factor: measured, and of the Prony series.",
@@ -222,12 +222,12 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
         modulus, beyond = rubber.complex_modulus(omega), rubber.outside_band(omega)
         if rubber.admissible is not None:
             low, high = rubber.complex_modulus_band(omega)
-            storage.append(Band(omega, low.real / MEGA, high.real / MEGA, colour, alpha=0.15))
+            storage.append(ShadedBand(omega, low.real / MEGA, high.real / MEGA, colour, alpha=0.15))
         storage.append(Series(omega, modulus.real / MEGA, colour, name, beyond=beyond))
         loss.append(Series(omega, modulus.imag / modulus.real, colour, beyond=beyond))
     panels = [
-        Panel(OMEGA, Axis("storage modulus $E'$ [MPa]", log=True), storage),
-        Panel(OMEGA, Axis("loss factor [-]", low=0.0), loss),
+        Panel(OMEGA, PlotAxis("storage modulus $E'$ [MPa]", log=True), storage),
+        Panel(OMEGA, PlotAxis("loss factor [-]", low=0.0), loss),
     ]
     layout = {"sharex": True}
     return draw.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
@@ -263,8 +263,8 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
     ]
     celsius = master.reference_temperature - ZERO_CELSIUS
     columns = (
-        (sweeps, "as measured", Axis("frequency $f$ [Hz]", log=True)),
-        (shifted, f"shifted to {celsius:.1f} °C", Axis("$a_T f$ [Hz]", log=True, numbers=6)),
+        (sweeps, "as measured", PlotAxis("frequency $f$ [Hz]", log=True)),
+        (shifted, f"shifted to {celsius:.1f} °C", PlotAxis("$a_T f$ [Hz]", log=True, numbers=6)),
     )
     quantities: dict[str, Callable[[Sweep], Array]] = {
         "$E'$ [MPa]": lambda sweep: sweep.storage / MEGA,
@@ -274,7 +274,7 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
     panels = [
         Panel(
             hertz,
-            Axis(label, log=True),
+            PlotAxis(label, log=True),
             [
                 Series(sweep.frequency, of(sweep), colour, marker="o", size=2.2, width=0.8)
                 for sweep, colour in _coloured(drawn, sweeps)
@@ -336,12 +336,12 @@ def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
     margin = 0.15 * max(float(np.ptp(table.horizontal)), 1.0)  # WLF has a pole
     ends = float(table.horizontal.min()) - margin, float(table.horizontal.max()) + margin
     panels = [
-        Panel(CELSIUS, Axis("$\\log_{10} a_T$ [-]", False, *ends), shifts, legend="best"),
-        Panel(CELSIUS, Axis("formula minus\nsweeps [-]"), rest),
+        Panel(CELSIUS, PlotAxis("$\\log_{10} a_T$ [-]", False, *ends), shifts, legend="best"),
+        Panel(CELSIUS, PlotAxis("formula minus\nsweeps [-]"), rest),
     ]
     if (table.vertical != 0.0).any():
         lifted = [factors(table.vertical, table.vertical_error)]
-        panels.append(Panel(CELSIUS, Axis("$\\log_{10} b_T$ [-]"), lifted))
+        panels.append(Panel(CELSIUS, PlotAxis("$\\log_{10} b_T$ [-]"), lifted))
     rows = len(panels)
     layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
     height = 1.5 * rows + 1.4
@@ -396,11 +396,14 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
     ]
     width = Series(middle, [pair.decades for pair in overlaps], INK, **look)
     panels = [
-        Panel(Axis("$|E^*|$ [MPa]", log=True), Axis("phase angle [°]", low=0.0), gurp,
+        Panel(PlotAxis("$|E^*|$ [MPa]", log=True), PlotAxis("phase angle [°]", low=0.0), gurp,
               "van Gurp and Palmen"),
-        Panel(Axis("$E'$ [MPa]", log=True), Axis("$E''$ [MPa]", log=True), cole, "Cole and Cole"),
-        Panel(CELSIUS, Axis("overlap [decades]"), [width, CrossLine(0.0)], "overlap of neighbours"),
-        Panel(CELSIUS, Axis("rms distance [decades]", log=True), apart, "distance in the overlap",
+        Panel(PlotAxis("$E'$ [MPa]", log=True), PlotAxis("$E''$ [MPa]", log=True), cole,
+              "Cole and Cole"),
+        Panel(CELSIUS, PlotAxis("overlap [decades]"), [width, CrossLine(0.0)],
+              "overlap of neighbours"),
+        Panel(CELSIUS, PlotAxis("rms distance [decades]", log=True), apart,
+              "distance in the overlap",
               legend="best" if overlaps else ""),
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
@@ -446,5 +449,8 @@ def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number:
     top = float(np.max(measured))
     ends = min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top
     return Panel(
-        Axis("stretch $s$ [-]"), Axis("nominal stress $P$ [kPa]", False, *ends), marks, test.name
+        PlotAxis("stretch $s$ [-]"),
+        PlotAxis("nominal stress $P$ [kPa]", False, *ends),
+        marks,
+        test.name,
     )

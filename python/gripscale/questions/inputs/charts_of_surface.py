@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 
 from gripscale.charts import draw
 from gripscale.charts.chart import (
-    Axis,
-    Band,
     CrossLine,
     Mark,
     Outline,
     Panel,
+    PlotAxis,
     Series,
+    ShadedBand,
     Sheet,
     ValueMap,
 )
@@ -38,7 +38,7 @@ from gripscale.surface.profile import HeightMap, Profile
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DISTANCE, _HEIGHT = Axis("distance $x$ [mm]"), Axis("height $z$ [mm]")
+DISTANCE, _HEIGHT = PlotAxis("distance $x$ [mm]"), PlotAxis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
 MANY = 500
 """Removed points whose dots are small, or they would hide the profile."""
@@ -94,9 +94,9 @@ def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
     ends: dict[str, Any] = {"low": float(raw.x[0]) / MILLI, "high": float(raw.x[-1]) / MILLI}
     panels = []
     for row, marks in rows.items():
-        abscissa = {"as read": Axis(**ends), "cleaned": Axis(DISTANCE.label, **ends)}
+        abscissa = {"as read": PlotAxis(**ends), "cleaned": PlotAxis(DISTANCE.label, **ends)}
         title = (raw.name or f"profile {number + 1}") if row == "as read" else ""
-        ordinate = Axis(f"{_HEIGHT.label}\n{row}")
+        ordinate = PlotAxis(f"{_HEIGHT.label}\n{row}")
         panels.append(Panel(abscissa.get(row, DISTANCE), ordinate, marks, title))
     return panels
 
@@ -147,7 +147,7 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
             alt=f"Close-up of the cleaned profile {name}.",
             height=300,
         ))  # fmt: skip
-    return draw.on_page(panels)
+    return draw.panels_on_page(panels)
 
 
 MOST_PIXELS = 400
@@ -168,14 +168,22 @@ def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None =
         x, y = raw.x[::along] / MILLI, raw.y[::across] / MILLI
         marks: list[Mark] = [ValueMap(x, y, heights, "height above the lowest [mm]")]
         words = "The map as measured; the rubber slides along x, to the right."
-        ordinate = Axis("distance across $y$ [mm]")
+        ordinate = PlotAxis("distance across $y$ [mm]")
     else:
         pieces = [envelope(profile.x, profile.z) for profile in raw]
         marks = [_outline(x, ends, "as read", GREY) for x, *ends in pieces]
         words, ordinate = "The profiles as measured.", _HEIGHT
-    return draw.on_page([Panel(DISTANCE, ordinate, [*marks, *kept], name="raw", caption=words,
-                               alt="The surface as measured, before cleaning.", height=300,
-                               to_scale=isinstance(raw, HeightMap))])[0]  # fmt: skip
+    panel = Panel(
+        DISTANCE,
+        ordinate,
+        [*marks, *kept],
+        name="raw",
+        caption=words,
+        alt="The surface as measured, before cleaning.",
+        height=300,
+        to_scale=isinstance(raw, HeightMap),
+    )
+    return draw.panels_on_page([panel])[0]
 
 
 def correlation_figure(
@@ -220,7 +228,7 @@ def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
     if SELF_AFFINE in inputs:
         label = f"self-affine, $H$ = {inputs.attrs['self_affine_hurst']:.2f}"
         marks.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))
-    return draw.on_page([panel.with_marks(marks), _residual_panel(inputs, lag, value)])
+    return draw.panels_on_page([panel.with_marks(marks), _residual_panel(inputs, lag, value)])
 
 
 def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array | None) -> Panel:
@@ -228,11 +236,13 @@ def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array 
     positive = value[value > 0.0] / SQUARE_MM
     marks: list[Mark] = []
     if low is not None and high is not None:
-        marks.append(Band(lag / MILLI, low / SQUARE_MM, high / SQUARE_MM, GREY, "95 % band", 0.35))
+        marks.append(
+            ShadedBand(lag / MILLI, low / SQUARE_MM, high / SQUARE_MM, GREY, "95 % band", 0.35)
+        )
     marks.append(Series(lag / MILLI, value / SQUARE_MM, INK, "measured", "", marker=".", size=4.0))
     return Panel(
-        Axis("lag $l$ [mm]", log=True),
-        Axis("height difference correlation $C_z$ [mm$^2$]", log=True,
+        PlotAxis("lag $l$ [mm]", log=True),
+        PlotAxis("height difference correlation $C_z$ [mm$^2$]", log=True,
              low=0.3 * float(positive.min()), high=3.0 * float(positive.max())),
         marks,
         name="correlation",
@@ -277,8 +287,8 @@ def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
             marks.append(Series(lag[rows] / MILLI, ratio, colour, f"{label}, {words}", "",
                                 marker="o", size=3.8, filled=filled))  # fmt: skip
     return Panel(
-        Axis("lag $l$ [mm]", log=True),
-        Axis("$\\log_{10}$ (fit / measured) [-]"),
+        PlotAxis("lag $l$ [mm]", log=True),
+        PlotAxis("$\\log_{10}$ (fit / measured) [-]"),
         marks,
         name="correlation-residual",
         caption="Residual of the fits, in decades of C_z; filled marks are lags that count in the "

@@ -19,16 +19,16 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_mm
-from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole
+from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole_number
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import Element, Facts, Section, number, percent
+from gripscale.report.elements import Element, Facts, Section, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
 from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
 
 if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
-    from gripscale.report.source import Run, Study
+    from gripscale.report.source import RunSource, StudySource
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
@@ -53,7 +53,7 @@ def waves_table(wavelength: ArrayLike, amplitude: ArrayLike) -> Table:
     return Table("waves", columns, "The sine waves")
 
 
-def slopes_table(slopes: SlopeByWavelength) -> Table:
+def rms_slopes_table(slopes: SlopeByWavelength) -> Table:
     """Return the rms slope down to each wavelength."""
     lengths = slopes.wavelength
     columns = [Column("wavelength", lengths, "down to", "mm", MILLI)]
@@ -70,7 +70,7 @@ def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") 
         values = data[name].values.astype(float)
         if np.nan_to_num(values).any():
             printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
-            form = whole if name == "depth_segments" else significant
+            form = whole_number if name == "depth_segments" else significant
             columns.append(Column(name, values, symbol, printed, size, format=form))
     notes = [str(text) for text in data[DEPTH_NOTE].values]
     if any(notes):
@@ -122,7 +122,7 @@ def files_table(record: InputRecord) -> Table:
     columns = [
         Column("file", names, "file, as the case names it"),
         Column("role", record.data["file_role"].values, "used for"),
-        Column("bytes", record.data["file_bytes"].values, format=whole),
+        Column("bytes", record.data["file_bytes"].values, format=whole_number),
         Column("sha256", record.data["file_sha256"].values, "SHA-256"),
     ]
     return Table("files", columns, "Measured files")
@@ -141,13 +141,13 @@ def cleaning_tables(record: InputRecord) -> Iterator[Table]:
         part = data.isel(profile=i)
         columns = [Column("step", data["cleaning_step_name"].values)]
         columns += [
-            Column(name, part[f"cleaning_{name}"].values, heading, format=whole)
+            Column(name, part[f"cleaning_{name}"].values, heading, format=whole_number)
             for name, heading in headings.items()
         ]
         columns.append(Column("note", part["cleaning_note"].values, "what was done", words=True))
         ends = (part[f"profile_{end}"] for end in ("step", "length"))
-        step, length = (number(value, MILLI, digits(4)) for value in ends)
-        points = number(part["profile_points"], format=whole)
+        step, length = (number_text(value, MILLI, digits(4)) for value in ends)
+        points = number_text(part["profile_points"], format=whole_number)
         caption = f"Cleaning of {name}: {points} points read, step {step} mm, length {length} mm"
         yield Table(f"cleaning-{i + 1}", columns, caption)
 
@@ -267,14 +267,14 @@ def _end(end: End, plateau: str) -> str:
     return f"{significant(end.modulus / MEGA)} MPa ({kind})"
 
 
-def load_facts(run: Run) -> Facts:
+def load_facts(run: RunSource) -> Facts:
     """Return load, rubber, surface and model in words."""
     attrs, data = run.attrs, run.data
     first = run.predictions[0]
 
     def text(name: str, value: float) -> str:
         display_unit = first.display_unit(name)
-        return f"{number(display_unit.of(value))} {display_unit.unit}"
+        return f"{number_text(display_unit.of(value))} {display_unit.unit}"
 
     speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
     if any(not view.moving for view in run.predictions):
@@ -314,7 +314,7 @@ def surface_facts(record: InputRecord, count: int) -> list[Facts]:
     """Return the fits to the height difference correlation, with `count` waves."""
 
     def span(name: str) -> str:
-        ends = (number(record.number(f"{name}_lag_{end}_m"), MILLI) for end in ("min", "max"))
+        ends = (number_text(record.number(f"{name}_lag_{end}_m"), MILLI) for end in ("min", "max"))
         return f"{' to '.join(ends)} mm"
 
     waves = [
@@ -344,7 +344,7 @@ def surface_facts(record: InputRecord, count: int) -> list[Facts]:
     if record.has("self_affine_hurst"):
         pairs = [
             ("Hurst exponent H", record.quantity("self_affine_hurst")),
-            ("Fractal dimension D", number(3.0 - record.number("self_affine_hurst"))),
+            ("Fractal dimension D", number_text(3.0 - record.number("self_affine_hurst"))),
             ("Cut-off length ξ∥", record.quantity("self_affine_xi_parallel_m", "mm", MILLI)),
             ("Cut-off height ξ⊥", record.quantity("self_affine_xi_perpendicular_m", "mm", MILLI)),
             ("Residual", record.quantity("self_affine_residual_decades", "decades of C_z")),
@@ -365,16 +365,16 @@ def rubber_facts(record: InputRecord) -> Facts:
         return label, record.quantity(f"{name}_modulus_Pa", "MPa", MEGA)
 
     band = [record.number(f"band_{end_name}_rad_per_s") for end_name in ("low", "high")]
-    low, high = (number(frequency) for frequency in band)
-    slow, fast = (number(frequency, 2.0 * math.pi) for frequency in band)
+    low, high = (number_text(frequency) for frequency in band)
+    slow, fast = (number_text(frequency, 2.0 * math.pi) for frequency in band)
     kelvin = record.number("reference_temperature_K")
     pairs = [
         end("slow_end", "Relaxed modulus", "Slow end of the data, E′"),
         end("fast_end", "Glassy modulus", "Fast end of the data, E′"),
-        ("Bulk modulus", f"{number(record.bulk_modulus, GIGA)} GPa"),
+        ("Bulk modulus", f"{number_text(record.bulk_modulus, GIGA)} GPa"),
         ("Maxwell elements", str(np.size(record.relaxation_times[0]))),
         ("Measured band", f"{low} to {high} rad/s ({slow} to {fast} Hz)"),
-        ("Temperature", f"{number(kelvin)} K ({number(kelvin - ZERO_CELSIUS)} °C)"),
+        ("Temperature", f"{number_text(kelvin)} K ({number_text(kelvin - ZERO_CELSIUS)} °C)"),
     ]
     if record.has("prony_rms_storage"):
         names = {
@@ -385,9 +385,11 @@ def rubber_facts(record: InputRecord) -> Facts:
             "storage_scatter": "Scatter of measured E′",
             "loss_scatter": "Scatter of measured E″",
         }
-        pairs += [(label, percent(record.number(f"prony_{key}"))) for key, label in names.items()]
+        pairs += [
+            (label, percent_text(record.number(f"prony_{key}"))) for key, label in names.items()
+        ]
         left_out = record.data["master_frequency"].values[record.data["master_left_out"].values > 0]
-        texts = ", ".join(number(frequency) for frequency in left_out)
+        texts = ", ".join(number_text(frequency) for frequency in left_out)
         pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
     return Facts("Rubber", pairs)
 
@@ -402,7 +404,7 @@ _CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
 """Effects of the conditions of a study."""
 
 
-def input_sections(study: Study) -> list[Section]:
+def input_sections(study: StudySource) -> list[Section]:
     """Return the chapters on the inputs of a study; those its file does not tell of are empty."""
     data, attrs = study.data, study.data.attrs
 
@@ -477,15 +479,18 @@ def _from_hex(value: Any) -> Any:
 def _rubber_facts(rubber: Rubber, name: str) -> Facts:
     """Return what a rubber of a study is."""
     pairs = [
-        ("Relaxed modulus of the series", f"{number(rubber.equilibrium_modulus, MEGA)} MPa"),
-        ("Glassy modulus of the series", f"{number(rubber.glassy_modulus, MEGA)} MPa"),
-        ("Bulk modulus", f"{number(rubber.bulk_modulus, GIGA)} GPa"),
+        (
+            "Relaxed modulus of the series",
+            f"{number_text(rubber.equilibrium_modulus, MEGA)} MPa",
+        ),
+        ("Glassy modulus of the series", f"{number_text(rubber.glassy_modulus, MEGA)} MPa"),
+        ("Bulk modulus", f"{number_text(rubber.bulk_modulus, GIGA)} GPa"),
         ("Maxwell elements", str(len(rubber.moduli))),
     ]
     if rubber.valid_band:
-        low, high = map(number, rubber.valid_band)
+        low, high = map(number_text, rubber.valid_band)
         pairs.append(("Measured band", f"{low} to {high} rad/s"))
     if rubber.reference_temperature:
         celsius = rubber.reference_temperature - ZERO_CELSIUS
-        pairs.append(("Temperature", f"{number(celsius)} °C"))
+        pairs.append(("Temperature", f"{number_text(celsius)} °C"))
     return Facts(rubber.name or name, pairs)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io import netcdf
 from gripscale.io.table import significant
-from gripscale.report.elements import number
+from gripscale.report.elements import number_text
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class InputRecord:
         format: Callable[[float], str] = significant,
     ) -> str:
         """Return an attribute as a page shows it, with its unit."""
-        return f"{number(self.number(name), size, format)} {unit}".rstrip()
+        return f"{number_text(self.number(name), size, format)} {unit}".rstrip()
 
     @property
     def is_empty(self) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import draw, style
-from gripscale.charts.chart import Axis, CrossLine, Mark, Note, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.page_elements import Chart, Picture
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
@@ -35,12 +35,12 @@ _EFFECTS = {
 
 def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
     """Return the panels as charts of the page."""
-    return draw.on_page(_panels(data))
+    return draw.panels_on_page(_panels(data))
 
 
 def height_charts(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
     """Return what heights of the surface are worth; nothing where something is varied."""
-    return draw.on_page(
+    return draw.panels_on_page(
         panel for name, trace in _traces(data, inputs) for panel in height_panels(trace, name)
     )
 
@@ -72,7 +72,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         chosen = np.linspace(0, len(listed) - 1, _MOST_CURVES).round().astype(int)
         listed = [listed[i] for i in chosen]
     colours = style.colours(len(listed), ordered=len(listed) > 1)
-    axis = Axis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
+    axis = PlotAxis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
     rules = [CrossLine(at, GREY, "", "dotted", 0.9, upright=True) for _, at in _rules(data)]
     moduli: list[Mark] = [
         Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
@@ -86,7 +86,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
     panels = [
         Panel(
             axis,
-            Axis("modulus [MPa]", log=True, low=lowest),
+            PlotAxis("modulus [MPa]", log=True, low=lowest),
             [*moduli, *rules],
             name="sensitivity-master-curve",
             caption="The master curve of the rubber.",
@@ -110,7 +110,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         panels.append(
             Panel(
                 axis,
-                Axis(f"d ln $\\mu$ / d ln {symbol} per decade"),
+                PlotAxis(f"d ln $\\mu$ / d ln {symbol} per decade"),
                 [*curves, *rules, CrossLine(0.0)],
                 name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
                 caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "

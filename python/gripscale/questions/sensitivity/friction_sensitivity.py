@@ -36,7 +36,12 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import CONVERGED, attributes, solve_design, surface_numbers
+from gripscale.experiment.design import (
+    CONVERGED,
+    solve_design,
+    surface_numbers,
+    variable_attributes,
+)
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.location import PREFIX, contact_trace, with_traces
@@ -44,7 +49,7 @@ from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import STATUS
 from gripscale.questions.inputs import record
-from gripscale.questions.uncertainty.first_order import QUANTITIES, first_order
+from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
 from gripscale.questions.uncertainty.sampling import stated_options
 from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.inputs import NAMED_MODELS, conditions_of, reading_notes
@@ -57,9 +62,9 @@ if TYPE_CHECKING:
     from gripscale.rubber import Rubber
     from gripscale.surface import Surface
 
-FILE = "sensitivity.nc"
+SENSITIVITY_FILE = "sensitivity.nc"
 """The Dataset, in the folder of the command."""
-VARIED = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
+DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 """What may be varied: derivatives are taken at each value."""
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
 CARRIED = "source_{}_error"
@@ -153,7 +158,9 @@ class FrictionSensitivity(DirectContact):
         text = "d ln friction by {}, with the rubber's answer to it"
         return {
             f"d_ln_friction_d_{name}{FEEDBACK}": xr.Variable(
-                (), value, attributes(text.format(name), "1/K" if name == "temperature" else "1")
+                (),
+                value,
+                variable_attributes(text.format(name), "1/K" if name == "temperature" else "1"),
             )
             for name, value in derivatives.items()
         }
@@ -238,8 +245,8 @@ def case_sensitivity(
         Gets `sensitivity.nc`, and each solution as soon as it is there: a run that was stopped goes
         on where it was.
     vary : mapping, optional
-        One or two of `VARIED`, as for a `Study`: the derivatives at each value. By default those
-        of the case.
+        One or two of `DERIVED_OVER`, as for a `Study`: the derivatives at each value. By default
+        those of the case.
     model : str
         "direct", or "chain": the waves of the case, from differences of solved waves. The contact
         fraction of the chain comes with it.
@@ -273,7 +280,7 @@ def case_sensitivity(
     """
     axes = {"speed": [case.load.speed]} if vary is None else dict(vary)
     for axis in axes_of(axes):
-        checks.one_of("vary", axis.name, VARIED)
+        checks.one_of("vary", axis.name, DERIVED_OVER)
         if axis.name == "speed" and min(axis.values) <= 0.0:
             raise InputError("speed must be above zero for derivatives of friction; got 0 m/s")
     chosen = checks.one_of("model", model, NAMED_MODELS)
@@ -297,7 +304,7 @@ def case_sensitivity(
     data = data.assign_coords(coordinates(study.axes, case.units))
     if STORAGE in data and chosen == DirectContact.name and vary is None:
         errors = first_order(case, seed=stated_options(case).seed)
-        named = {f"{name}_error": CARRIED.format(name) for name in QUANTITIES}
+        named = {f"{name}_error": CARRIED.format(name) for name in CARRIED_QUANTITIES}
         data = data.assign(errors.rename(named).variables)
     if STORAGE in data:
         data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
@@ -307,13 +314,13 @@ def case_sensitivity(
         "model": chosen,
         "bands_per_decade": bands_per_decade,
         "iterated": int(chain.conditions is not None and chain.conditions.iterated),
-        **provenance.attributes(),
+        **provenance.version_attributes(),
     }
     data = data.assign_attrs(case.attributes, **attrs)
     loads = [point.task.load for point in study.points]
     of_rubbers = reading_notes(study.measured_rubbers)
     groups = {"inputs": record.inputs(case, study.surfaces, loads, of_rubbers)}
-    return netcdf.load(netcdf.save(data, Path(folder) / FILE, groups))
+    return netcdf.load_dataset(netcdf.save(data, Path(folder) / SENSITIVITY_FILE, groups))
 
 
 def _kept(answer: xr.Dataset, task: Task) -> xr.Dataset:
@@ -329,10 +336,10 @@ def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     drawn = np.array([*data.frequency.values, *at])
     omega = np.geomspace(drawn.min() / _MARGIN, drawn.max() * _MARGIN, MASTER_POINTS)
     modulus = rubber.complex_modulus(omega)
-    about = attributes("angular frequency of the master curve", "rad/s")
+    about = variable_attributes("angular frequency of the master curve", "rad/s")
     data = data.assign_coords(modulus_frequency=("modulus_frequency", omega, about)).assign(
-        storage_modulus=("modulus_frequency", modulus.real, attributes("E'", "Pa")),
-        loss_modulus=("modulus_frequency", modulus.imag, attributes("E''", "Pa")),
+        storage_modulus=("modulus_frequency", modulus.real, variable_attributes("E'", "Pa")),
+        loss_modulus=("modulus_frequency", modulus.imag, variable_attributes("E''", "Pa")),
     )
     if not at.size:
         return data
@@ -342,9 +349,9 @@ def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     share = (effect * near).sum("frequency") / effect.sum("frequency")
     text = f"angular frequency of tan(delta) at {RULE_FREQUENCY:g} Hz, shifted"
     return data.assign_coords(rule=("rule", names)).assign(
-        rule_frequency=("rule", at, attributes(text, "rad/s")),
+        rule_frequency=("rule", at, variable_attributes(text, "rad/s")),
         rule_share=share.assign_attrs(
-            attributes("share of the effect of E'' within half a decade")
+            variable_attributes("share of the effect of E'' within half a decade")
         ),
     )
 

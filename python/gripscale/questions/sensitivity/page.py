@@ -11,7 +11,7 @@ from gripscale.chain import Chain
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
 from gripscale.model import STATUS
-from gripscale.questions.chain.view import CONVERGED, SYMBOLS
+from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.sensitivity.friction_sensitivity import (
     CARRIED,
     FEEDBACK,
@@ -19,7 +19,7 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     RULE_FREQUENCY,
     STORAGE,
 )
-from gripscale.questions.uncertainty.first_order import QUANTITIES
+from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES
 from gripscale.questions.uncertainty.page import not_stated
 from gripscale.questions.vary.axis import points
 from gripscale.report.elements import Card
@@ -51,10 +51,10 @@ def sensitivity_parts(data: xr.Dataset) -> Iterator[str | Table]:
     yield from rule_lines(data)
 
 
-def answer_lines(data: xr.Dataset) -> Iterator[str]:
+def sensitivity_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what more loss and less stiffness give, and where on the master curve that is."""
     if STORAGE not in data:
-        reasons = sorted({each.sentence for each in failures(data)})
+        reasons = sorted({each.sentence for each in sensitivity_failures(data)})
         yield f"Answer: none. No contact was solved: {'; '.join(reasons)}"
         return
     loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
@@ -76,7 +76,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
             yield f"  half of the effect of E''{where} is between {low:.2g} and {high:.2g} rad/s"
 
 
-def cards(data: xr.Dataset) -> Iterator[Card]:
+def sensitivity_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield what E'' and E' at all frequencies are worth."""
     for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
         if name in data:
@@ -164,7 +164,7 @@ def decades_table(data: xr.Dataset) -> Table:
 
 def carried_table(data: xr.Dataset) -> Table:
     """Return what is not known of the inputs, and what it carries to the results, most first."""
-    errors = {name: data[CARRIED.format(name)].values for name in QUANTITIES}
+    errors = {name: data[CARRIED.format(name)].values for name in CARRIED_QUANTITIES}
     ranked = np.argsort(-np.nan_to_num(errors["friction"]), kind="stable")
     ranked = ranked[np.isfinite(errors["friction"][ranked])]
     columns = [Column("source", [*data.label.values[ranked].tolist(), "together"], "not known")]
@@ -195,11 +195,11 @@ def rule_lines(data: xr.Dataset) -> Iterator[str]:
         )
 
 
-def failures(data: xr.Dataset) -> list[Failure]:
+def sensitivity_failures(data: xr.Dataset) -> list[Failure]:
     """Return each point without a solution."""
     words = data[f"{STATUS}_word"].values.ravel()
     endings = [
         Failure(str(sentence), str(word))
         for sentence, word in zip(data[STATUS].values.ravel(), words, strict=True)
     ]
-    return [ending for ending in endings if ending.sentence != CONVERGED]
+    return [ending for ending in endings if ending.sentence != CONVERGED_WORD]

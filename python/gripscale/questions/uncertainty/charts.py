@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import draw
-from gripscale.charts.chart import Axis, Band, Bars, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE, WIDE
 from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
@@ -84,7 +84,7 @@ def parts_figure(data: xr.Dataset) -> Figure:
     ranked = np.argsort(data[f"best_{names[0]}_part_error"].values, kind="stable")
     labels = data.part_label.values[ranked]
     drawn = {*data.label.values.tolist(), NOT_ALONE, TOGETHER}
-    rows = Axis(ticks={float(row): str(label) for row, label in enumerate(labels)})
+    rows = PlotAxis(ticks={float(row): str(label) for row, label in enumerate(labels)})
     panels = []
     for name in names:
         sigma = 100.0 * data[f"best_{name}_part_error"].values[ranked]
@@ -93,7 +93,7 @@ def parts_figure(data: xr.Dataset) -> Figure:
             for row, (label, error) in enumerate(zip(labels, sigma, strict=True))
         ]
         panels.append(
-            Panel(Axis(f"standard error of {SYMBOL_TEXTS[name]} [%]", low=0.0), rows, bars)
+            Panel(PlotAxis(f"standard error of {SYMBOL_TEXTS[name]} [%]", low=0.0), rows, bars)
         )
     keys = [
         Bars(0, 0, 0, 0, BLUE, "from the inputs, sampled"),
@@ -120,8 +120,8 @@ def distribution_figure(data: xr.Dataset) -> Figure:
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
-                Axis(label, numbers=6),
-                Axis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
+                PlotAxis(label, numbers=6),
+                PlotAxis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
                      high=None if top is None else 1.45 * top),
                 marks,
                 title=MODELS.get(str(model), str(model)),
@@ -181,14 +181,17 @@ def tornado_figure(data: xr.Dataset) -> Figure:
         ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
         dots.append(Series([shares[k]], [row], INK if seen else GREY, dash="", marker="o",
                            size=4.0, level_bars=True, **ends))  # fmt: skip
-    rows = Axis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
+    rows = PlotAxis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
     title = f"{data.model.item()}: what each does alone"
     panels = [
         Panel(
-            Axis(_TOTALS["friction"]), rows, [*bars, CrossLine(middle, INK, upright=True)], title
+            PlotAxis(_TOTALS["friction"]),
+            rows,
+            [*bars, CrossLine(middle, INK, upright=True)],
+            title,
         ),
         Panel(
-            Axis("share of the variance of $\\ln\\mu$ [-]"),
+            PlotAxis("share of the variance of $\\ln\\mu$ [-]"),
             rows,
             [*dots, CrossLine(0.0, INK, upright=True)],
         ),
@@ -209,8 +212,8 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             samples = data.sel(model=model).transpose(axis, ...)
             quantiles = samples[f"{name}_quantile"].values.T
             marks += [
-                Band(x, quantiles[0], quantiles[4], colour, alpha=0.18),
-                Band(x, quantiles[1], quantiles[3], colour, alpha=0.3),
+                ShadedBand(x, quantiles[0], quantiles[4], colour, alpha=0.18),
+                ShadedBand(x, quantiles[1], quantiles[3], colour, alpha=0.3),
                 Series(x, quantiles[2], colour, f"{model}: median, 50 and 90 %"),
                 Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
                        filled=False, clip=False),
@@ -218,10 +221,10 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
         best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
         low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
         marks += [
-            Band(x, low, high, INK, alpha=0.12),
+            ShadedBand(x, low, high, INK, alpha=0.12),
             Series(x, best, INK, ANSWER),
         ]
-        panels.append(Panel(abscissa, Axis(label, low=0.0), marks))
+        panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return draw.on_paper(Sheet(panels, keys=[case]))
 
@@ -279,7 +282,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
             data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
         )
         return [
-            Band(speed, total - band, total + band, ORANGE, level, alpha=0.25),
+            ShadedBand(speed, total - band, total + band, ORANGE, level, alpha=0.25),
             Series(speed, total, ORANGE, "hysteresis and area term"),
             Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
         ]
@@ -302,7 +305,9 @@ def residual_figure(data: xr.Dataset) -> Figure:
             marker=MARKERS[number % len(MARKERS)],
         ))  # fmt: skip
     label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"
-    panel = Panel(Axis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), Axis(label), marks)
+    panel = Panel(
+        PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), PlotAxis(label), marks
+    )
     height = 2.6 + 0.2 * -(-len(marks) // 4)
     return draw.on_paper(Sheet([panel], 1, height=height, legend_columns=4, gap=0.02))
 
@@ -332,9 +337,9 @@ def _profile_panel(data: xr.Dataset) -> Panel:
     missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
     title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
     return Panel(
-        Axis(f"{PARAMETER_LABELS.get(name, name)} [{unit}]", low=least, high=most,
+        PlotAxis(f"{PARAMETER_LABELS.get(name, name)} [{unit}]", low=least, high=most,
              log=name != "activation_energy" and most > 5.0 * least),
-        Axis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
+        PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
         [
             CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
             Series(value, excess, BLUE, "profile"),

@@ -11,7 +11,7 @@ from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, o
 
 
 @command
-def uncertainty(
+def uncertainty_command(
     case: CasePath,
     samples: Annotated[
         int | None, option("Samples, of all inputs at once; 200 by default.")
@@ -80,13 +80,13 @@ def uncertainty(
     from gripscale.experiment.solve import PROCESSES
     from gripscale.half_space.model import DirectContact
     from gripscale.questions.uncertainty import question
-    from gripscale.questions.uncertainty.propagation import BOTH, VARIED, stated_models
+    from gripscale.questions.uncertainty.propagation import BOTH, SAMPLED_OVER, stated_models
     from gripscale.questions.uncertainty.sampled_inputs import length
     from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
     from gripscale.questions.vary.axis import parse_vary
 
     models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
-    axes = None if vary is None else dict([parse_vary(vary, VARIED)])
+    axes = None if vary is None else dict([parse_vary(vary, SAMPLED_OVER)])
     options: dict[str, Any] = {
         "without": without or None,
         "ranges": _values_by_source(ranges or ()),

@@ -47,7 +47,7 @@ from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.uncertainty.sampled_answer import GRID, ROAD
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_options
-from gripscale.questions.uncertainty.sources import LABELS, Source
+from gripscale.questions.uncertainty.sources import SOURCE_LABELS, Source
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
 
@@ -58,7 +58,7 @@ SOLVED = {"height_noise": 16, "cleaning": 8}
 FEW_DRAWS = 8
 """Draws of another rubber for the contact area. On the shipped road 8 draws of the moduli give
 1.0 %, 48 draws 1.1 %."""
-QUANTITIES = ("friction", "contact_fraction")
+CARRIED_QUANTITIES = ("friction", "contact_fraction")
 
 
 @dataclass(frozen=True)
@@ -227,7 +227,7 @@ def first_order(
     errors = {each.name: _scatter(tangent, each, count, seed) for each in sources}
     if ROAD not in asked.without:
         errors[ROAD] = tangent.sampling_errors
-    labels = np.array([LABELS[name] for name in errors], dtype=object)
+    labels = np.array([SOURCE_LABELS[name] for name in errors], dtype=object)
     text = "relative standard error of {}, by first order"
     return xr.Dataset(
         {
@@ -236,7 +236,7 @@ def first_order(
                 [error[at] for error in errors.values()],
                 {"units": "1", "long_name": text.format(name.replace("_", " "))},
             )
-            for at, name in enumerate(QUANTITIES)
+            for at, name in enumerate(CARRIED_QUANTITIES)
         },
         {"source": np.array([*errors], dtype=object), "label": ("source", labels)},
     )

@@ -21,27 +21,27 @@ from gripscale.questions.answer.page import (
     answer_cards,
     answer_lines,
     basis_lines,
-    interval,
+    interval_text,
     number_and_interval,
 )
 from gripscale.questions.answer.reliance import has_answer, is_measured
-from gripscale.questions.chain.view import CONVERGED, SYMBOLS
+from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.propagation import (
     FIRST_ORDER,
     LEVELS,
-    QUANTITIES,
+    PROPAGATED_QUANTITIES,
     of_same_inputs,
 )
-from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, ROAD, RUN
-from gripscale.questions.uncertainty.sources import LABELS, STATED
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
+from gripscale.questions.uncertainty.sources import SOURCE_LABELS, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
-HEADS = {name: SYMBOLS[name] for name in QUANTITIES}
+HEADS = {name: SYMBOLS[name] for name in PROPAGATED_QUANTITIES}
 """Symbols of the quantities, in their order."""
 OF_ANOTHER = (
     "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
@@ -62,7 +62,7 @@ SUMMARY = (0.05, 0.5, 0.95)
 """Quantiles in the summaries of other reports."""
 
 
-def places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield what each model and load is called, with its part."""
     axis = axis_of(data)
     for name in data.model.values:
@@ -123,17 +123,19 @@ def interval_sentence(data: xr.Dataset) -> str:
     text = f"interval: with the errors of the inputs, from {count} samples"
     if missing := not_stated(data):
         text += f", but for {', '.join(missing)}"
-    widths = [data[f"best_{name}_{RUN}"] for name in HEADS]
+    widths = [data[f"best_{name}_{OF_RUN}"] for name in HEADS]
     if axis_of(data) or not all(np.isfinite(width) for width in widths):
         return f"{text}; `gripscale run` states sampling of the road, grid and factors only"
-    of_run = data.assign({f"best_{name}_half_width": data[f"best_{name}_{RUN}"] for name in HEADS})
-    ranges = ", ".join(f"{symbol} {interval(of_run, name)}" for name, symbol in HEADS.items())
+    of_run = data.assign(
+        {f"best_{name}_half_width": data[f"best_{name}_{OF_RUN}"] for name in HEADS}
+    )
+    ranges = ", ".join(f"{symbol} {interval_text(of_run, name)}" for name, symbol in HEADS.items())
     return f"{text}; `gripscale run`, without them: {ranges}"
 
 
 def not_stated(data: xr.Dataset) -> list[str]:
     """Return labels of the sources that only a case can state and that are not in a result."""
-    return [LABELS[name] for name in STATED if name not in data.source]
+    return [SOURCE_LABELS[name] for name in STATED if name not in data.source]
 
 
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
@@ -212,7 +214,7 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
         f"{label} ({percent(tangent[label])}, {percent(error)})"
         for label, error in sampled.items()
         if label in tangent
-        and label != LABELS[ROAD]
+        and label != SOURCE_LABELS[ROAD]
         and max(error, tangent[label]) > max(least, _APART * min(error, tangent[label]))
     ]
     if apart:
@@ -225,7 +227,7 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
 def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
     """Yield what matters most to the samples of a model whose answer has no parts."""
     without_shares = []
-    for title, part in places(data):
+    for title, part in model_places(data):
         if np.isfinite(part.friction_share).any():
             if str(part.model.item()) != DIRECT:
                 yield share_table(part, title)
@@ -240,7 +242,7 @@ def warning_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield what the reader is to know of grids, sources left out and failures."""
     yield from grid_sentences(data)
     yield from left_out_sentences(data)
-    yield from map(str, filter(None, [failures(data)]))
+    yield from map(str, filter(None, [sampling_failure(data)]))
 
 
 def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
@@ -254,7 +256,9 @@ def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def quantile_table(data: xr.Dataset) -> Table:
     """Return the quantiles of friction and contact fraction of each model and load."""
-    rows = [(title, part, name) for title, part in places(data) for name in QUANTITIES]
+    rows = [
+        (title, part, name) for title, part in model_places(data) for name in PROPAGATED_QUANTITIES
+    ]
     quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
     columns = [
         Column("model", [title for title, _, _ in rows]),
@@ -349,7 +353,7 @@ def grid_sentences(data: xr.Dataset) -> Iterator[str]:
             )
 
 
-def failures(data: xr.Dataset) -> Failure | None:
+def sampling_failure(data: xr.Dataset) -> Failure | None:
     """Return how many samples have no answer, and why most of them; None if all have one."""
     bad = Counter(_failed(data, "status"))
     of_case = _failed(data, "status_case")
@@ -379,7 +383,7 @@ def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
     """Return sentence and word of what did not converge."""
     words = status_words(data, sentences).values.ravel()
     pairs = zip(data[sentences].values.ravel(), words, strict=True)
-    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED]
+    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED_WORD]
 
 
 def uncertainty_lines(
@@ -418,7 +422,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
     count = _samples(data.isel(model=0))
     detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
     cards = [
-        Card(f"{head}, inputs sampled", interval(data, name), detail)
+        Card(f"{head}, inputs sampled", interval_text(data, name), detail)
         for name, head in _widened(data)
     ]
     return cards or [
@@ -432,7 +436,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
 def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield name and symbol of each number whose interval holds errors of the inputs."""
     if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from ((name, head) for name, head in HEADS.items() if interval(data, name))
+        yield from ((name, head) for name, head in HEADS.items() if interval_text(data, name))
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
@@ -456,7 +460,7 @@ def subtitle(data: xr.Dataset) -> str:
 
 def page_notices(data: xr.Dataset) -> list[Finding]:
     """Return failures: an error where too many failed."""
-    failed = failures(data)
+    failed = sampling_failure(data)
     level = "error" if too_many_failed(data) else "warning"
     return [Finding(level, f"{explained(failed)}.", topic=Topic.SOLUTION)] if failed else []
 

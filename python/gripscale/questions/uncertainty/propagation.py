@@ -34,8 +34,8 @@ from gripscale.experiment.design import (
     Design,
     Index,
     Point,
-    attributes,
     stack,
+    variable_attributes,
 )
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import canonical_json, load_stored
@@ -72,7 +72,7 @@ from gripscale.questions.vary.study import coordinates
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """The quantiles that are told."""
 
-QUANTITIES = {
+PROPAGATED_QUANTITIES = {
     "friction": ("mu", "friction coefficient"),
     "contact_fraction": ("A_r/A_0", "real over nominal contact area"),
 }
@@ -106,7 +106,7 @@ def _of_model(data: xr.Dataset) -> str:
     failed, number = int(data.failed), data.sizes["sample"]
     count = f"{number} samples" if not failed else f"{number - failed} of {number} samples"
     intervals = []
-    for name, (letters, _) in QUANTITIES.items():
+    for name, (letters, _) in PROPAGATED_QUANTITIES.items():
         levels = data[f"{name}_quantile"].values
         if np.isfinite(levels).all():
             low, middle, high = (f"{value:#.2g}" for value in levels[[0, 2, 4]])
@@ -117,7 +117,7 @@ def _of_model(data: xr.Dataset) -> str:
     return f"{text}, {failed} failed" if failed else text
 
 
-_NUMBERS = {name: text for name, (_, text) in QUANTITIES.items()} | {
+_NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
     "friction_from_dissipation": TOTALS["total_friction_from_dissipation"],
     "outside_band": OUTSIDE_BAND[FRICTION_OUTSIDE_BAND][1],
 }
@@ -136,7 +136,7 @@ def uncertainty_dataset(
     source drew. A sample of the direct contact has the error of its grid in it that was drawn.
     """
     usable = solved.rename({FRICTION_OUTSIDE_BAND: "outside_band"})[
-        [*_NUMBERS, *(f"{name}_error" for name in QUANTITIES)]
+        [*_NUMBERS, *(f"{name}_error" for name in PROPAGATED_QUANTITIES)]
     ].where(solved.prediction_status == CONVERGED)
     case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
     status = solved[STATUS].isel(sample=slice(1, None))
@@ -161,7 +161,7 @@ def uncertainty_dataset(
     in_error = np.zeros(len(drawn))
     if any(source.name == GRID for source in chosen.sources):
         in_error = np.array([inputs.coordinates[GRID_PLACE] for inputs in drawn])
-    for name, (_, text) in QUANTITIES.items():
+    for name, (_, text) in PROPAGATED_QUANTITIES.items():
         error = (samples[f"{name}_error"] / abs(samples[name])).where(is_direct)
         about = f"estimated relative error of the grid of a direct contact, {text}"
         add(f"{name}_grid_error", error, about)
@@ -175,7 +175,7 @@ def uncertainty_dataset(
     return xr.Dataset(
         data,
         {
-            "quantile": ("quantile", list(LEVELS), attributes("share below")),
+            "quantile": ("quantile", list(LEVELS), variable_attributes("share below")),
             "source": ("source", [s.name for s in sources], {"long_name": "source"}),
             "label": ("source", [s.label for s in sources], {"long_name": "source in words"}),
             "end": ("end", ["low", "high"]),
@@ -184,7 +184,7 @@ def uncertainty_dataset(
         {
             "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
             "left_out": json.dumps(chosen.left_out),
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         },
     )
 
@@ -195,7 +195,7 @@ def _coordinates(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> d
         name: (
             "sample",
             np.array([inputs.coordinates[name] for inputs in drawn], dtype=float),
-            attributes(number.long_name, number.unit) | {"source": source.name},
+            variable_attributes(number.long_name, number.unit) | {"source": source.name},
         )
         for source in sources
         for name, number in source.coordinates.items()
@@ -281,7 +281,7 @@ def _inputs(text: str) -> dict[str, Any] | None:
 FIRST_ORDER = "{}_first_order"
 """Name of the error of a quantity that each source carries by derivatives alone."""
 _MODELS = ("chain", "direct")
-VARIED = ("speed", "pressure")
+SAMPLED_OVER = ("speed", "pressure")
 """Inputs that may be varied beside the samples: those of the load, the same samples at each."""
 
 BOTH = {"chain": ("chain",), "direct": ("direct",), "both": _MODELS}
@@ -395,7 +395,7 @@ def propagate(
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         data = _answered(plan, chosen, bench)
-    return data if path is None else netcdf.load(netcdf.save(data, path))
+    return data if path is None else netcdf.load_dataset(netcdf.save(data, path))
 
 
 def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
@@ -427,9 +427,9 @@ def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
     if not vary:
         return None
     axes = axes_of(vary)
-    if len(axes) > 1 or axes[0].name not in VARIED:
+    if len(axes) > 1 or axes[0].name not in SAMPLED_OVER:
         names = ", ".join(axis.name for axis in axes)
-        raise InputError(f"uncertainty varies one of {', '.join(VARIED)}; got {names}")
+        raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
     return axes[0]
 
 
@@ -468,7 +468,7 @@ def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
     if axis is None and DirectContact.name in plan.models and case.load.speed > 0.0:
         carried = first_order(case, plan.uncertainty, seed=plan.seed)
         carried = carried.reindex(source=data.source.values)
-        for name in QUANTITIES:
+        for name in PROPAGATED_QUANTITIES:
             data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         case.attributes | input_doubts([case.surface, case.measured_rubber], loads, case.units),
@@ -486,7 +486,7 @@ def _as_solved(direct: xr.Dataset) -> xr.Dataset:
         return direct
     drawn = {
         name: np.exp(direct[GRID_PLACE] * direct[f"{name}_grid_error"].fillna(0.0))
-        for name in QUANTITIES
+        for name in PROPAGATED_QUANTITIES
     }
     return direct.assign({name: direct[name] / factor for name, factor in drawn.items()})
 

@@ -63,7 +63,7 @@ class SampledAnswer(Result):
     @property
     def failure(self) -> str:
         """Why too many samples have no answer; empty if enough have one."""
-        return str(page.failures(self.data)) if page.too_many_failed(self.data) else ""
+        return str(page.sampling_failure(self.data)) if page.too_many_failed(self.data) else ""
 
     def parts(self) -> Iterator[str | Table]:
         """Yield the parts of the interval, the samples and the shares of the sources."""

@@ -29,8 +29,8 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
-from gripscale.model import TOTALS, Load, answer
-from gripscale.questions.answer.best_estimate import ESTIMATED, SHARES, SampledErrors
+from gripscale.model import TOTALS, Load, predicted_answer
+from gripscale.questions.answer.best_estimate import BASIS_SHARES, ESTIMATED, SampledErrors
 from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_totals
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.answer.samples import running, usable
@@ -38,7 +38,7 @@ from gripscale.questions.uncertainty.sources import Source
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.rubber.extrapolation import Extrapolation
 
-RUN = "half_width_of_run"
+OF_RUN = "half_width_of_run"
 """End of the name of the half width without errors of the inputs, as `gripscale run` states it."""
 FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
 """Name of the share of the friction in waves shorter than the `resolution_limit` [m]."""
@@ -195,12 +195,12 @@ def chain_answer(
         best[f"best_{name}_sampling_error"] = best[f"best_{name}_grid_error"] = math.nan
         for part in ("factor", "factor_uncertainty"):
             best[f"best_{name}_{part}"] = ("factor", np.empty(0))
-    best = best.assign({f"best_{share}": math.nan for share in SHARES})
+    best = best.assign({f"best_{share}": math.nan for share in BASIS_SHARES})
     best["cutoff_wavelength"] = case.surface.cutoff_wavelength
     totals = {name: float(chain[f"{name.removeprefix('total_')}_case"]) for name in TOTALS}
     beyond = Extrapolation(float(chain["outside_band_case"]), math.nan, math.nan)
     word = str(chain.status_case_word.item())
-    answered = answer(
+    answered = predicted_answer(
         best, totals, str(chain.status_case.item()), "chain", load, beyond, status_word=word
     )
     labels = {source.name: source.label for source in sources}
@@ -224,7 +224,7 @@ def _with_parts(
         about = {"units": "1"}
         parts[f"best_{name}_part_error"] = xr.Variable("part", sigma, about)
         parts[f"best_{name}_part_share_error"] = xr.Variable("part", error, about)
-        parts[f"best_{name}_{RUN}"] = of_run[f"best_{name}_half_width"].variable
+        parts[f"best_{name}_{OF_RUN}"] = of_run[f"best_{name}_half_width"].variable
     return total.assign(parts)
 
 

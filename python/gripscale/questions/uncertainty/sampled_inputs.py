@@ -406,6 +406,6 @@ class FailSafeModel(Model):
         try:
             return self.model.predict(rubber, surface, load, on_progress=on_progress)
         except InputError as refusal:
-            nothing = xr.Dataset(attrs=provenance.attributes())
+            nothing = xr.Dataset(attrs=provenance.version_attributes())
             totals = dict.fromkeys(model.TOTALS, math.nan)
-            return model.answer(nothing, totals, str(refusal), self.name, load)
+            return model.predicted_answer(nothing, totals, str(refusal), self.name, load)

@@ -26,7 +26,7 @@ import numpy as np
 from gripscale.core.arrays import Array
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
-from gripscale.rubber.prony import BEYOND, largest_modulus, open_equations
+from gripscale.rubber.prony import DECADES_BEYOND, largest_modulus, open_equations
 
 _FEWEST_BLOCKS = 8
 """Blocks there are at least to draw from."""
@@ -63,7 +63,9 @@ class SeriesScatter:
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
         scatter = fit.rms_storage, fit.rms_loss
         for _ in range(_PASSES):
-            band = cls(open_equations(curve, _believed(scatter), BEYOND, limit), curve.omega)
+            band = cls(
+                open_equations(curve, _believed(scatter), DECADES_BEYOND, limit), curve.omega
+            )
             scatter = band._scatter(_believed(scatter))
         return band
 

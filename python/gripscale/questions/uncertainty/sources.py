@@ -482,5 +482,5 @@ SOURCES = {
 """In the order in which they are drawn: noisy profiles are cleaned and cut into blocks, the waves
 are fitted last. A new one is added here."""
 
-LABELS = {name: source.label for name, source in SOURCES.items()}
+SOURCE_LABELS = {name: source.label for name, source in SOURCES.items()}
 """Names of the sources in words."""

@@ -58,10 +58,10 @@ LONG_NAMES = {
 """All axes."""
 
 _SI = {"speed": "m/s", "pressure": "Pa", "temperature": "K", "length": "m"}
-UNITS = {name: _SI.get(_QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
+AXIS_UNITS = {name: _SI.get(_QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
 """All axes, with the units of their values."""
 
-LABELS = {name: LONG_NAMES[name] for name in _NUMBERS} | {
+AXIS_LABELS = {name: LONG_NAMES[name] for name in _NUMBERS} | {
     "speed": "sliding speed $v$",
     "pressure": "nominal pressure $p$",
     "temperature": "temperature $T$",
@@ -81,7 +81,7 @@ class Axis:
 
     @property
     def numeric(self) -> bool:
-        """Whether the values are numbers, in the unit of `UNITS`."""
+        """Whether the values are numbers, in the unit of `AXIS_UNITS`."""
         return self.name in _NUMBERS and not any(
             isinstance(value, str | RmsSlope) for value in self.values
         )
@@ -145,7 +145,7 @@ def _quantity(name: str, value: Any) -> float:
     elif isinstance(value, str) and name == "temperature":
         raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
     check = checks.not_negative if name == "speed" else checks.positive
-    return check(name, number, unit=UNITS[name])
+    return check(name, number, unit=AXIS_UNITS[name])
 
 
 def _cut_off(name: str, value: Any) -> CutOffRule:
@@ -206,7 +206,7 @@ def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
 def axis_label(result: xr.Dataset, axis: str) -> str:
     """Return what a figure calls a numeric axis, with its unit."""
     unit = axis_shown(result, axis).unit if axis in (*KEYS, "temperature") else "-"
-    return f"{LABELS[axis]} [{unit}]"
+    return f"{AXIS_LABELS[axis]} [{unit}]"
 
 
 def dimensions(result: xr.Dataset) -> list[str]:
@@ -235,7 +235,7 @@ def numeric(result: xr.Dataset) -> list[str]:
 
 def of_numbers(result: xr.Dataset, axis: str) -> bool:
     """Return whether an axis has numbers for values; a cut-off may be a rule in words."""
-    return axis in LABELS and bool(np.issubdtype(result[axis].dtype, np.number))
+    return axis in AXIS_LABELS and bool(np.issubdtype(result[axis].dtype, np.number))
 
 
 def name_of(result: xr.Dataset, axis: str, i: int) -> str:
@@ -280,11 +280,11 @@ def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
     Raises `InputError` if there are none or more than two, or a value cannot be used.
     """
     if not 1 <= len(vary) <= MOST_AXES:
-        raise InputError(f"a study varies one or two of {', '.join(UNITS)}; got {len(vary)}")
+        raise InputError(f"a study varies one or two of {', '.join(AXIS_UNITS)}; got {len(vary)}")
     return tuple(_axis(name, values) for name, values in vary.items())
 
 
-def parse_vary(text: str, names: Iterable[str] = UNITS) -> tuple[str, str]:
+def parse_vary(text: str, names: Iterable[str] = AXIS_UNITS) -> tuple[str, str]:
     """Return name and values of `name=values`, with one of `names`.
 
     Raises `InputError` if it is not that.
@@ -296,13 +296,13 @@ def parse_vary(text: str, names: Iterable[str] = UNITS) -> tuple[str, str]:
 
 
 def _axis(name: str, value: Any) -> Axis:
-    checks.one_of("vary", name, UNITS)
+    checks.one_of("vary", name, AXIS_UNITS)
     if name in ("rubber", "surface"):
         values, labels = named_values(name, value)
     else:
         values = tuple(axis_value(name, entry) for entry in _entries(name, value))
         worded = any(isinstance(value, RmsSlope | str) for value in values)
-        unit = f" {UNITS[name]}" if worded else ""
+        unit = f" {AXIS_UNITS[name]}" if worded else ""
         labels = tuple(_label(name, value, unit) for value in values)
     if not 1 <= len(values) <= MOST_VALUES:
         raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")

@@ -16,9 +16,9 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import Axis, Band, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Chart, is_evidence, telling, words_of
-from gripscale.charts.style import BEYOND, BLUE, GREY, INK, NARROW, Flags
+from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW, RowFlags
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.questions.chain.view import AXIS_TITLES, believed
@@ -54,12 +54,12 @@ FRICTIONS = ("best_friction", "total_friction")
 INTERVAL = "90 % interval"
 
 
-def varied_axis(data: xr.Dataset, name: str) -> tuple[Axis, Array]:
+def varied_axis(data: xr.Dataset, name: str) -> tuple[PlotAxis, Array]:
     """Return a varied axis of numbers and its values as they are drawn."""
     x = axis_shown(data, name).of(data[name].values)
     low, high = float(x.min()), float(x.max())
     limits: dict[str, Any] = {"low": low, "high": high} if high > low else {}
-    return Axis(axis_label(data, name), log=low > 0.0 and high > 8.0 * low, **limits), x
+    return PlotAxis(axis_label(data, name), log=low > 0.0 and high > 8.0 * low, **limits), x
 
 
 def study_charts(data: xr.Dataset) -> list[Chart]:
@@ -91,7 +91,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     for name in PER_WAVE if "wavelength" in data else ():
         if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
             panels.append(_wave_panel(data, name, thinned=True))
-    return draw.on_page(panels)
+    return draw.panels_on_page(panels)
 
 
 def _curves(
@@ -143,7 +143,7 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
         stars = flags.any([dim for dim in variable.dims if dim != axis]).values
         names = [f"{name_of(data, axis, i)}{' *' * bool(star)}" for i, star in enumerate(stars)]
         x = np.arange(len(names), dtype=float)
-        abscissa = Axis(f"{WORDS[axis]} [-]", ticks=dict(enumerate(names)), margin=0.3)
+        abscissa = PlotAxis(f"{WORDS[axis]} [-]", ticks=dict(enumerate(names)), margin=0.3)
     others = [str(dim) for dim in variable.dims if dim != axis]
     marks: list[Mark] = []
     curves = list(_curves(data, others, thinned=numbers and len(others) > 1))
@@ -153,7 +153,7 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
         ends = _interval(data, name, at, axis)
         bars: dict[str, Any] = {}
         if ends is not None and numbers and len(curves) <= MOST_BANDS:
-            marks.append(Band(x, *ends, only, "" if others else INTERVAL, 0.15))
+            marks.append(ShadedBand(x, *ends, only, "" if others else INTERVAL, 0.15))
         elif ends is not None and not numbers:
             bars = dict(zip(("low", "high"), ends, strict=True))
         marks.append(Series(x, y, only, label or "sliding", "solid" if numbers else "", marker="o",
@@ -163,7 +163,7 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
     words, over = words_of(data, name), words_of(data, axis)
     return Panel(
         abscissa,
-        Axis(_label(data, name), log=area, low=0.0 if name in FRICTIONS else None),
+        PlotAxis(_label(data, name), log=area, low=0.0 if name in FRICTIONS else None),
         marks,
         name=f"{name}-over-{axis}",
         caption=f"{_sentence(data, name)}, over {over}.",
@@ -201,7 +201,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
             dash, marker = ("dotted", "") if numbers else ("", "o")
             keys.append(Series([], [], INK, "at rest", dash, 1.1, marker, filled=False))
     if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
-        keys.append(Series([], [], GREY, BEYOND, dash="", marker="$*$"))
+        keys.append(Series([], [], GREY, BEYOND_LABEL, dash="", marker="$*$"))
     several = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
     several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
     legend = "above" if several else ""
@@ -246,7 +246,7 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     label = f"{_AREA if area else 'friction coefficient'}{down} [-]"
     return Panel(
         chart.wavelength_axis(lengths.values),
-        Axis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
+        PlotAxis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
         marks,
         name=f"{name}-per-wave",
         caption=f"{_sentence(data, name)}, against wavelength.",
@@ -300,19 +300,19 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
     panels = [
         Panel(
             abscissa,
-            Axis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
+            PlotAxis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
             [*_wave_bands(result, x, *_stack(friction), beyond), total],
         ),
         Panel(
             abscissa,
-            Axis(f"{_AREA} down to each wave [-]", log=True),
+            PlotAxis(f"{_AREA} down to each wave [-]", log=True),
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
     return draw.on_paper(Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength"))
 
 
-def _waves_beyond(result: xr.Dataset, axis: str) -> Flags:
+def _waves_beyond(result: xr.Dataset, axis: str) -> RowFlags:
     """Return for each wave and point whether it excites the rubber beyond the measured band."""
     return style.waves_beyond(result.transpose("scale", axis, ...))
 
@@ -324,10 +324,12 @@ def _stack(rows: Array) -> tuple[Array, Array]:
     return np.vstack([np.zeros_like(upper[:1]), upper[:-1]]), upper
 
 
-def _wave_bands(result: xr.Dataset, x: Array, low: Array, high: Array, beyond: Flags) -> list[Mark]:
+def _wave_bands(
+    result: xr.Dataset, x: Array, low: Array, high: Array, beyond: RowFlags
+) -> list[Mark]:
     """Return a band for each wave, the last first: so they stand in the legend as in the stack."""
     bands: list[Mark] = [
-        Band(x, least, most, colour, name, 1.0, flags, edged=True)
+        ShadedBand(x, least, most, colour, name, 1.0, flags, edged=True)
         for least, most, colour, name, flags in zip(
             low, high, style.shades(len(low)), wavelength_names(result), beyond, strict=True
         )
@@ -347,12 +349,14 @@ def decades_figure(result: xr.Dataset, axis: str) -> Figure:
     low, high = _stack(np.nan_to_num(share.values))
     scale = style.shades(max(share.sizes["decade"], 2), "Cividis")
     marks: list[Mark] = [
-        Band(x, least, most, colour, style.power_of_ten(round(math.log10(time))), 1.0, edged=True)
+        ShadedBand(
+            x, least, most, colour, style.power_of_ten(round(math.log10(time))), 1.0, edged=True
+        )
         for least, most, colour, time in zip(low, high, scale, share.decade.values, strict=False)
     ]
     total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
                    beyond=style.predictions_beyond(result))  # fmt: skip
-    ordinate = Axis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
+    ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
     panel = Panel(abscissa, ordinate, [*marks[::-1], total])
     look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
     return draw.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
@@ -370,8 +374,8 @@ def _relaxation_panel(data: xr.Dataset) -> Panel:
     times = 10.0 * data["decade"].values.astype(float)
     over = [str(dim) for dim in parts.dims if dim != "decade"]
     return Panel(
-        Axis("relaxation times up to [s]", log=True),
-        Axis(f"{words_of(data, name)} [-]"),
+        PlotAxis("relaxation times up to [s]", log=True),
+        PlotAxis(f"{words_of(data, name)} [-]"),
         [
             Series(times, summed.isel(at).values, colour, label or words_of(data, name), marker="o")
             for at, colour, label in _curves(data, over)
@@ -400,7 +404,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     x, y = np.meshgrid(speeds, celsius)
     kinds = (
         (solved & ~beyond & ~shifted, "solved", ".", INK, 2.5),
-        (solved & beyond & ~shifted, BEYOND, "o", INK, 3.0),
+        (solved & beyond & ~shifted, BEYOND_LABEL, "o", INK, 3.0),
         (solved & shifted, "beyond the temperatures of the shift", "x", GREY, 3.0),
     )
     points = [
@@ -479,8 +483,8 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
                             beyond=beyond.values, listed=False))  # fmt: skip
     words, area = words_of(data, name), name.endswith("contact_fraction")
     return Panel(
-        Axis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
-        Axis(_label(data, name), log=area, low=None if area else 0.0),
+        PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
+        PlotAxis(_label(data, name), log=area, low=None if area else 0.0),
         marks,
         name=f"{name}-over-{REDUCED_SPEED}",
         caption=f"{words}, over the reduced speed a_T v: one curve where temperature does nothing "

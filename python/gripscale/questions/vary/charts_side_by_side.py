@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, draw
-from gripscale.charts.chart import Axis, Bars, CrossLine, Mark, Panel, Series, Sheet
+from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.arrays import Array
@@ -89,7 +89,7 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
     panels.append(
         Panel(
             chart.wavelength_axis(data.wavelength.values / MILLI),
-            Axis("$\\mu$ of this and larger waves [-]", low=0.0),
+            PlotAxis("$\\mu$ of this and larger waves [-]", low=0.0),
             marks,
             title=chain,
         )
@@ -115,8 +115,8 @@ def _ranking_panel(data: xr.Dataset) -> Panel:
         )  # fmt: skip
     best = {float(at): significant(mu, 2) for at, mu in enumerate(data.best_friction.values)}
     return Panel(
-        Axis("$\\mu$, best estimate [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
-        Axis("$\\mu$ over that of the first [-]", margin=0.1),
+        PlotAxis("$\\mu$, best estimate [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
+        PlotAxis("$\\mu$ over that of the first [-]", margin=0.1),
         marks,
         title="direct contact: the ranking",
     )
@@ -154,8 +154,8 @@ def _decades_panel(data: xr.Dataset) -> Panel:
         if i % step == 0
     }
     return Panel(
-        Axis("relaxation time from [s]", ticks=ticks),
-        Axis("difference of $\\mu$ from the first [-]"),
+        PlotAxis("relaxation time from [s]", ticks=ticks),
+        PlotAxis("difference of $\\mu$ from the first [-]"),
         [*marks, CrossLine(0.0, width=0.7)],
     )
 
@@ -177,13 +177,13 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
             spectrum.append(Series(road.wavenumber.values * MILLI, value, colour, name))
     panels = [
         Panel(
-            Axis("lag $l$ [mm]", log=True),
-            Axis("height difference $C_z$ [mm$^2$]", log=True),
+            PlotAxis("lag $l$ [mm]", log=True),
+            PlotAxis("height difference $C_z$ [mm$^2$]", log=True),
             correlation,
         ),
         Panel(
-            Axis("wavenumber $q$ [rad/mm]", log=True),
-            Axis("spectrum $C_1$ [mm$^3$]", log=True),
+            PlotAxis("wavenumber $q$ [rad/mm]", log=True),
+            PlotAxis("spectrum $C_1$ [mm$^3$]", log=True),
             spectrum,
         ),
     ]
@@ -215,10 +215,10 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
         ends = [*wavelength, wavelength[-1] / _STEP ** len(roads)]
         panels.append(Panel(
             chart.wavelength_axis(ends),
-            Axis("$\\mu$ of this and longer waves [-]", low=0.0),
+            PlotAxis("$\\mu$ of this and longer waves [-]", low=0.0),
             marks,
             title=str(model),
         ))  # fmt: skip
     layout = {"sharey": True}
-    panels = panels or [Panel(Axis(), Axis())]
+    panels = panels or [Panel(PlotAxis(), PlotAxis())]
     return draw.on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))

@@ -23,8 +23,8 @@ from gripscale.experiment.design import (
     WITH_AREA_TERM,
     Design,
     Point,
-    attributes,
     solve_design,
+    variable_attributes,
 )
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task, load_stored
@@ -61,7 +61,7 @@ def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> 
             f"model {model.name}"
         )
     tasks = {}
-    for selection in (inputs.ALL, *(f"no {effect}" for effect in asked), inputs.NONE):
+    for selection in (inputs.ALL_EFFECTS, *(f"no {effect}" for effect in asked), inputs.NO_EFFECTS):
         changed = inputs.with_effects(model, selection)
         inputs.rubber_before(rubber, changed)  # nothing is solved if one of them is impossible
         tasks[selection] = Task(rubber, surface, load, changed)
@@ -109,7 +109,7 @@ def effects(
     """
     tasks = effect_tasks(model, rubber, surface, load)
     points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
-    coords = {"effect": ("effect", list(tasks), attributes("effects that count"))}
+    coords = {"effect": ("effect", list(tasks), variable_attributes("effects that count"))}
     design = Design({"effect": len(tasks)}, points, coords)
     store = None if folder is None else Store(folder)
     data = solve_design(design, Bench(store, workers, client, on_task))
@@ -117,12 +117,16 @@ def effects(
     if ADHESIVE_FRICTION in data:
         both = data.total_friction + data[ADHESIVE_FRICTION]
         words = "friction coefficient of hysteresis and area term together"
-        data = data.assign({WITH_AREA_TERM: both.assign_attrs(attributes(words))})
+        data = data.assign({WITH_AREA_TERM: both.assign_attrs(variable_attributes(words))})
     for name, change in CHANGES.items():
         if name in data:
-            relative = (data[name].sel(effect=inputs.ALL, drop=True) / data[name] - 1.0).transpose()
+            relative = (
+                data[name].sel(effect=inputs.ALL_EFFECTS, drop=True) / data[name] - 1.0
+            ).transpose()
             words = f"what the effects left out change in {data[name].attrs['long_name']}"
-            data[change] = relative.where(data.effect != inputs.ALL).assign_attrs(attributes(words))
+            data[change] = relative.where(data.effect != inputs.ALL_EFFECTS).assign_attrs(
+                variable_attributes(words)
+            )
     return data.assign_attrs(
         {
             "title": "What each effect of the conditions is worth",
@@ -134,12 +138,12 @@ def effects(
             "nominal_speed": load.speed,
             "footprint": load.footprint,
             "load_time": str(load.load_time),
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         }
     )
 
 
-FILE = "effects_{model}.nc"
+EFFECTS_FILE = "effects_{model}.nc"
 """What they are kept in, beside the result."""
 
 
@@ -186,19 +190,19 @@ def case_effects(
         return None
     setup = (model, case.rubber, case.surface, load)
     if model == case.chain and dynamic is not None and dynamic.converged:
-        key = effect_tasks(*setup)[inputs.ALL].key
+        key = effect_tasks(*setup)[inputs.ALL_EFFECTS].key
         solved = dynamic.to_dataset().assign_attrs(prediction_key=key)
         Store(store).put(key, solved)
     data = effects(*setup, folder=store, workers=workers, client=client, on_task=on_task)
     data = data.assign_attrs(case.attributes)
-    netcdf.save(data, Path(folder) / FILE.format(model=model.name))
+    netcdf.save(data, Path(folder) / EFFECTS_FILE.format(model=model.name))
     return data
 
 
 def stored_effects(folders: Iterable[Path], case: object) -> list[xr.Dataset]:
     """Return what the first of `folders` that has effects of this text of a case keeps."""
     for folder in folders:
-        stored = map(load_stored, sorted(folder.glob(FILE.format(model="*"))))
+        stored = map(load_stored, sorted(folder.glob(EFFECTS_FILE.format(model="*"))))
         same = [data for data in stored if data is not None and data.attrs.get("case") == case]
         if same:
             return same

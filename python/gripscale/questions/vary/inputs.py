@@ -18,7 +18,7 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
-CASE = "case"
+OF_THE_CASE = "case"
 """What stands for the surface or the rubber of the case itself."""
 _NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
 
@@ -33,7 +33,7 @@ def surface_of(value: Any, case: Case) -> Surface:
         return value
     if isinstance(value, SineStack):
         return Surface(value, "sine waves given by the caller")
-    if value == CASE:
+    if value == OF_THE_CASE:
         return case.surface
     return synthetic_surface(_name("surface", value, SYNTHETIC_SURFACES))
 
@@ -48,14 +48,14 @@ def measured_rubber_of(value: Any, case: Case) -> MeasuredRubber:
         return value
     if isinstance(value, Rubber):
         return MeasuredRubber(value, value.source)
-    if value == CASE:
+    if value == OF_THE_CASE:
         return case.measured_rubber
     rubber = _NAMED_RUBBERS[_name("rubber", value, _NAMED_RUBBERS)]()
     return MeasuredRubber(rubber, rubber.source)
 
 
 def _name(kind: str, value: Any, names: Iterable[str]) -> str:
-    return checks.one_of(kind, value, [CASE, *names])
+    return checks.one_of(kind, value, [OF_THE_CASE, *names])
 
 
 def reading_notes(values: Iterable[Any]) -> tuple[str, ...]:
@@ -71,7 +71,7 @@ def identity(value: Any) -> Any:
 _EFFECTS = ("temperature", "softening", "heat")
 """What conditions do to the rubber; the area term does nothing to it."""
 
-ALL, NONE = "all", "none"
+ALL_EFFECTS, NO_EFFECTS = "all", "none"
 
 
 def conditions_of(model: Model) -> Conditions:
@@ -99,7 +99,7 @@ def with_effects(model: Model, selection: str) -> Model:
     Raises `InputError` if `selection` is neither "all", "no" one that the model has, nor "none".
     """
     asked = effects_asked(model)
-    without = {ALL: [], **{f"no {effect}": [effect] for effect in asked}, NONE: asked}
+    without = {ALL_EFFECTS: [], **{f"no {effect}": [effect] for effect in asked}, NO_EFFECTS: asked}
     nothing: dict[str, Any] = dict.fromkeys(without[checks.one_of("effects", selection, without)])
     return model.with_conditions(replace(conditions_of(model), **nothing))
 
@@ -124,7 +124,7 @@ def default_model(case: Case, varied: Mapping[str, Sequence[Any]] | None = None)
     else the chain. Raises `InputError` if a surface is none that `surface_of` takes.
     """
     values = varied or {}
-    surfaces = [surface_of(value, case) for value in values.get("surface", (CASE,))]
+    surfaces = [surface_of(value, case) for value in values.get("surface", (OF_THE_CASE,))]
     measured = all(surface.measured is not None for surface in surfaces)
     return DirectContact.name if measured and not {*OF_THE_CHAIN} & {*values} else Chain.name
 

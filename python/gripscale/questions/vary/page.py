@@ -13,7 +13,7 @@ from gripscale.charts.page_elements import is_evidence, telling, words_of
 from gripscale.core.units import MILLI
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
-from gripscale.questions.chain.view import CONVERGED, SYMBOLS, believed
+from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS, believed
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
 from gripscale.report.failures import Failure
@@ -79,7 +79,7 @@ def study_table(data: xr.Dataset) -> Table:
     columns.append(Column("status", status))
     more = len(chosen) - len(rows)
     notes = [f"{more} more predictions are in the result file."] if more else []
-    bad = [text != CONVERGED for text in status]
+    bad = [text != CONVERGED_WORD for text in status]
     return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
 
 
@@ -103,7 +103,7 @@ def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
             data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
         )
     ]
-    return [ending for ending in endings if ending.sentence != CONVERGED], len(endings)
+    return [ending for ending in endings if ending.sentence != CONVERGED_WORD], len(endings)
 
 
 def shift_sentence(data: xr.Dataset) -> str:
@@ -214,7 +214,7 @@ def totals_table(data: xr.Dataset) -> Table | None:
         unit = str(data[name].attrs.get("units", "")).replace("1", "")
         columns.append(Column(name, values, words_of(data, name), unit, format=digits(4)))
     states = [name for name in names if name.endswith("status")]
-    bad = [any(str(row[name].values[()]) != CONVERGED for name in states) for row in rows]
+    bad = [any(str(row[name].values[()]) != CONVERGED_WORD for name in states) for row in rows]
     return Table("totals", columns, f"Totals of all {len(rows)} predictions", bad=bad)
 
 
@@ -223,7 +223,7 @@ def axis_unit(data: xr.Dataset, axis: str) -> str:
     return axis_shown(data, axis).unit if of_numbers(data, axis) else ""
 
 
-def failures(data: xr.Dataset) -> Iterator[Failure]:
+def study_failures(data: xr.Dataset) -> Iterator[Failure]:
     """Yield each prediction that is not `converged`, or has a NaN total."""
     names = totals_of(data)
     states = [name for name in names if name.endswith("status")]
@@ -235,7 +235,7 @@ def failures(data: xr.Dataset) -> Iterator[Failure]:
             for n, i in index.items()
         )
         for name in states:
-            if (status := str(row[name].values[()])) != CONVERGED:
+            if (status := str(row[name].values[()])) != CONVERGED_WORD:
                 word = str(status_words(row, name).item())
                 yield Failure(f"{where}: NOT converged: {status or NONE}", word)
         if not states and any(math.isnan(float(row[name])) for name in totals):

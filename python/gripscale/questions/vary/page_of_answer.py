@@ -17,7 +17,7 @@ from gripscale.questions.answer.reliance import WORTH_NAMING
 from gripscale.questions.chain.view import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
-from gripscale.report.elements import Card, percent
+from gripscale.report.elements import Card, percent_text
 
 _SAME = 0.03
 """Relative change that is none."""
@@ -170,7 +170,8 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
             ranges.append(f"{SYMBOLS[name]} × {low if low == high else f'{low} to {high}'}")
         error = data["best_friction_factor_uncertainty"].isel(factor=at)
         same = all(text.endswith(f"× {significant(1.0)}") for text in ranges)
-        yield f"{label} ({f'1 ± {percent(float(error.max()))}' if same else ', '.join(ranges)})"
+        factor = f"1 ± {percent_text(float(error.max()))}" if same else ", ".join(ranges)
+        yield f"{label} ({factor})"
 
 
 def _rests_on(data: xr.Dataset) -> Iterator[str]:
@@ -178,12 +179,12 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     sampling = float(data["best_friction_sampling_error"].max())
     has_intervals = math.isfinite(sampling)
     if has_intervals:
-        yield f"sampling of the road up to ± {percent(sampling)} of it (standard error)"
+        yield f"sampling of the road up to ± {percent_text(sampling)} of it (standard error)"
     else:
         yield "no interval: the surface is too short to tell how well it represents its road"
     steep = float(data[STEEP_SHARE].max()) if STEEP_SHARE in data else 0.0
     if steep > WORTH_NAMING:
-        yield f"up to {percent(steep)} of the friction on slopes above 1"
+        yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if IsotropicSurface.label in data.factor_label.values:
         yield "a road without direction is assumed"
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
@@ -204,7 +205,7 @@ def _card_detail(data: xr.Dataset, name: str) -> str:
     if column.startswith("total"):
         return f"{_model(data)}; {over}"
     width = float(data[f"{column}_half_width"].max())
-    interval = f"; ± {percent(width)} (90 %)" if math.isfinite(width) else ""
+    interval = f"; ± {percent_text(width)} (90 %)" if math.isfinite(width) else ""
     return f"best estimate{interval}; {over}"
 
 

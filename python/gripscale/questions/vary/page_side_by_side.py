@@ -15,7 +15,7 @@ from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of, status_words
-from gripscale.questions.chain.view import CONVERGED, SYMBOLS
+from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.inputs.page import texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.rubber_comparison import TEMPERATURE
@@ -64,12 +64,12 @@ def effects_table(*results: xr.Dataset) -> Table:
         ]
     status = [str(value) for value in every("prediction_status")]
     columns.append(Column("status", status))
-    bad = [value != CONVERGED for value in status]
+    bad = [value != CONVERGED_WORD for value in status]
     rules = np.cumsum([result.sizes["effect"] for result in results])[:-1] - 1
     return Table("effects", columns, "What each effect is worth", keys=2, bad=bad, rules=set(rules))
 
 
-def totals_table(data: xr.Dataset, dim: str, heading: str, model: str = "") -> Table:
+def side_by_side_totals(data: xr.Dataset, dim: str, heading: str, model: str = "") -> Table:
     """Return totals along `dim` with their ranges, and the differences to the first.
 
     Of `model`, the name of the table, only what was asked for: nothing without a status.
@@ -92,7 +92,7 @@ def totals_table(data: xr.Dataset, dim: str, heading: str, model: str = "") -> T
         Column(name, difference, "difference of μ from the first", format=fixed(3, "+")),
         Column(f"{name}_range", span, "range", format=fixed(3, "+")),
     ]
-    bad = [text != CONVERGED for text in status]
+    bad = [text != CONVERGED_WORD for text in status]
     if any(bad):
         columns.append(Column("status", status))
     caption = f"Totals, {model}" if model else "Totals"
@@ -235,7 +235,7 @@ def _ends(data: xr.Dataset, name: str) -> np.ndarray:
 def roads_tables(data: xr.Dataset) -> list[Table]:
     """Return best estimates, for each model totals and differences to the first, and texture."""
     models = data.model.values.tolist()
-    tables = [totals_table(data.sel(model=name), "surface", "road", name) for name in models]
+    tables = [side_by_side_totals(data.sel(model=name), "surface", "road", name) for name in models]
     if "rms_height" in data:
         tables.append(texture_table(data, "surface", "road"))
     return [
@@ -256,7 +256,7 @@ def failed_totals(data: xr.Dataset) -> list[Failure]:
             str(words.values[at]),
         )
         for at, text in np.ndenumerate(stacked.values)
-        if str(text) not in ("", CONVERGED)
+        if str(text) not in ("", CONVERGED_WORD)
     ]
 
 
@@ -286,7 +286,7 @@ def roads_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def compounds_table(data: xr.Dataset) -> Table:
     """Return totals of each compound with their ranges, and differences to the first."""
-    table = totals_table(data, "rubber", "compound")
+    table = side_by_side_totals(data, "rubber", "compound")
     return replace(table, caption="Totals, chain") if "best_friction" in data else table
 
 

@@ -31,7 +31,7 @@ from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import Design, Point, attributes, solve_design
+from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
@@ -150,16 +150,18 @@ def total_differences(data: xr.Dataset, dim: str) -> dict[str, xr.DataArray]:
         first[0] = True
         for end, ends in (("low", low - high.isel({dim: 0})), ("high", high - low.isel({dim: 0}))):
             name = f"{quantity}_difference_{end}"
-            out[name] = ends.where(~first, 0.0).assign_attrs(attributes(f"{end}est {what}"))
+            out[name] = ends.where(~first, 0.0).assign_attrs(
+                variable_attributes(f"{end}est {what}")
+            )
     return out
 
 
 def to_first(values: xr.DataArray, dim: str, long_name: str) -> xr.DataArray:
     """Return the difference of `values` [-] to the first along `dim`."""
-    return (values - values.isel({dim: 0}, drop=True)).assign_attrs(attributes(long_name))
+    return (values - values.isel({dim: 0}, drop=True)).assign_attrs(variable_attributes(long_name))
 
 
-QUANTITIES = ("friction", "contact_fraction")
+COMPARED_QUANTITIES = ("friction", "contact_fraction")
 
 
 def ratios_to_first(
@@ -173,12 +175,12 @@ def ratios_to_first(
     of the logarithms, which are independent of each other.
     """
     out = {}
-    for name in QUANTITIES:
+    for name in COMPARED_QUANTITIES:
         best = f"best_{name}" if f"best_{name}" in data else f"total_{name}"
         value = data[best].where(data[best] > 0.0)
         ratio = value / value.isel({dim: 0}, drop=True)
         text = f"over that of the first, {data[best].attrs['long_name']}"
-        out[f"{name}_ratio"] = ratio.assign_attrs(attributes(text))
+        out[f"{name}_ratio"] = ratio.assign_attrs(variable_attributes(text))
         if widths is None:
             continue
         first = xr.zeros_like(data[dim], dtype=bool)
@@ -191,7 +193,7 @@ def ratios_to_first(
             out[f"{name}_ratio_{end}"] = (
                 values.where(~first, 1.0)
                 .reset_coords(drop=True)
-                .assign_attrs(attributes(f"{end} end of the 90 % interval, {text}"))
+                .assign_attrs(variable_attributes(f"{end} end of the 90 % interval, {text}"))
             )
     return out
 
@@ -207,7 +209,7 @@ def ranges(
     """Return `total_friction_low` and so on: totals times the `ends` of each, low and high."""
     return {
         f"{quantity}_{end}": (data[quantity] * factor).assign_attrs(
-            attributes(f"{end}est {data[quantity].attrs['long_name']} {text}")
+            variable_attributes(f"{end}est {data[quantity].attrs['long_name']} {text}")
         )
         for quantity, factors in ends.items()
         for end, factor in zip(("low", "high"), factors, strict=True)
@@ -304,7 +306,9 @@ def compare_compounds(
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     if kelvins[0] is not None and len({*kelvins}) == 1:
         data = data.assign_attrs({TEMPERATURE: kelvins[0]})
-    return Compounds(together, notes, netcdf.load(netcdf.save(data, Path(folder) / _RESULT)))
+    return Compounds(
+        together, notes, netcdf.load_dataset(netcdf.save(data, Path(folder) / _RESULT))
+    )
 
 
 def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:
@@ -320,7 +324,7 @@ def _believed(best: xr.Dataset, data: xr.Dataset) -> dict[str, xr.DataArray]:
     names = [str(name) for name in best if str(name).startswith(("best_", "factor_"))]
     widths = None
     if f"{_TOTALS[0]}_low" in data:
-        widths = {name: _widths(best, data, name) for name in QUANTITIES}
+        widths = {name: _widths(best, data, name) for name in COMPARED_QUANTITIES}
     return {name: best[name] for name in names} | ratios_to_first(best, "rubber", widths)
 
 
@@ -365,7 +369,7 @@ def _differences(data: xr.Dataset) -> dict[str, xr.DataArray]:
     if "scale" in data.dims:
         friction = data.friction.transpose("rubber", "scale")
         running = friction.copy(data=friction.values.cumsum(axis=1))
-        running.attrs = attributes("friction coefficient of this and all larger waves")
+        running.attrs = variable_attributes("friction coefficient of this and all larger waves")
         out["friction_running"] = running
         text = "difference to the first compound, friction coefficient of the wave"
         out["friction_difference"] = to_first(friction, "rubber", text)

@@ -18,7 +18,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.core.arrays import Array
-from gripscale.experiment.design import attributes
+from gripscale.experiment.design import variable_attributes
 from gripscale.model import TOTALS
 from gripscale.questions.vary.axis import Axis
 from gripscale.rubber import Rubber
@@ -151,7 +151,7 @@ def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.Da
     values = np.reshape(flags, [len(axis.values) for axis in axes])
     text = "whether the temperature lies beyond those the shift of the rubber rests on"
     dims = [axis.name for axis in axes]
-    return {BEYOND_SHIFT: xr.DataArray(values, dims=dims, attrs=attributes(text))}
+    return {BEYOND_SHIFT: xr.DataArray(values, dims=dims, attrs=variable_attributes(text))}
 
 
 def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
@@ -162,14 +162,14 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     assert rubber.shift is not None
     assert rubber.reference_temperature is not None
     kelvin, reference = result.temperature.values, rubber.reference_temperature
-    horizontal = attributes(f"horizontal shift factor a_T to {reference:g} K")
-    vertical = attributes(f"vertical factor b_T to {reference:g} K")
+    horizontal = variable_attributes(f"horizontal shift factor a_T to {reference:g} K")
+    vertical = variable_attributes(f"vertical factor b_T to {reference:g} K")
     result = result.assign_coords(
         shift_factor=("temperature", rubber.shift.a(kelvin, reference), horizontal),
         vertical_shift_factor=("temperature", rubber.shift.b(kelvin, reference), vertical),
     )
     product = result.speed * result.shift_factor
-    speed = product.assign_attrs(attributes("reduced speed a_T v", "m/s"))
+    speed = product.assign_attrs(variable_attributes("reduced speed a_T v", "m/s"))
     result = result.assign_coords({REDUCED_SPEED: speed})
     reduced = speed.transpose("speed", "temperature").values
     for name, collapsed in COLLAPSED.items():
@@ -177,7 +177,7 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
         overlap = collapse(list(zip(reduced.T, values.T, strict=True)))
         text = f"largest relative distance of temperatures at the same a_T v, {TOTALS[name]}"
         attrs: dict[str, Any] = {
-            **attributes(text),
+            **variable_attributes(text),
             "interpolation_error": overlap.interpolation_error,
             "points": overlap.points,
             "overlapping_points": overlap.overlapping,

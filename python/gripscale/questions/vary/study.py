@@ -28,7 +28,14 @@ from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
-from gripscale.experiment.design import SURFACE, Design, Index, Point, attributes, basis_numbers
+from gripscale.experiment.design import (
+    SURFACE,
+    Design,
+    Index,
+    Point,
+    basis_numbers,
+    variable_attributes,
+)
 from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
 from gripscale.half_space.line_to_map import upper_height_of
@@ -36,7 +43,7 @@ from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavele
 from gripscale.io import netcdf
 from gripscale.model import BASIS, Model, input_doubts
 from gripscale.questions.vary import inputs
-from gripscale.questions.vary.axis import LONG_NAMES, UNITS, Axis, axes_of
+from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
 from gripscale.questions.vary.speed_and_temperature import (
     beyond_shift,
     friction_by_decade,
@@ -78,9 +85,9 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     parts = data.friction_by_decade.transpose(..., "decade")
     parts = parts.fillna(0.0).where(parts.notnull().any("decade"))
     text = "friction coefficient by relaxation time, split as at small strain"
-    data = data.assign(friction_by_decade=parts.assign_attrs(attributes(text)))
+    data = data.assign(friction_by_decade=parts.assign_attrs(variable_attributes(text)))
     time = [10.0**n for n in data.decade.values.tolist()]
-    described = attributes("shortest relaxation time of the decade", "s")
+    described = variable_attributes("shortest relaxation time of the decade", "s")
     return data.assign_coords(decade=xr.Variable("decade", time, described))
 
 
@@ -89,7 +96,9 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
     coords = {}
     for axis in axes:
         values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        attrs = attributes(LONG_NAMES[axis.name], UNITS[axis.name] if axis.numeric else "1")
+        attrs = variable_attributes(
+            LONG_NAMES[axis.name], AXIS_UNITS[axis.name] if axis.numeric else "1"
+        )
         display = axis.display_unit(units)
         if display is not None:
             attrs[GIVEN] = display.unit
@@ -97,7 +106,7 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
                 factors = [pair[at] for pair in axis.values]
-                attrs = attributes(f"magnification factor {name}")
+                attrs = variable_attributes(f"magnification factor {name}")
                 coords[name] = xr.Variable("factors", factors, attrs)
     return coords
 
@@ -108,7 +117,7 @@ OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_heigh
 UPPER_HEIGHT = "upper_height"
 """Name of how far the measured lines reach up, which a best estimate needs."""
 
-RESULT = "study.nc"
+STUDY_FILE = "study.nc"
 """The Dataset, in the folder of the study."""
 
 
@@ -171,7 +180,7 @@ class Study:
     @cached_property
     def surfaces(self) -> list[Surface]:
         """The varied surfaces, or the one of the case."""
-        values = self._values("surface") or (inputs.CASE,)
+        values = self._values("surface") or (inputs.OF_THE_CASE,)
         return [inputs.surface_of(value, self.case) for value in values]
 
     @cached_property
@@ -182,7 +191,7 @@ class Study:
     @cached_property
     def measured_rubbers(self) -> list[MeasuredRubber]:
         """The `rubbers` with what they come from and what is doubtful of them."""
-        values = self._values("rubber") or (inputs.CASE,)
+        values = self._values("rubber") or (inputs.OF_THE_CASE,)
         return [inputs.measured_rubber_of(value, self.case) for value in values]
 
     def _values(self, name: str) -> tuple[Any, ...]:
@@ -273,11 +282,11 @@ class Study:
         if data is not None and self._all_there(data, bench):
             return data
         answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
-        return netcdf.load(netcdf.save(self.assemble(answers), folder / RESULT))
+        return netcdf.load_dataset(netcdf.save(self.assemble(answers), folder / STUDY_FILE))
 
     def stored(self, folder: str | Path) -> xr.Dataset | None:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""
-        data = load_stored(Path(folder) / RESULT)
+        data = load_stored(Path(folder) / STUDY_FILE)
         return data if data is not None and data.attrs.get("study_key") == self.key else None
 
     def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
@@ -321,9 +330,9 @@ class Study:
         varied = any(axis.name == "surface" for axis in self.axes)
         text = "height that 1 % of the measured lines exceed, over the rms height; NaN of a map"
         numbers: dict[str, Any] = {
-            UPPER_HEIGHT: ("surface", heights, attributes(text))
+            UPPER_HEIGHT: ("surface", heights, variable_attributes(text))
             if varied
-            else ((), heights[0], attributes(text))
+            else ((), heights[0], variable_attributes(text))
         }
         direct = isinstance(self.model, DirectContact)
         cut_offs = {
@@ -332,7 +341,7 @@ class Study:
         }
         if len(cut_offs) == 1:
             text = "shortest wavelength of the roughness"
-            numbers["cutoff_wavelength"] = ((), cut_offs.pop(), attributes(text, "m"))
+            numbers["cutoff_wavelength"] = ((), cut_offs.pop(), variable_attributes(text, "m"))
         return numbers
 
     def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
@@ -409,7 +418,7 @@ class Study:
             "study_key": self.key,
             "description": json.dumps(self.description()),
             "model": model.name,
-            **provenance.attributes(),
+            **provenance.version_attributes(),
         }
 
 

@@ -34,10 +34,10 @@ from gripscale.core.errors import InputError
 from gripscale.experiment.design import (
     Design,
     Point,
-    attributes,
     basis_numbers,
     solve_design,
     surface_numbers,
+    variable_attributes,
 )
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import PREDICTIONS, Store, Task
@@ -126,7 +126,7 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
     }
     data = xr.Dataset(
         {
-            name: roads[name].drop_attrs().assign_attrs(attributes(text))
+            name: roads[name].drop_attrs().assign_attrs(variable_attributes(text))
             for name, text in words.items()
         },
         attrs={"title": "Contact and friction of one rubber on several roads"},
@@ -171,7 +171,7 @@ def _best(surfaces: Mapping[str, Surface], roads: xr.Dataset) -> dict[str, xr.Da
     best = with_best_estimate(direct.assign({UPPER_HEIGHT: ("surface", heights)}))
     names = [name for name in best if str(name).startswith(("best_", "factor_"))]
     widths = {}
-    for name in rubber_comparison.QUANTITIES:
+    for name in rubber_comparison.COMPARED_QUANTITIES:
         half_width = best[f"best_{name}_half_width"]
         width = half_width.copy(data=np.arcsinh(half_width.values))
         widths[name] = width, width
@@ -191,9 +191,9 @@ def _by_octave(roads: xr.Dataset) -> xr.DataArray:
         output_core_dims=[["octave"]],
         vectorize=True,
     )
-    octave = xr.Variable("octave", ends, attributes("shortest wave of the octave", "m"))
+    octave = xr.Variable("octave", ends, variable_attributes("shortest wave of the octave", "m"))
     text = "friction coefficient of the octave and all longer waves"
-    return running.assign_coords(octave=octave).assign_attrs(attributes(text))
+    return running.assign_coords(octave=octave).assign_attrs(variable_attributes(text))
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
@@ -222,8 +222,8 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
             good = (x > 0.0) & (y > 0.0)
             logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
             values[list(surfaces).index(road)] = np.exp(logs)
-        out[name] = (("surface", axis), values, attributes(text, units))
-        out[axis] = (axis, places, attributes(axis, unit))
+        out[name] = (("surface", axis), values, variable_attributes(text, units))
+        out[axis] = (axis, places, variable_attributes(axis, unit))
     return out
 
 
@@ -342,9 +342,11 @@ def compare_surfaces(
         case_file=case.origin.name,
         **case.attributes,
         **input_doubts([*roads.values(), case.measured_rubber], [load], case.units),
-        **provenance.attributes(),
+        **provenance.version_attributes(),
     )
-    return Roads(roads, tuple(notes), netcdf.load(netcdf.save(data, Path(folder) / _RESULT)))
+    return Roads(
+        roads, tuple(notes), netcdf.load_dataset(netcdf.save(data, Path(folder) / _RESULT))
+    )
 
 
 def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> dict[int, Task]:
