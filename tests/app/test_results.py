@@ -16,6 +16,7 @@ from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.core.finding import Finding, Severity
 from gripscale.questions.answer.answer import answer
+from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.report import source
 from gripscale.report.elements import Element, Text
@@ -83,7 +84,7 @@ def test_three_warnings_are_open_and_the_others_folded() -> None:
 
 def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
     result = source.read_result(ran)
-    assert isinstance(result, source.RunSource)
+    assert isinstance(result, RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text())
     dynamic, *rest = result.predictions
     assert result.direct is not None
@@ -104,7 +105,7 @@ def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
 
 def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
     result = source.read_result(ran)
-    assert isinstance(result, source.RunSource)
+    assert isinstance(result, RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text(), folder=ran)
     dynamic = result.predictions[0]
     rows = [ComparedRun(run, dynamic, result.direct), ComparedRun(run, dynamic, None)]
@@ -118,7 +119,7 @@ def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
 
 def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
     result = source.read_result(ran)
-    assert isinstance(result, source.RunSource)
+    assert isinstance(result, RunSource)
     for excited, drawn in ((None, False), (result.predictions[0], True)):
         moduli, factor, *_ = rubber_charts(result.inputs, excited)
         assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]

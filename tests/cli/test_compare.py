@@ -34,8 +34,8 @@ from gripscale.questions.compare.charts import comparison_axis_figure, compariso
 from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.questions.compare.page import comparison_table, judgement, remarks
+from gripscale.questions.compare.stored import Compared
 from gripscale.report.pages import page_of
-from gripscale.report.source import Compared
 from tests.samples import Shell
 
 FORMATS = ("png",)

@@ -8,8 +8,8 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, ConstantStress, GaussianStress, ThermalProperties
+from gripscale.questions.chain.findings import conditions_notices
 from gripscale.questions.chain.view import PredictionView
-from gripscale.report.notices import conditions_notices
 from gripscale.rubber.softening import Kraus
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES

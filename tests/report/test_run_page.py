@@ -17,15 +17,17 @@ import xarray as xr
 import gripscale as gs
 from gripscale.charts.page_elements import Chart
 from gripscale.core.errors import FileError, InputError
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, Load, predicted_answer
 from gripscale.questions.chain.charts import contact_charts
+from gripscale.questions.chain.findings import notices, run_cards
+from gripscale.questions.chain.run_folder import RunSource
+from gripscale.questions.chain.run_page import run_page
 from gripscale.questions.inputs.page import rubber_facts
 from gripscale.report import write_report
-from gripscale.report.notices import notices, run_cards
-from gripscale.report.pages import run_page
-from gripscale.report.source import RunSource, read_result
+from gripscale.report.source import read_result
 from gripscale.surface import self_affine_profile
 from tests.samples import ZENER
 
@@ -320,17 +322,19 @@ def test_single_file_without_record_and_meshes(run_folder: Path, tmp_path: Path)
     assert "table-files" not in page.tables
 
 
-def test_only_the_table_of_a_saved_case_names_measured_friction(
+def test_measured_friction_is_that_of_the_record(
     changed_run: Callable[..., Path],
 ) -> None:
-    """A comment does not, nor is an older case refused that states what no case has any more."""
+    """A page reads results only: a case file that was changed since changes nothing."""
     folder = changed_run(lambda data: data)
-    case = folder / "case.toml"
-    case.write_text("# on a measured road\n[load]\nolder = 1\n", encoding="utf-8")
+    (folder / "case.toml").write_text("[measured\n", encoding="utf-8")
     assert '<section id="measured"' not in write_report(folder).read_text(encoding="utf-8")
-    case.write_text("[measured\n", encoding="utf-8")
-    with pytest.raises(FileError, match=r"case\.toml is not valid TOML: Expected '\]'"):
-        write_report(folder)
+    measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], source="mu.csv")
+    tree = netcdf.load_tree(folder / "dynamic.nc")
+    record = tree["inputs"].to_dataset(inherit=False).assign(measured_variables(measured))
+    netcdf.save(tree.to_dataset(), folder / "dynamic.nc", {"inputs": record})
+    page = write_report(folder).read_text(encoding="utf-8")
+    assert '<section id="measured"' in page
 
 
 def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:

@@ -42,6 +42,7 @@ from gripscale.model import with_adhesive
 from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
+from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import SYMBOLS, PredictionView
 from gripscale.questions.registry import Form, FormField
 from gripscale.report import source
@@ -286,7 +287,7 @@ def compared_elements(runs: Runs) -> PageElements:
             result = None if run.running else source.read_result(run.folder)
         except GripscaleError:
             continue  # stopped or failed before its first wave
-        if isinstance(result, source.RunSource):
+        if isinstance(result, RunSource):
             for view in result.by_wave:
                 name = run.name + ("" if view.moving else ", at rest")
                 direct = result.direct

@@ -81,6 +81,7 @@ def compare(
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.answer.reliance import has_answer
     from gripscale.questions.calibration.page_of_measured import residual_table
+    from gripscale.questions.chain.findings import friction_notices
     from gripscale.questions.compare.charts import at_measured_figure
     from gripscale.questions.compare.charts_of_ladder import varied
     from gripscale.questions.compare.comparison import (
@@ -97,7 +98,6 @@ def compare(
     from gripscale.questions.vary.axis import parse_vary
     from gripscale.questions.vary.effects import case_effects
     from gripscale.questions.vary.page_side_by_side import effects_table
-    from gripscale.report.notices import friction_notices
 
     axes = None if vary is None else dict([parse_vary(vary, COMPARED_OVER)])
     file = read_case_file(case)

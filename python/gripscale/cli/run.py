@@ -293,11 +293,12 @@ def _parts(
     chain: ChainRun, answer: Answer, effects: xr.Dataset | None, target: Path
 ) -> tuple[list[str | Table], xr.Dataset | None]:
     """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
+    from gripscale.questions.answer.page import slopes_table
     from gripscale.questions.calibration.page_of_measured import measured_lines
     from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
     from gripscale.questions.chain.run import DYNAMIC
     from gripscale.questions.chain.view import PredictionView
-    from gripscale.questions.compare.page import judgement, slopes_table
+    from gripscale.questions.compare.page import judgement
     from gripscale.questions.cut_off.page import cut_off_basis, rules_table
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty

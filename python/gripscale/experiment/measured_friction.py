@@ -268,9 +268,23 @@ MEASURED = {
 
 def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
     """Return the columns of a measurement as variables over `measurement`."""
-    return {
+    columns = {
         f"measured_{name}": labelled(
             "measurement", getattr(measured, name), unit, text, measured.source
         )
         for name, (unit, text) in MEASURED.items()
     }
+    if measured.assumed:
+        columns["measured_friction"].attrs["assumed"] = measured.assumed
+    return columns
+
+
+def stored_measurement(data: xr.Dataset) -> MeasuredFriction | None:
+    """Return the measurement of `measured_variables` in a Dataset; None without one."""
+    if "measured_friction" not in data:
+        return None
+    columns = {name: data[f"measured_{name}"].values for name in MEASURED}
+    attrs = data["measured_friction"].attrs
+    return MeasuredFriction(
+        **columns, source=attrs.get("source", ""), assumed=attrs.get("assumed", "")
+    )

@@ -5,12 +5,12 @@ All texts are plain: escaping is the template's task. A `gripscale.io.table.Tabl
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
 
 from gripscale.charts.page_elements import Chart, Image
-from gripscale.core.finding import Finding, Severity
+from gripscale.core.finding import Finding, Severity, ranked
 from gripscale.io import table
 from gripscale.io.table import Column, Table, on_page, significant
 
@@ -111,6 +111,20 @@ class Page:
     sections: Sequence[Section] = field(default_factory=tuple)
     basis: Sequence[str] = ()
     """What the numbers of the cards are for, and what they rest on."""
+
+    @classmethod
+    def of(
+        cls,
+        title: str,
+        subtitle: str,
+        findings: Iterable[Finding],
+        cards: Iterable[Card],
+        sections: Iterable[Section],
+        basis: Iterable[str] = (),
+    ) -> Page:
+        """Return a page of ranked findings, and of the sections that hold something."""
+        chapters = [section for section in sections if section.elements]
+        return cls(title, subtitle, ranked(findings), list(cards), chapters, tuple(basis))
 
     @property
     def errors(self) -> list[Finding]:

@@ -14,12 +14,18 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from gripscale.report.elements import Equation
+from gripscale.report.elements import Equation, Section, Text
 
 _LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
 
 _POINTS = 14.0
 """Size of the letters [pt]."""
+
+_METHOD = (
+    "The measured surface is approximated by superposed sine waves. On each wave, largest first, "
+    "a rubber block at finite strain is pressed and slid. The next wave receives the pressure in "
+    "its contact."
+)
 
 # name, LaTeX, words, source
 _EQUATIONS = [
@@ -145,6 +151,11 @@ def draw_equations(latex: str) -> str:
         }
         figure.savefig(drawn, metadata={"Date": None, "Creator": None}, **look)
     return drawn.getvalue()
+
+
+def method_section() -> Section:
+    """Return the equations with their sources."""
+    return Section("method", "Method", [Text(_METHOD), *method_equations()])
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -14,8 +15,9 @@ import xarray as xr
 from gripscale import model
 from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
-from gripscale.io.table import significant
+from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer.best_estimate import IsotropicSurface
+from gripscale.questions.answer.charts import contact_pictures
 from gripscale.questions.answer.findings import no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.reliance import (
@@ -30,10 +32,18 @@ from gripscale.questions.answer.reliance import (
 )
 from gripscale.questions.chain.view import HEADINGS, SYMBOLS
 from gripscale.questions.cut_off.curve import CONTINUED_TO
+from gripscale.questions.inputs.page import rubber_section, surface_section
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import Card, Page, Section, percent_text
+from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
+from gripscale.report.equations import method_section
+
+_PICTURE = (
+    "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
+    "that rise in the sliding direction. The page holds the lowest and highest values of pieces of "
+    "the surface, and every point where most of the friction is made."
+)
 
 
 def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
@@ -149,14 +159,12 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
 
 def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Finding]) -> Page:
     """Return the page of an answer: its numbers, the contact, and the inputs with their origin."""
-    from gripscale.report import pages
-
-    contact = pages.contact_elements(data, record) if is_solved(data) else []
+    contact = contact_elements(data, record) if is_solved(data) else []
     sections = [
         Section("contact", "Rubber on the surface", contact),
-        Section("surface", "Surface", pages.surface_section(record)),
-        Section("rubber", "Rubber", pages.rubber_section(record)),
-        pages.method_section(),
+        Section("surface", "Surface", surface_section(record)),
+        Section("rubber", "Rubber", rubber_section(record)),
+        method_section(),
         rerun_section(data.attrs),
     ]
     return Page(
@@ -167,3 +175,26 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
         [section for section in sections if section.elements],
         tuple(basis_lines(data)),
     )
+
+
+def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
+    """Return the direct contact of the measured surface as pictures and by slope."""
+    if not (pictures := contact_pictures(direct, record.data)):
+        return []
+    first, *others = pictures
+    return [Text(_PICTURE), first, *slopes_table(direct), *others]
+
+
+def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
+    """Yield which slopes of the surface carry load and make friction, where that is known."""
+    if "best_friction_by_slope" not in direct:
+        return
+    ends = direct.slope.values.tolist()
+    names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
+    columns = [
+        Column(name, direct[f"best_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
+        for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
+        if direct[f"best_{name}_by_slope"].notnull().all()
+    ]
+    caption = "Shares by slope of the surface, direct contact"
+    yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)

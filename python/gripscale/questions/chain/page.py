@@ -27,9 +27,13 @@ from gripscale.io.table import (
     yes_no,
 )
 from gripscale.model import with_adhesive
+from gripscale.questions.chain.findings import (
+    conditions_notices,
+    exponent_sentence,
+    prediction_sentence,
+)
 from gripscale.questions.chain.view import CONVERGED_WORD, PredictionView
 from gripscale.questions.inputs.page import numbers
-from gripscale.report.notices import conditions_notices, exponent_sentence, prediction_sentence
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -276,7 +280,7 @@ def _table(
         ]
         if name == "solution":
             states = [
-                f"{'' if good else 'NOT CONVERGED_WORD: '}{view.why(i)}"
+                f"{'' if good else 'NOT CONVERGED: '}{view.why(i)}"
                 for i, good in enumerate(view.converged)
             ]
             states += ["not reached"] * (rows - view.waves)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
+from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
@@ -18,16 +20,21 @@ from gripscale.model import (
     with_adhesive,
 )
 from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.page import answer_cards
+from gripscale.questions.answer.page import answer_cards, basis_lines
 from gripscale.questions.answer.reliance import has_answer, no_answer
+from gripscale.questions.chain.findings import comparison_notices, friction_notices
 from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS, PredictionView
+from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
+from gripscale.questions.compare.stored import Compared
+from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
-from gripscale.report.elements import Card
-from gripscale.report.failures import Failure
-from gripscale.report.notices import comparison_notices
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Element, Page, Section, Text
+from gripscale.report.failures import Failure, explained
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 TINY = 0.05
@@ -205,21 +212,6 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     yield f"The chain has {against}; `gripscale compare` shows the cost of each assumption."
 
 
-def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
-    """Yield which slopes of the surface carry load and make friction, where that is known."""
-    if "best_friction_by_slope" not in direct:
-        return
-    ends = direct.slope.values.tolist()
-    names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
-    columns = [
-        Column(name, direct[f"best_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
-        for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
-        if direct[f"best_{name}_by_slope"].notnull().all()
-    ]
-    caption = "Shares by slope of the surface, direct contact"
-    yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)
-
-
 def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
     """Yield where a model has a sample that did not converge, and what it says."""
     axis = varied(comparison)
@@ -239,3 +231,69 @@ def _with_half_width(comparison: xr.Dataset, name: str) -> str:
     value, width = (float(comparison[f"best_{name}{end}"]) for end in ("", "_half_width"))
     spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
     return f"{significant(value)}{spread}"
+
+
+_LADDER = (
+    "All models use the same measurements. From each model to the next one assumption is given up. "
+    "A factor relates a model to the one before, a theory to the direct contact of the measured "
+    "profile. Spread is the standard deviation over the samples, error the estimate of the model "
+    "itself; both are relative."
+)
+
+
+def comparison_page(compared: Compared) -> Page:
+    """Return the report of a comparison alone."""
+    first = compared.parts[0]
+    case = case_name(first.attrs) or "case.toml"
+    elements = comparison_elements(compared)
+    sampled = compared.own_uncertainty
+    stale = sampled is None and compared.uncertainty is not None
+    return Page.of(
+        f"Models side by side: {case}",
+        str(first.attrs.get("title", "")),
+        [
+            *friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
+            *_of_ladder(compared.ladder),
+            *(element for element in elements if isinstance(element, Finding)),
+            *([Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)] if stale else []),
+        ],
+        [*ladder_cards(compared.ladder), *uncertainty_cards(sampled)],
+        [
+            Section("comparison", "Models side by side", elements),
+            rerun_section(first.attrs),
+        ],
+        () if compared.ladder is None else basis_lines(compared.ladder),
+    )
+
+
+def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Finding]:
+    """Yield what is to be known of the answer of a comparison of one load."""
+    if ladder is not None:
+        yield from no_answer_notices(ladder)
+        yield from answer_notices(ladder)
+
+
+def comparison_elements(compared: Compared) -> list[Element]:
+    """Return tables, best estimate and figures of what there is; nothing if there is nothing."""
+    if not compared.parts:
+        return []
+    elements: list[Element] = [Text(_LADDER)]
+    for data in compared.parts:
+        for where, failure in comparison_failures(data):
+            placed = replace(failure, sentence=f"{where}: {failure}")
+            level = "warning" if bool(data.best_friction.notnull().all()) else "error"
+            text = f"{explained(placed)}."
+            elements.append(Finding(level, text, topic=Topic.SOLUTION))
+    for data in compared.over:
+        over = f"Over {varied(data).replace('_', ' ')}"
+        for notice in comparison_notices(data):
+            elements.append(replace(notice, sentence=f"{over}, {notice.sentence}"))
+    ladder = compared.ladder
+    if ladder is not None:
+        elements.append(comparison_table(ladder))
+        elements += map(Text, temperature_only(ladder))
+        elements += ladder_charts(ladder)
+    for data in compared.over:
+        elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
+        elements += axis_charts(data)
+    return elements

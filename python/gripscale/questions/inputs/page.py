@@ -20,15 +20,19 @@ from numpy.typing import ArrayLike
 
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_mm
 from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole_number
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts
+from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import Element, Facts, Section, number_text, percent_text
+from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
 from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
 
 if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
-    from gripscale.report.source import RunSource, StudySource
+    from gripscale.questions.chain.run_folder import RunSource
+    from gripscale.questions.chain.view import PredictionView
+    from gripscale.report.source import StudySource
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
@@ -494,3 +498,36 @@ def _rubber_facts(rubber: Rubber, name: str) -> Facts:
         celsius = rubber.reference_temperature - ZERO_CELSIUS
         pairs.append(("Temperature", f"{number_text(celsius)} °C"))
     return Facts(rubber.name or name, pairs)
+
+
+def surface_section(record: InputRecord, waves: SineStack | None = None) -> list[Element]:
+    """Return cleaning, profiles, texture and correlation of a surface, and its sine waves."""
+    if record.is_empty:
+        return []
+    elements: list[Element] = []
+    if record.has("profile_name"):
+        cleaning = cleaning_tables(record) if record.has("cleaning_points") else []
+        elements += [*cleaning, *profile_charts(record.data)]
+    if record.has("texture_of"):
+        elements.append(texture_table(record.data))
+    if record.has("lag"):
+        facts = surface_facts(record, 0 if waves is None else len(waves))
+        elements += [*facts, *correlation_charts(record.data)]
+    else:
+        elements.append(Text("The sine waves are stated in the case; no surface was measured."))
+    if waves is None:
+        return elements
+    return [*elements, waves_table(waves.wavelength, waves.amplitude)]
+
+
+def rubber_section(record: InputRecord, moving: PredictionView | None = None) -> list[Element]:
+    """Return facts, moduli with their fit and Prony series of a rubber.
+
+    `moving` is a prediction of the chain in motion, whose waves are marked.
+    """
+    if not record.has("equilibrium_modulus_Pa"):
+        return []
+    charts = rubber_charts(record.data, moving)
+    elements: list[Element] = [rubber_facts(record), *charts]
+    times, moduli = record.relaxation_times
+    return [*elements, prony_table(times, moduli)] if np.size(times) else elements

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case import Case, NamedFile
 from gripscale.core.arrays import Array, ComplexArray
+from gripscale.experiment.measured_friction import measured_variables
 from gripscale.model import Load
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
@@ -122,6 +123,8 @@ def inputs(
     }
     parts = [({}, _waves(surface)), (_files(case.origin.files), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))
+    if case.friction is not None:
+        parts.append((dict(measured_variables(case.friction)), {}))
     if surface.measured is not None and surface.correlation is not None:
         parts.append((_profiles(surface.measured), {}))
         texture = surface.measured.texture.variables

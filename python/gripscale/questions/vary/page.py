@@ -13,11 +13,11 @@ from gripscale.charts.page_elements import is_evidence, telling, words_of
 from gripscale.core.units import MILLI
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
+from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS, believed
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
 from gripscale.report.failures import Failure
-from gripscale.report.notices import study_sentence
 
 _MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""

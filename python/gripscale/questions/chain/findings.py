@@ -27,7 +27,7 @@ from gripscale.rubber.material import LEAST_POISSON_RATIO
 from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
-    from gripscale.report.source import RunSource
+    from gripscale.questions.chain.run_folder import RunSource
 
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",
