@@ -13,13 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
+import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.charts.figure_folder import FigureFolder
-from gripscale.charts.write import draw
 from gripscale.conditions import GaussianStress
 from gripscale.experiment import MeasuredFriction, Store
-from gripscale.questions import calibrate_case, predictions_at
-from gripscale.questions.uncertainty.charts import calibration_pictures
+from gripscale.questions import predictions_at
 
 CASE = Path(__file__).parent / "measured_friction" / "case.toml"
 TRUE = GaussianStress(
@@ -58,21 +57,25 @@ def main(folder: str = "results/examples") -> None:
     target = Path(folder) / "area_term"
     target.mkdir(parents=True, exist_ok=True)
     fixed = {"reference_temperature": 293.15}
-    fit = calibrate_case(
+    result = gs.calibrate(
         read_case(CASE), model="chain", fixed=fixed, hold_out="temperature", folder=target
     )
-    for one in fit.estimates:
-        true = getattr(TRUE, one.name)
-        print(f"{one.name}: {one.value:.4g}, {one.low:.4g} to {one.high:.4g}; true {true:.4g}")
-    for left_out in fit.held_out:
+    for fitted in result.estimates:
+        name, value, true = fitted.name, fitted.value, getattr(TRUE, fitted.name)
+        print(f"{name}: {value:.4g}, {fitted.low:.4g} to {fitted.high:.4g}; true {true:.4g}")
+    assert result.fit is not None
+    for left_out in result.fit.held_out:
         celsius = left_out.value - 273.15
         print(f"{celsius:.0f} C from the others: rms {left_out.rms_outside:.3f}")
-    wrong = calibrate_case(
+    wrong = gs.calibrate(
         read_case(CASE), model="chain", law="constant", hold_out="temperature", folder=target
     )
-    worst = max(one.rms_outside for one in wrong.held_out)
+    assert wrong.fit is not None
+    worst = max(group.rms_outside for group in wrong.fit.held_out)
     print(f"with a constant stress: rms up to {worst:.3f}")
-    draw(calibration_pictures(fit.to_dataset()), FigureFolder(target))
+    figures = FigureFolder(target)
+    for name, figure in result.figures():
+        figures.save(figure, name)
 
 
 if __name__ == "__main__":

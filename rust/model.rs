@@ -12,7 +12,7 @@ use crate::executor::Executor;
 use crate::fem::block::{Block, Memory};
 use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
-use crate::material::maxwell::{Band, Maxwell};
+use crate::material::maxwell::Maxwell;
 use crate::problem::{Profile, Rubber};
 
 #[derive(Clone)]
@@ -21,8 +21,6 @@ pub struct Model {
     pub stress_unit: f64,
     /// Moduli in stress units, times in time units.
     pub maxwell: Maxwell,
-    /// Change of the moduli in steady sliding.
-    pub band: Band,
     energy: Energy,
     bulk_modulus: f64,
     pub heights: Heights,
@@ -50,7 +48,6 @@ impl Model {
         Self {
             stress_unit,
             maxwell,
-            band: Band::UNCHANGED,
             energy: rubber.energy,
             bulk_modulus: rubber.bulk_modulus / stress_unit,
             heights: profile.heights.over(profile.wavelength),
@@ -69,7 +66,7 @@ impl Model {
             block: Block {
                 mesh,
                 energy: self.energy,
-                equilibrium: self.maxwell.equilibrium * self.band.factors(0.0).0,
+                equilibrium: self.maxwell.equilibrium,
                 memory,
                 bulk_modulus: self.bulk_modulus,
             },
@@ -98,7 +95,6 @@ impl Model {
     pub fn edge_law(&self, mesh: &Mesh, speed: f64) -> EdgeLaw {
         let omega = TAU * mesh.layer_nodes() as f64 / 4.0 * speed.abs();
         let (storage, loss) = self.maxwell.complex_modulus(omega);
-        let (of_storage, of_loss) = self.band.factors(omega);
-        EdgeLaw::new(of_storage * storage, of_loss * loss, speed >= 0.0)
+        EdgeLaw::new(storage, loss, speed >= 0.0)
     }
 }

@@ -5,7 +5,6 @@ use crate::error::{not_negative, positive, KernelError};
 pub use crate::contact::profile::Heights;
 pub use crate::fem::mesh::MeshSize;
 pub use crate::material::energy::{Energy, Parameters};
-pub use crate::material::maxwell::Band;
 
 /// A rubber of shear moduli [Pa] and relaxation times [s]; its small-strain limit is a Prony series.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,8 +101,6 @@ pub struct Problem {
     pub profile: Profile,
     pub load: Load,
     pub mesh: MeshSize,
-    /// Change of the rubber's moduli in a band of angular frequencies [rad/s].
-    pub band: Band,
 }
 
 impl Problem {

@@ -11,7 +11,7 @@ use pyo3::types::PyMapping;
 use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
 use crate::executor::{Executor, Threads};
-use crate::problem::{Band, Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
+use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
 use crate::spectral::{Complex32, SingleLines};
@@ -258,19 +258,11 @@ fn solve_steady(
 ) -> PyResult<PySolution> {
     let (rubber, profile, mesh) = problem.extract::<BodyItems>()?.checked()?;
     let load: LoadItems = problem.get_item("load")?.extract()?;
-    let (from, to, storage, loss) = problem.get_item("band")?.extract()?;
-    let band = Band {
-        from,
-        to,
-        storage,
-        loss,
-    };
     let problem = Problem {
         rubber,
         profile,
         load: Load::new(load.pressure, load.speed, load.load_time)?,
         mesh,
-        band,
     };
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);

@@ -45,9 +45,6 @@ pub fn solve(
     problem.profile.check_resolved(&problem.mesh)?;
     let passage = problem.profile.wavelength / problem.load.speed;
     let mut model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
-    if problem.load.speed > 0.0 {
-        model.band = problem.band.in_units_of(passage);
-    }
     if model.heights.waves() > 1 && settings.profile_patches > 0 {
         model.sampling = Sampling::Patches;
     }
@@ -370,10 +367,5 @@ fn memory(model: &Model, passages: f64, mesh: &Mesh) -> Memory {
     if model.maxwell.moduli.is_empty() {
         return Memory::Relaxed;
     }
-    Memory::Sliding(SlidingHistory::new(
-        mesh.columns,
-        &model.maxwell,
-        passages,
-        &model.band,
-    ))
+    Memory::Sliding(SlidingHistory::new(mesh.columns, &model.maxwell, passages))
 }

@@ -38,7 +38,7 @@ from gripscale.charts.chart import (
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
 from gripscale.core.units import MEGA, MILLI
-from gripscale.questions import blocks_figure, case_sensitivity, effects, effects_figure
+from gripscale.questions import blocks_figure, effects, effects_figure
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
@@ -90,7 +90,7 @@ class Shipped:
     def sensitivity(self) -> xr.Dataset:
         """The derivatives of the friction, and the errors that the inputs carry to it."""
         with tempfile.TemporaryDirectory() as folder:
-            return case_sensitivity(read_case(CASE), folder=folder).load()
+            return gs.sensitivity(read_case(CASE), folder=folder).data
 
     def wave(self, speed: float, pressure: float | None = None) -> gs.ScaleResult:
         """Solve the wave of the pictures under a pressure [Pa], that of the chain by default."""
@@ -259,9 +259,7 @@ def speeds(_: Shipped) -> Figure:
     """Draw the same at three speeds."""
     with tempfile.TemporaryDirectory() as folder:
         vary = {"speed": SENSITIVITY_SPEEDS}
-        return sensitivity_figure(
-            case_sensitivity(read_case(CASE), folder=folder, vary=vary).load()
-        )
+        return sensitivity_figure(gs.sensitivity(read_case(CASE), folder=folder, vary=vary).data)
 
 
 def conditions(_: Shipped) -> Figure:

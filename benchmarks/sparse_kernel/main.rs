@@ -74,7 +74,6 @@ pub fn problem((amplitude, pressure): (f64, f64), slides: bool, mesh: (usize, us
     let rows = 20.0 * (nodes as f64 / 128.0).powf(0.33) / order as f64;
     let energy = Energy::new("neo_hookean", &Default::default()).unwrap();
     Problem {
-        band: gripscale_kernel::material::maxwell::Band::UNCHANGED,
         rubber: Rubber::new(energy, 1.0, elements.0, elements.1, 1000.0).unwrap(),
         profile: Profile::new(1.0, Heights::sine(amplitude).unwrap()).unwrap(),
         load: Load::new(pressure, f64::from(u8::from(slides)), 5.0).unwrap(),

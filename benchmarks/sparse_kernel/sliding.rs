@@ -6,7 +6,6 @@ use gripscale_kernel::fem::block::Memory;
 use gripscale_kernel::fem::jacobian::Jacobian;
 use gripscale_kernel::fem::mesh::Mesh;
 use gripscale_kernel::linear::gmres;
-use gripscale_kernel::material::maxwell::Band;
 use gripscale_kernel::material::sliding_history::SlidingHistory;
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solve::bordered::{Bordered, LinearSolution};
@@ -32,7 +31,7 @@ pub fn table(meshes: &[(usize, usize)]) {
             };
             let model = &solved.model;
             let history =
-                SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0, &Band::UNCHANGED);
+                SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0);
             let (memory, executor) = (Memory::Sliding(history), serial());
             let pressed = model.pressed(&solved.mesh, &memory, &executor);
             let start = &solved.start;

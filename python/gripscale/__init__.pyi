@@ -1,4 +1,5 @@
 from . import charts as charts
+from . import conditions as conditions
 from . import half_space as half_space
 from . import questions as questions
 from . import report as report
@@ -11,7 +12,6 @@ from .case import Case as Case
 from .case_file.prepare import read_case as read_case
 from .chain.chain import solve_chain as solve_chain
 from .chain.prediction import ChainResult as ChainResult
-from .chain.sensitivity import sensitivity as sensitivity
 from .core.errors import ConvergenceError as ConvergenceError
 from .core.errors import ExtrapolationError as ExtrapolationError
 from .core.errors import FileError as FileError
@@ -22,10 +22,14 @@ from .half_space.result import RoughContact as RoughContact
 from .half_space.solve import solve_rough_contact as solve_rough_contact
 from .questions.answer.answer import Answer as Answer
 from .questions.answer.answer import answer as answer
+from .questions.calibration.question import Calibration as Calibration
+from .questions.calibration.question import calibrate as calibrate
 from .questions.cut_off.question import CutOff as CutOff
 from .questions.cut_off.question import cut_off as cut_off
 from .questions.result import Result as Result
 from .questions.result import load as load
+from .questions.sensitivity.question import Sensitivity as Sensitivity
+from .questions.sensitivity.question import sensitivity as sensitivity
 from .questions.uncertainty.question import uncertainty as uncertainty
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber

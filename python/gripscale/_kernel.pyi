@@ -142,7 +142,6 @@ class Body(TypedDict):
 @type_check_only
 class Problem(Body):
     load: Load
-    band: tuple[float, ...]
 
 @type_check_only
 class Work(TypedDict):

@@ -13,6 +13,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from inspect import Parameter, signature
 from typing import Any
 
 from gripscale.chain.chain import Chain
@@ -34,6 +35,7 @@ from gripscale.surface import (
     Profile,
     SineStack,
     Surface,
+    clean,
     fit_self_affine,
     fit_sines,
     height_difference,
@@ -42,6 +44,12 @@ from gripscale.surface.cut_off import CutOffRule, find_cut_off
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+_CLEANED_AS_USUAL: dict[str, Any] = {
+    name: parameter.default
+    for name, parameter in signature(clean).parameters.items()
+    if parameter.kind is Parameter.KEYWORD_ONLY
+}
+"""Arguments of `gripscale.clean` where a case states none."""
 _WAVES = 8
 """Sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre."""
 
@@ -104,7 +112,7 @@ class Case:
     Parameters
     ----------
     surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
-        Measured heights as they are, cleaned before (`gripscale.clean`), or sine waves.
+        Measured heights, or sine waves. Heights are taken as they are, unless `cleaning` is given.
     rubber : Rubber, MasterCurve or MeasuredRubber
         A master curve is fitted by a Prony series.
     pressure : float or str
@@ -132,7 +140,9 @@ class Case:
     friction : MeasuredFriction, optional
         Friction measured elsewhere.
     cleaning : mapping, optional
-        Arguments of `gripscale.clean` that the profiles were cleaned with, where they are known.
+        Arguments of `gripscale.clean`, by which profiles as measured are cleaned; an empty mapping
+        cleans them as usual. What cleaning may change counts in `gripscale.uncertainty`, as do the
+        moduli of a master curve.
     options : mapping, optional
         Options of questions that the case states, by question.
     origin : Origin, optional
@@ -179,11 +189,11 @@ class Case:
         end = None
         if smallest_wavelength is not None:
             end = in_si("smallest_wavelength", smallest_wavelength, "length")
-        self.surface = _surface(surface, end, waves)
+        self.cleaning = {} if cleaning is None else _CLEANED_AS_USUAL | dict(cleaning)
+        self.surface = _surface(surface, end, waves, self.cleaning)
         self.below_measurement = below_measurement or BelowMeasurement()
         self.klueppel_heinrich = klueppel_heinrich
         self.friction = friction
-        self.cleaning = dict(cleaning or {})
         self.options = dict(options or {})
         _ = self.rubber_before  # refuses a temperature without a shift
 
@@ -349,13 +359,20 @@ def described_surface(
     return Surface(sines, source, correlation, options, measured, counted, cut_off)
 
 
-def _surface(surface: SurfaceLike, end: float | None, waves: int) -> Surface:
+def _surface(
+    surface: SurfaceLike, end: float | None, waves: int, cleaning: Mapping[str, Any]
+) -> Surface:
     if isinstance(surface, Surface):
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
     heights = [surface] if isinstance(surface, Profile) else surface
-    measured = Measured.of(heights)
+    if isinstance(heights, HeightMap):
+        if cleaning:
+            raise InputError("cleaning must be left out for a map: use gripscale.clean_map; got it")
+        measured = Measured.of(heights)
+    else:
+        measured = Measured.of_raw(heights, cleaning) if cleaning else Measured.of(heights)
     names = [line.source for line in heights] if isinstance(heights, Sequence) else [heights.source]
     rule: CutOffRule | None = "instrument" if end is None else None
     fit = {"scales": waves, "smallest_wavelength": end}

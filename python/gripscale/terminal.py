@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
-    from gripscale.report.failures import Failure
 
 
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
@@ -170,12 +169,14 @@ def finish(
     *,
     opening: Sequence[str | Table] = (),
     drawings: str = "figures",
+    files: Mapping[str, str] | None = None,
     page: bool = False,
 ) -> None:
     """End a command with the result of its question: save, print and draw it.
 
     `text` is the file of what is printed, `contents` what the folder holds beside the result, and
-    `drawings` the folder of its figures in it; with `page` the page of the result is written, too.
+    `drawings` the folder of its figures in it; `files` are further texts by name. With `page` the
+    page of the result is written, too.
     """
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io.folders import make_folder
@@ -198,19 +199,11 @@ def finish(
         text=text,
         closing=f"Result ({result.file}), {contents} are in",
         opening=opening,
+        files=files,
         draw=draw,
         page=result.file if page else "",
         failure=result.failure,
     )
-
-
-def first_of(failed: Sequence[Failure], total: int, what: str) -> str:
-    """Return how many of the `total` failed, with what to do about the first; empty if none."""
-    from gripscale.report.failures import explained
-
-    if not failed:
-        return ""
-    return f"{len(failed)} of {total} {what} failed; the first: {explained(failed[0])}"
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:

@@ -44,42 +44,6 @@ impl Maxwell {
     }
 }
 
-/// Factors of G' and G'' at angular frequencies in `from..to`; from zero on they hold for the mean state, too.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Band {
-    pub from: f64,
-    pub to: f64,
-    pub storage: f64,
-    pub loss: f64,
-}
-
-impl Band {
-    pub const UNCHANGED: Self = Self {
-        from: 0.0,
-        to: 0.0,
-        storage: 1.0,
-        loss: 1.0,
-    };
-
-    /// Factors of G' and G'' at `omega`.
-    pub fn factors(&self, omega: f64) -> (f64, f64) {
-        if (self.from..self.to).contains(&omega) {
-            (self.storage, self.loss)
-        } else {
-            (1.0, 1.0)
-        }
-    }
-
-    /// The band for frequencies in units of 1 / `time_unit`.
-    pub fn in_units_of(self, time_unit: f64) -> Self {
-        Self {
-            from: self.from * time_unit,
-            to: self.to * time_unit,
-            ..self
-        }
-    }
-}
-
 /// A along the periodic line for Y = 1 in column 0, which falls linearly to zero in its neighbours.
 pub fn recurrence(columns: usize, time: f64) -> Vec<f64> {
     let step = 1.0 / (columns as f64 * time);

@@ -11,7 +11,7 @@
 use std::f64::consts::TAU;
 
 use super::dissipation::Dissipation;
-use super::maxwell::{Band, Maxwell};
+use super::maxwell::Maxwell;
 use crate::spectral::{Complex64, Lines};
 
 /// Weights between equally placed points of the columns of one line (they form a circulant matrix).
@@ -32,18 +32,15 @@ impl SlidingHistory {
     /// Memory of steady sliding; `load_time` in passage times.
     ///
     /// Harmonic k of Y is multiplied by G(t) - G*(omega_k), the mean by zero. The weight of each point on
-    /// itself is then removed, which DEV would remove with cancellation. Moduli within `band` are changed;
-    /// the dissipation is that of the unchanged rubber.
-    pub fn new(columns: usize, maxwell: &Maxwell, load_time: f64, band: &Band) -> Self {
-        let of_mean = band.factors(0.0).0;
-        let mean = of_mean * maxwell.relaxation_modulus(load_time);
+    /// itself is then removed, which DEV would remove with cancellation.
+    pub fn new(columns: usize, maxwell: &Maxwell, load_time: f64) -> Self {
+        let mean = maxwell.relaxation_modulus(load_time);
         let mut lines = Lines::new(columns);
         let mut spectrum = vec![Complex64::default(); lines.harmonics()];
         for (harmonic, factor) in spectrum.iter_mut().enumerate().skip(1) {
             let omega = TAU * harmonic as f64;
             let (storage, loss) = maxwell.complex_modulus(omega);
-            let (of_storage, of_loss) = band.factors(omega);
-            *factor = Complex64::new(mean - of_storage * storage, -of_loss * loss);
+            *factor = Complex64::new(mean - storage, -loss);
         }
         let mut stress = vec![0.0; columns];
         lines.inverse(&spectrum, &mut stress);
@@ -52,7 +49,7 @@ impl SlidingHistory {
         Self {
             spectrum,
             lines,
-            frozen_modulus: mean - of_mean * maxwell.equilibrium,
+            frozen_modulus: mean - maxwell.equilibrium,
             dissipation: Dissipation::new(columns, maxwell),
         }
     }

@@ -3,7 +3,7 @@
 use gripscale_kernel::cancel::Cancel;
 use gripscale_kernel::error::KernelError;
 use gripscale_kernel::executor::Executor;
-use gripscale_kernel::problem::{Band, Energy, Heights, Load, MeshSize, Problem, Profile, Rubber};
+use gripscale_kernel::problem::{Energy, Heights, Load, MeshSize, Problem, Profile, Rubber};
 use gripscale_kernel::settings::Settings;
 use gripscale_kernel::solution::Solution;
 use gripscale_kernel::steady;
@@ -74,7 +74,6 @@ impl Case {
             profile: Profile::new(self.wavelength, self.heights()?)?,
             load: Load::new(self.pressure, self.speed, self.load_time)?,
             mesh: MeshSize::new(self.columns, self.rows, self.depth, self.order)?,
-            band: Band::UNCHANGED,
         })
     }
 

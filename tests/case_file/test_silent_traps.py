@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import gripscale as gs
 from gripscale.case_file import CaseFile, read_case_file
 from gripscale.case_file.named_inputs import read_named_inputs, read_rubber, read_surface
 from gripscale.case_file.prepare import read_case
@@ -20,7 +21,6 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
 from gripscale.questions import (
     Study,
-    case_sensitivity,
     compare_case,
     compare_compounds,
     compare_over,
@@ -326,7 +326,7 @@ AT_200 = "Speed = 200 m/s is not between 1e-09 m/s and 100 m/s: is its unit righ
 @pytest.mark.parametrize(
     ("command", "of_its_load"),
     [
-        (("sensitivity", "--model", "chain", "--vary", "speed=0.3,200"), AT_200),
+        (("sensitivity", "--vary", "speed=0.3,200"), AT_200),
         (("cut-off", "--down-to", "0.8 mm"), ""),
         (("calibrate", "--model", "chain", "--law", "constant"), ""),
         (("design", "--levels", "1", "--goal", "speed=200 m/s"), AT_200),
@@ -405,6 +405,5 @@ def test_a_sensitivity_doubts_a_foreign_rubber_without_a_temperature(tmp_path: P
     file = write(tmp_path)
     (tmp_path / "other.txt").write_text(DMA, encoding="utf-8")
     vary = read_named_inputs({"rubber": ["case", "other.txt"]}, file)
-    case_sensitivity(read_case(file), folder=tmp_path, vary=vary, model="chain")
-    warnings = case_notices(None, InputRecord.of_file(tmp_path / "sensitivity.nc"))
+    warnings = gs.sensitivity(read_case(file), vary=vary).findings
     assert warnings[0].sentence.startswith("other.txt: the file states no temperature")

@@ -16,7 +16,7 @@ from gripscale import rubber, surface, theory, wave
 from gripscale.conditions import Conditions
 from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
-from gripscale.questions import calibrate
+from gripscale.questions import fit_area_term
 from gripscale.rubber import softening
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
@@ -181,7 +181,7 @@ def _calibration() -> Iterator[Door]:
         "predicted": measured.Predicted(**answer, temperature=kelvin),
     }
     choice = {"law": "gaussian", "fixed": {"width": 0.1}, "hold_out": "speed"}
-    yield Door(calibrate, {**pair, **choice})
+    yield Door(fit_area_term, {**pair, **choice})
     beside = {"measured": pair["measured"], "predicted": {"chain": pair["predicted"]}}
     yield Door(measured.residuals, {**beside, "shear_stress": interface.ConstantStress(1e6)})
     yield Door(measured.averaged, {"parts": [pair["predicted"]]})

@@ -331,7 +331,11 @@ def test_measured_friction_is_that_of_the_record(
     assert '<section id="measured"' not in write_report(folder).read_text(encoding="utf-8")
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], source="mu.csv")
     tree = netcdf.load_tree(folder / "dynamic.nc")
-    record = tree["inputs"].to_dataset(inherit=False).assign(measured_variables(measured))
+    record = (
+        tree["inputs"]
+        .to_dataset(inherit=False)
+        .assign(measured_variables(measured, "measurement_of_case"))
+    )
     netcdf.save(tree.to_dataset(), folder / "dynamic.nc", {"inputs": record})
     page = write_report(folder).read_text(encoding="utf-8")
     assert '<section id="measured"' in page

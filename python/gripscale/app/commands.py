@@ -7,13 +7,6 @@ from gripscale.questions.registry import Form, FormField, forms
 RUN_COMMAND = "run"
 
 
-_MODELS = (("best for the surface", ""), ("direct contact", "direct"), ("chain", "chain"))
-_SHEAR_STRESSES = (
-    ("gaussian in log speed", "gaussian"),
-    ("constant", "constant"),
-    ("Le Gal and Klüppel", "le_gal_klueppel"),
-)
-_HELD_OUT = (("none", ""), ("each temperature", "temperature"), ("each decade of speed", "speed"))
 SPEEDS = FormField("--vary", "speeds", "0.003:30:log9", "speed=")
 COMMANDS = (
     Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."),
@@ -46,13 +39,7 @@ COMMANDS = (
         "What each assumption of the chain costs, against the direct contact.",
         (FormField("--rungs", "models", "waves,measured,theory"),),
     ),
-    Form("sensitivity", "What decides the grip", "Which inputs and frequencies, and how much."),
     Form("design", "Design of a compound", "Most friction for each rolling resistance."),
-    Form("calibrate", "Area term",
-            "Fitted to the measured friction of the case; drop it in the tab of the load.",
-            (FormField("--model", "model", "", choices=_MODELS),
-             FormField("--law", "shear stress", "gaussian", choices=_SHEAR_STRESSES),
-             FormField("--hold-out", "held out in turn", "", choices=_HELD_OUT))),
     *forms(),
 )  # fmt: skip
 """In the order of the page."""

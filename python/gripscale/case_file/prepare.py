@@ -432,7 +432,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,
                 friction=friction,
-                cleaning=cleaning_options(file.case.surface) if surface.measured else {},
+                cleaning=cleaning_options(file.case.surface) if surface.measured else None,
                 options={"uncertainty": file.case.uncertainty.options()},
                 origin=Origin(str(file.path), file.text, file.units, named_files(file)),
             )

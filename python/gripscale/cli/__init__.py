@@ -18,13 +18,12 @@ from typer.core import TyperGroup
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces_command
 from gripscale.cli.design import design
 from gripscale.cli.docs import docs
-from gripscale.cli.experiments import calibrate_command, study
+from gripscale.cli.experiments import study
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.new import new
 from gripscale.cli.run import PASS_ON, report_command, reproduce, run
 from gripscale.cli.run import open_app as app_command
-from gripscale.cli.sensitivity import sensitivity_command
 from gripscale.core.provenance import COMMAND, version_of
 from gripscale.questions.registry import commands
 
@@ -57,11 +56,9 @@ app.command("init")(init)
 app.command("new")(new)
 app.command("run")(run)
 app.command("compare")(compare)
-app.command("calibrate")(calibrate_command)
 app.command("design")(design)
 app.command("report")(report_command)
 app.command("study")(study)
-app.command("sensitivity")(sensitivity_command)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)

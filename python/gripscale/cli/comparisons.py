@@ -11,6 +11,7 @@ import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
+from gripscale.report.failures import first_of
 from gripscale.terminal import (
     CasePath,
     Cluster,
@@ -191,7 +192,7 @@ def compare(
         # a failed sample is named in its row; the estimate stands without it
         failure=""
         if bool(data.best_contact_fraction.notnull().all())
-        else terminal.first_of(failed, data.status.size, "models with all their samples"),
+        else first_of(failed, data.status.size, "models with all their samples"),
     )
 
 
@@ -279,7 +280,7 @@ def compare_surfaces_command(
         closing="Result (surfaces.nc), tables and figures are in",
         draw=lambda: draw(road_pictures(data), figures),
         page="surfaces.nc",
-        failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "predictions"),
+        failure=first_of(failed_totals(data), data.prediction_status.size, "predictions"),
     )
 
 
@@ -361,5 +362,5 @@ def compare_rubbers(
         closing="Result (compounds.nc), table and figures are in",
         draw=lambda: draw(compound_pictures(data, compounds.rubbers), figures),
         page="compounds.nc",
-        failure=terminal.first_of(failed_totals(data), data.prediction_status.size, "compounds"),
+        failure=first_of(failed_totals(data), data.prediction_status.size, "compounds"),
     )

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from typing import Annotated
 
 import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import CasePath, Cluster, MeasuredPath, OwnFolder, Workers, command, option
+from gripscale.report.failures import first_of
+from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
 
 
 @command
@@ -96,113 +96,5 @@ def study(
         closing="Result (study.nc), table and figures are in",
         opening=opening,
         draw=None if drawn else draw_figures,
-        failure=terminal.first_of(failed, total, "predictions"),
-    )
-
-
-@command
-def calibrate_command(
-    case: CasePath,
-    model: Annotated[
-        str | None,
-        option(
-            "What predicts hysteresis and contact area: direct, the default where the surface was "
-            "measured, or chain, the default elsewhere.",
-            metavar="direct|chain",
-        ),
-    ] = None,
-    law: Annotated[
-        str, typer.Option(help="Shear stress: constant, gaussian or le_gal_klueppel.")
-    ] = "gaussian",
-    hold_out: Annotated[
-        str | None,
-        option(
-            "Predict each temperature, or each decade of speed, from the others.",
-            metavar="temperature|speed",
-        ),
-    ] = None,
-    fixed: Annotated[
-        list[str] | None,
-        option(
-            "A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
-            "may be repeated.",
-            metavar="NAME=VALUE",
-        ),
-    ] = None,
-    measured: MeasuredPath = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
-    cluster: Cluster = None,
-) -> None:
-    """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.case_file import read_case, read_case_file
-    from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.write import draw
-    from gripscale.experiment.measured_friction import (
-        friction_doubts,
-        read_measured_friction,
-        speed_doubts,
-    )
-    from gripscale.io import netcdf
-    from gripscale.model import INPUT_DOUBTS
-    from gripscale.questions.answer.findings import case_notices
-    from gripscale.questions.calibration.calibration import calibrate_case, measured_of
-    from gripscale.questions.calibration.calibration_text import (
-        notes,
-        parse_fixed,
-        shear_stress_table,
-    )
-    from gripscale.questions.calibration.page import (
-        calibration_failure,
-        calibration_lines,
-        calibration_parts,
-    )
-    from gripscale.questions.inputs import record
-    from gripscale.questions.inputs.page_record import InputRecord
-    from gripscale.questions.uncertainty.charts import calibration_pictures
-    from gripscale.questions.vary.inputs import default_model
-
-    values = parse_fixed(fixed or [])
-    file = read_case_file(case)
-    read = read_case(file)
-    model = model or default_model(read)
-    friction = measured_of(read) if measured is None else read_measured_friction(measured)
-    opening = f"Area term of {file.path} from {friction.source}"
-    console, target = terminal.open_folder(file, output, "calibration", opening)
-    fitted = calibrate_case(
-        read,
-        model=model,
-        law=law,
-        fixed=values,
-        hold_out=hold_out,
-        measured=friction,
-        folder=target,
-        workers=workers,
-        client=cluster,
-        on_task=terminal.progress_printer(console),
-    )
-    data = fitted.to_dataset().assign_attrs(
-        read.attributes, case_file=read.origin.name, model=model, notes="\n".join(notes(fitted))
-    )
-    speed = read.load.speed
-    # its speeds have a doubt of their own
-    loads = [replace(read.load, pressure=float(p)) for p in fitted.predicted.pressure]
-    if far := speed_doubts(friction, speed):
-        data.attrs[INPUT_DOUBTS] = "\n".join(far)
-    of_friction = friction_doubts(friction, speed)
-    inputs = record.inputs(read, loads=loads, friction_notes=of_friction)
-    netcdf.save(data, target / "calibration.nc", {"inputs": inputs})
-    figures = FigureFolder(target, file.case.output.figures)
-    terminal.conclude(
-        console,
-        target,
-        list(calibration_parts(data)),
-        results=[data],
-        lead=list(calibration_lines(data)),
-        warnings=case_notices(data, InputRecord(inputs)),
-        text="calibration.txt",
-        closing="Tables, figures, result and [conditions.shear_stress] are in",
-        files={"shear_stress.toml": shear_stress_table(fitted)},
-        draw=lambda: draw(calibration_pictures(data), figures),
-        failure=str(calibration_failure(data) or ""),
+        failure=first_of(failed, total, "predictions"),
     )

@@ -266,12 +266,12 @@ MEASURED = {
 """Columns of a measurement as result files hold them, with unit and meaning."""
 
 
-def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
-    """Return the columns of a measurement as variables over `measurement`."""
+def measured_variables(
+    measured: MeasuredFriction, dim: str = "measurement"
+) -> dict[str, xr.Variable]:
+    """Return the columns of a measurement as variables over a dimension."""
     columns = {
-        f"measured_{name}": labelled(
-            "measurement", getattr(measured, name), unit, text, measured.source
-        )
+        f"measured_{name}": labelled(dim, getattr(measured, name), unit, text, measured.source)
         for name, (unit, text) in MEASURED.items()
     }
     if measured.assumed:

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 ROOMS = [
     "gripscale.questions.answer",
     "gripscale.questions.uncertainty",
+    "gripscale.questions.sensitivity",
     "gripscale.questions.cut_off",
+    "gripscale.questions.calibration",
 ]
 """Rooms in the order of the command line."""
 

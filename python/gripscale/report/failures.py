@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gripscale.core.status import Status
@@ -47,3 +48,10 @@ def chapter_words(see: str) -> str:
         return see
     page, hash_sign, heading = see.removeprefix("docs/").partition("#")
     return f"`gripscale docs {page.removesuffix('.md')}{hash_sign}{heading}`"
+
+
+def first_of(failed: Sequence[Failure], total: int, what: str) -> str:
+    """Return how many of the `total` failed, with what to do about the first; empty if none."""
+    if not failed:
+        return ""
+    return f"{len(failed)} of {total} {what} failed; the first: {explained(failed[0])}"

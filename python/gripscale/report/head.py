@@ -9,7 +9,6 @@ from dataclasses import replace
 import xarray as xr
 
 from gripscale.io.table import significant
-from gripscale.questions.calibration import page as calibration
 from gripscale.questions.chain.view import SYMBOLS
 from gripscale.questions.vary import page_of_answer as study_answer
 from gripscale.questions.vary import page_side_by_side as side_by_side
@@ -26,8 +25,6 @@ def with_answer(page: Page, source: ReportSource) -> Page:
     if not isinstance(source, StudySource):
         return page
     data = source.data
-    if source.kind == "calibration":
-        return _in_front(page, [], list(calibration.calibration_lines(data)))
     if source.kind == "study":
         cards, lines = list(study_answer.study_cards(data)), list(study_answer.study_lines(data))
         page = _in_front(page, cards, lines)

@@ -13,7 +13,6 @@ from gripscale.charts.page_elements import words_of
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.model import FRICTION_OUTSIDE_BAND
 from gripscale.questions.answer import findings
-from gripscale.questions.calibration import page as calibration
 from gripscale.questions.chain import findings as notices
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.run_page import run_page
@@ -23,10 +22,6 @@ from gripscale.questions.design import page as design
 from gripscale.questions.design.charts import design_pictures
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.result import Result
-from gripscale.questions.sensitivity import page as sensitivity
-from gripscale.questions.sensitivity.charts import height_charts, sensitivity_charts
-from gripscale.questions.uncertainty import page as uncertainty
-from gripscale.questions.uncertainty.charts import calibration_pictures
 from gripscale.questions.vary import page as study
 from gripscale.questions.vary import page_side_by_side as side_by_side
 from gripscale.questions.vary.charts import study_charts
@@ -46,15 +41,6 @@ COMPOUNDS = (
     "Each compound on the same road under the same load. A range is what the measured moduli leave "
     "open. A difference is significant if its range does not contain zero."
 )
-CALIBRATION = (
-    "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
-    "and this area term together give the measured friction. The hysteresis is not fitted."
-)
-SENSITIVITY = (
-    "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
-    "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
-    "friction, such as that from lines to a surface, do not change them."
-)
 NAMED_FAILURES = 12
 """Failed predictions named one by one at the head of the page."""
 
@@ -71,9 +57,7 @@ def page_of(source: ReportSource) -> Page:
         "study": study_page,
         "compounds": compounds_page,
         "roads": roads_page,
-        "sensitivity": sensitivity_page,
         "design": design_page,
-        "calibration": calibration_page,
     }
     return pages[source.kind](source)
 
@@ -186,56 +170,6 @@ def compounds_page(source: StudySource) -> Page:
             Section("compounds", "Contact and friction", elements),
             *_study_sections(source),
             method_section(),
-            rerun_section(data.attrs),
-        ],
-    )
-
-
-def calibration_page(source: StudySource) -> Page:
-    """Return the report of a calibration."""
-    data = source.data
-    case, failed = case_name(data.attrs), calibration.calibration_failure(data)
-    tables, facts = (
-        uncertainty.as_elements(calibration.calibration_parts(data)),
-        calibration.law_facts(data),
-    )
-    fit, residuals, profiles = map(image, calibration_pictures(data))
-    return Page.of(
-        f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
-        str(data.attrs.get("model", "")).replace("_", " "),
-        [
-            *([Finding(Severity.ERROR, f"{explained(failed)}.")] if failed else []),
-            *findings.case_notices(data, source.record),
-        ],
-        calibration.calibration_cards(data),
-        [
-            Section("law", "The law", [Text(CALIBRATION), facts, *tables[1:]]),
-            Section("points", "Point by point", [fit, residuals, tables[0]]),
-            Section("profiles", "How well the data determine the law", [profiles]),
-            rerun_section(data.attrs),
-        ],
-    )
-
-
-def sensitivity_page(source: StudySource) -> Page:
-    """Return the report of what decides the friction."""
-    data = source.data
-    lead, *below = sensitivity.sensitivity_lines(data)
-    parts = [*below, *sensitivity.sensitivity_parts(data)]
-    return Page.of(
-        f"What decides the friction of {case_name(data.attrs) or 'a case'}",
-        str(lead),
-        [
-            *_errors(sensitivity.sensitivity_failures(data)),
-            *findings.case_notices(None, source.record),
-        ],
-        sensitivity.sensitivity_cards(data),
-        [
-            Section("effects", "What the friction depends on", uncertainty.as_elements(parts)),
-            Section(
-                "curves", "Over the master curve", [Text(SENSITIVITY), *sensitivity_charts(data)]
-            ),
-            Section("heights", "Which heights count", height_charts(data, source.record.data)),
             rerun_section(data.attrs),
         ],
     )

@@ -24,7 +24,6 @@ from gripscale.questions.compare.stored import (
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.registry import result_class
 from gripscale.questions.result import KIND, Result, load
-from gripscale.questions.sensitivity.friction_sensitivity import LOSS as SENSITIVITY
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.vary.axis import dimensions
 
@@ -66,11 +65,7 @@ def read_result(path: Path) -> ReportSource:
         result: Result = load(path)
         return result
     names, kind = set(tree.variables), ""
-    if "profile_excess" in names:
-        kind = "calibration"
-    elif SENSITIVITY in names:
-        kind = "sensitivity"
-    elif "rolling_ratio" in names:
+    if "rolling_ratio" in names:
         kind = "design"
     else:
         require_totals(tree, path)

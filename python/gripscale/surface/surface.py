@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from gripscale.core.errors import InputError
-from gripscale.surface.cleaning import CleaningReport
+from gripscale.surface.cleaning import CleaningReport, clean
 from gripscale.surface.cut_off import (
     CutOffRule,
     SlopeByWavelength,
@@ -55,6 +55,16 @@ class Measured:
         if isinstance(measured, HeightMap):
             return cls([], [], None, "", measured)
         return cls([(line, line) for line in measured], [], None, "")
+
+    @classmethod
+    def of_raw(cls, profiles: Sequence[Profile], cleaning: Mapping[str, Any]) -> Measured:
+        """Return profiles cleaned by arguments of `gripscale.clean`, not fitted.
+
+        Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
+        """
+        pairs = [clean(line, **cleaning) for line in profiles]
+        cleaned = [(line, after) for line, (after, _) in zip(profiles, pairs, strict=True)]
+        return cls(cleaned, [report for _, report in pairs], None, "")
 
     @property
     def cleaned(self) -> list[Profile]:

@@ -11,7 +11,6 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import look, worker_count
 from gripscale.rubber import Rubber
-from gripscale.rubber.banded import Band, BandedRubber
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveProblem
 from gripscale.wave.result import ScaleResult
 
@@ -49,7 +48,6 @@ def solve_steady(
     inputs: _kernel.Problem = {
         **_body(rubber, problem.profile, mesh),
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
-        "band": rubber.band if isinstance(rubber, BandedRubber) else Band(),
     }
     work = _work(workers, time_limit)
     return _checked_call(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))

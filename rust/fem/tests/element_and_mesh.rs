@@ -3,7 +3,7 @@
 use crate::fem::block::{Block, Field, Memory};
 use crate::fem::element::{lagrange, lagrange_slope, Element};
 use crate::material::energy::{Energy, NeoHookean};
-use crate::material::maxwell::{Band, Maxwell};
+use crate::material::maxwell::Maxwell;
 use crate::material::sliding_history::SlidingHistory;
 
 use crate::test_fields::{balance_volumes, mesh};
@@ -76,7 +76,7 @@ fn an_affine_deformation_is_in_equilibrium() {
     };
     for order in [1, 2] {
         let mesh = mesh(8, 5, 1.5, order);
-        let memory = Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.3, &Band::UNCHANGED));
+        let memory = Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.3));
         let block = Block {
             mesh: &mesh,
             energy: Energy::NeoHookean(NeoHookean),

@@ -7,7 +7,7 @@ use crate::fem::jacobian::Jacobian;
 use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
 use crate::material::kinematics::cofactor;
-use crate::material::maxwell::{Band, Maxwell};
+use crate::material::maxwell::Maxwell;
 use crate::material::sliding_history::SlidingHistory;
 use crate::material::stress::{memory_slope, tangent};
 
@@ -23,7 +23,7 @@ fn memory(mesh: &Mesh, slides: bool) -> Memory {
         times: vec![0.05, 0.4],
     };
     match slides {
-        true => Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.7, &Band::UNCHANGED)),
+        true => Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.7)),
         false => Memory::Relaxed,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::material::maxwell::{recurrence, Band, Maxwell};
+use crate::material::maxwell::{recurrence, Maxwell};
 use crate::material::sliding_history::SlidingHistory;
 
 fn rubber() -> Maxwell {
@@ -45,7 +45,7 @@ fn apply(weights: &[f64], y: &[f64]) -> Vec<f64> {
 #[test]
 fn a_harmonic_is_multiplied_by_the_complex_modulus() {
     let (n, maxwell) = (64, rubber());
-    let history = SlidingHistory::new(n, &maxwell, f64::INFINITY, &Band::UNCHANGED);
+    let history = SlidingHistory::new(n, &maxwell, f64::INFINITY);
     let multiplier = |harmonic: usize| {
         let y: Vec<f64> = (0..n)
             .map(|e| (TAU * (harmonic * e) as f64 / n as f64).cos())
@@ -64,31 +64,6 @@ fn a_harmonic_is_multiplied_by_the_complex_modulus() {
     }
 }
 
-/// A band changes the moduli of its harmonics, from zero on also those of the mean state; what all harmonics
-/// have in common is the weight of a point on itself, which is removed.
-#[test]
-fn a_band_changes_the_moduli_of_its_harmonics() {
-    let (n, maxwell) = (16, rubber());
-    let new = |band: &Band| SlidingHistory::new(n, &maxwell, 0.4, band);
-    let band = |from: f64, to: f64| Band {
-        from: TAU * from,
-        to: TAU * to,
-        storage: 1.1,
-        loss: 0.7,
-    };
-    let plain = new(&Band::UNCHANGED);
-    let (second, every) = (new(&band(1.5, 2.5)), new(&band(0.0, 99.0)));
-    assert_eq!(second.frozen_modulus, plain.frozen_modulus);
-    assert!((every.frozen_modulus / plain.frozen_modulus - 1.1).abs() < 1e-14);
-    let change = |k: usize| second.spectrum[k] - plain.spectrum[k] - second.spectrum[1] + plain.spectrum[1];
-    for k in 1..n / 2 {
-        let (storage, loss) = maxwell.complex_modulus(TAU * k as f64);
-        let inside = if k == 2 { 1.0 } else { 0.0 };
-        assert!((change(k).re + 0.1 * inside * storage).abs() < 1e-12);
-        assert!((change(k).im - 0.3 * inside * loss).abs() < 1e-12);
-    }
-}
-
 /// The two evaluations differ by the square of the column width over the shortest scale.
 #[test]
 fn recurrence_and_fourier_agree_in_second_order() {
@@ -97,7 +72,7 @@ fn recurrence_and_fourier_agree_in_second_order() {
         let y: Vec<f64> = (0..n)
             .map(|e| (0.5 * (TAU * e as f64 / n as f64).cos()).exp())
             .collect();
-        let a = weights(&SlidingHistory::new(n, &maxwell, 0.4, &Band::UNCHANGED));
+        let a = weights(&SlidingHistory::new(n, &maxwell, 0.4));
         let b = weights_by_recurrence(n, &maxwell, 0.4);
         // The local part is free: compare after removing each field's own multiple of Y.
         let strip = |h: Vec<f64>| {

@@ -36,10 +36,10 @@ footprint = "100 mm"
 
 def made(**other: Any) -> gs.Case:
     """Return the case made in Python, with other arguments where they are given."""
-    profiles = [gs.clean(gs.read_profile(ROAD), crop=CROP)[0]]
-    rubber = gs.fit_prony(gs.read_master_curve(DMA, reference_temperature=293.15))
+    profile = gs.read_profile(ROAD)
+    rubber = gs.read_master_curve(DMA, reference_temperature=293.15)
     arguments = {"smallest_wavelength": END, "waves": WAVES, **LOAD, **other}
-    return gs.Case(profiles, rubber, **arguments)
+    return gs.Case(profile, rubber, cleaning={"crop": CROP}, **arguments)
 
 
 def numbers(answer: gs.Answer) -> tuple[object, ...]:
@@ -65,6 +65,13 @@ def test_a_case_file_has_the_answer_of_the_same_case_in_python(
     assert answer.reliable
     assert 0.0 < answer.friction_interval[0] < answer.friction < answer.friction_interval[1]
     assert numbers(gs.answer(gs.read_case(path))) == numbers(answer)
+
+
+def test_a_profile_may_be_cleaned_and_a_master_curve_fitted_before(answer: gs.Answer) -> None:
+    profile, _ = gs.clean(gs.read_profile(ROAD), crop=CROP)
+    rubber = gs.fit_prony(gs.read_master_curve(DMA, reference_temperature=293.15))
+    case = gs.Case([profile], rubber, smallest_wavelength=END, waves=WAVES, **LOAD)
+    assert numbers(gs.answer(case)) == numbers(answer)
 
 
 def test_texts_with_units_are_the_same_case(answer: gs.Answer) -> None:

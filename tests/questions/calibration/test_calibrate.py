@@ -19,7 +19,7 @@ from gripscale.conditions import (
 from gripscale.core.errors import InputError
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
-from gripscale.questions import Predicted, calibrate
+from gripscale.questions import Predicted, fit_area_term
 from gripscale.questions.calibration.calibration_text import notes, shear_stress_table
 from tests.samples import DOCS
 
@@ -37,7 +37,7 @@ FLANK = np.geomspace(1e-6, 1e-4, 6)
 def test_a_law_is_found_from_what_it_made(
     law: InterfacialShearStress, fixed: dict[str, float]
 ) -> None:
-    fit = calibrate(*measurement(law, seed=None), law=law.kind, fixed=fixed)
+    fit = fit_area_term(*measurement(law, seed=None), law=law.kind, fixed=fixed)
     found, true = vars(fit.law), vars(law)
     assert found == pytest.approx(true, rel=1e-5)
     assert fit.friction == pytest.approx(fit.measured.friction, abs=1e-7)
@@ -45,7 +45,7 @@ def test_a_law_is_found_from_what_it_made(
 
 def test_the_law_does_not_depend_on_where_it_is_referred_to() -> None:
     here, there = (
-        calibrate(*measurement(), fixed={"reference_temperature": kelvin})
+        fit_area_term(*measurement(), fixed={"reference_temperature": kelvin})
         for kelvin in (280.0, 310.0)
     )
     assert here.friction == pytest.approx(there.friction, abs=1e-5)
@@ -61,7 +61,7 @@ def test_points_are_paired_in_the_order_of_the_caller() -> None:
             inside.temperature[order],
         )  # fmt: skip
         there = hysteresis(inside.speed[order], inside.temperature[order])
-        fit = calibrate(mixed, there, fixed=REFERENCE)
+        fit = fit_area_term(mixed, there, fixed=REFERENCE)
         assert vars(fit.law) == pytest.approx(vars(TRUE), rel=1e-5)
         assert fit.friction == pytest.approx(inside.friction[order], abs=1e-7)
         assert fit.measured.speed.tolist() == inside.speed[order].tolist()
@@ -72,7 +72,7 @@ def test_predictions_at_other_pressures_are_refused() -> None:
     measured = MeasuredFriction([1.0, 0.1, 10.0], [0.4] * 3, pressure=[1e5, 3e5, 2e5])
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5, 1e5, 2e5], [293.15] * 3)
     with pytest.raises(InputError, match=r"index 0 100000 Pa was measured and 300000 Pa predicted"):
-        calibrate(measured, predicted, law="constant")
+        fit_area_term(measured, predicted, law="constant")
 
 
 def test_points_weigh_by_their_spread() -> None:
@@ -80,12 +80,14 @@ def test_points_weigh_by_their_spread() -> None:
     speed, spread = [0.1, 1.0, 10.0], [0.1, 1e-4, 0.1]
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
     measured = MeasuredFriction(speed, [0.4, 0.6, 0.4], spread)
-    assert calibrate(measured, predicted, law="constant").friction == pytest.approx(0.6, abs=1e-5)
+    assert fit_area_term(measured, predicted, law="constant").friction == pytest.approx(
+        0.6, abs=1e-5
+    )
 
 
 def test_a_wrong_law_shows_in_what_is_left_out() -> None:
     right, wrong = (
-        calibrate(*measurement(), law=law, hold_out="temperature")
+        fit_area_term(*measurement(), law=law, hold_out="temperature")
         for law in ("gaussian", "constant")
     )
     assert [one.value for one in right.held_out] == [278.0, 293.0, 313.0]
@@ -98,7 +100,7 @@ def test_a_wrong_law_shows_in_what_is_left_out() -> None:
 
 def test_extrapolating_a_wrong_law_costs_more_than_following_the_data() -> None:
     """A bell can follow two plateaus where it sees them, and not beyond."""
-    fit = calibrate(
+    fit = fit_area_term(
         *measurement(PLATEAUS, seed=None, temperatures=(293.15,)), law="gaussian", hold_out="speed"
     )
     first = fit.held_out[0]
@@ -106,7 +108,7 @@ def test_extrapolating_a_wrong_law_costs_more_than_following_the_data() -> None:
 
 
 def test_one_temperature_gives_no_activation_energy() -> None:
-    fit = calibrate(*measurement(temperatures=(293.15,)))
+    fit = fit_area_term(*measurement(temperatures=(293.15,)))
     assert isinstance(fit.law, GaussianStress)
     assert [one.name for one in fit.estimates] == ["stress_0", "width", "speed_0"]
     assert fit.law.reference_temperature is None
@@ -115,14 +117,14 @@ def test_one_temperature_gives_no_activation_energy() -> None:
 
 
 def test_what_one_temperature_cannot_say_is_not_predicted_for_another() -> None:
-    fit = calibrate(*measurement(temperatures=(283.15, 303.15)), hold_out="temperature")
+    fit = fit_area_term(*measurement(temperatures=(283.15, 303.15)), hold_out="temperature")
     for one in fit.held_out:
         assert math.isnan(one.rms_outside)
         assert one.why_not == "the other points do not determine activation_energy"
 
 
 def test_a_flank_does_not_determine_the_top() -> None:
-    fit = calibrate(*measurement(speeds=FLANK, temperatures=(293.15,)))
+    fit = fit_area_term(*measurement(speeds=FLANK, temperatures=(293.15,)))
     by_name = {one.name: one for one in fit.estimates}
     assert math.isnan(by_name["stress_0"].high)
     assert math.isnan(by_name["speed_0"].high)
@@ -137,14 +139,14 @@ def test_one_speed_determines_the_height_of_the_bell_alone() -> None:
 
     Its height is tau_0; c eps^2 is known, c and eps are not.
     """
-    fit = calibrate(*measurement(speeds=np.full(4, 0.02)))
+    fit = fit_area_term(*measurement(speeds=np.full(4, 0.02)))
     determined = {one.name for one in fit.estimates if one.determined}
     assert determined == {"stress_0"}
     assert "width is not determined by the data." in " ".join(notes(fit))
 
 
 def test_fixed_parameters_stay() -> None:
-    fit = calibrate(*measurement(), fixed={"width": 0.15, **REFERENCE})
+    fit = fit_area_term(*measurement(), fixed={"width": 0.15, **REFERENCE})
     assert isinstance(fit.law, GaussianStress)
     assert fit.law.width == 0.15
     assert [one.name for one in fit.estimates] == ["stress_0", "speed_0", "activation_energy"]
@@ -152,7 +154,7 @@ def test_fixed_parameters_stay() -> None:
 
 
 def test_spreads_too_small_for_the_law_are_said() -> None:
-    fit = calibrate(*measurement(), law="constant")
+    fit = fit_area_term(*measurement(), law="constant")
     assert fit.chance < 1e-10
     assert "times the stated spread" in " ".join(notes(fit))
 
@@ -166,7 +168,7 @@ def test_points_without_a_prediction_do_not_count() -> None:
         friction, predicted.contact_fraction, predicted.pressure, predicted.temperature,
         status=status,
     )  # fmt: skip
-    fit = calibrate(measured, holes, hold_out="temperature")
+    fit = fit_area_term(measured, holes, hold_out="temperature")
     assert fit.problem.points.speed.size == 26
     assert np.isnan(fit.friction).tolist() == [at == 3 for at in range(27)]
     assert [one.points for one in fit.held_out] == [8, 9, 9]
@@ -176,7 +178,7 @@ def test_points_without_a_prediction_do_not_count() -> None:
 
 
 def test_the_table_of_a_case_gives_the_law_back() -> None:
-    fit = calibrate(*measurement(), fixed=REFERENCE)
+    fit = fit_area_term(*measurement(), fixed=REFERENCE)
     table = tomllib.loads(shear_stress_table(fit))["conditions"]["shear_stress"]
     scales = {"MPa": 1e6, "m/s": 1.0, "eV": 1.0}
     values = {
@@ -190,7 +192,7 @@ def test_the_table_of_a_case_gives_the_law_back() -> None:
 
 
 def test_everything_is_in_the_dataset(tmp_path) -> None:
-    fit = calibrate(*measurement(), hold_out="speed")
+    fit = fit_area_term(*measurement(), hold_out="speed")
     data = netcdf.load_dataset(netcdf.save(fit.to_dataset(), tmp_path / "calibration.nc"))
     assert data.parameter.values.tolist() == [
         "stress_0", "width", "speed_0", "activation_energy",
@@ -224,7 +226,7 @@ def test_everything_is_in_the_dataset(tmp_path) -> None:
 )
 def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
-        calibrate(*measurement(), **change)
+        fit_area_term(*measurement(), **change)
 
 
 @pytest.mark.parametrize(
@@ -261,11 +263,11 @@ def test_what_does_not_suffice_is_one_sentence(
     measured = MeasuredFriction([0.1, 1.0, 10.0], friction, **columns)
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
     with pytest.raises(InputError, match=sentence):
-        calibrate(measured, predicted, **({"law": "constant"} | more))
+        fit_area_term(measured, predicted, **({"law": "constant"} | more))
 
 
 def test_the_page_lists_every_variable() -> None:
     page = (DOCS / "measured-friction.md").read_text(encoding="utf-8")
     listed = set(re.findall(r"`(\w+)`", page))
-    data = calibrate(*measurement(), hold_out="speed").to_dataset()
+    data = fit_area_term(*measurement(), hold_out="speed").to_dataset()
     assert set(map(str, data.variables)) <= listed

@@ -11,7 +11,7 @@ import pytest
 import scipy.stats
 
 from gripscale.conditions import LeGalKlueppelStress
-from gripscale.questions import Calibration, calibrate
+from gripscale.questions import AreaTermFit, fit_area_term
 from gripscale.questions.calibration.calibration_law import (
     CalibrationProblem,
     best,
@@ -26,7 +26,7 @@ SETS = 50
 FEWEST, MOST = 41, 49
 
 
-def held(fits: list[Calibration], truth: dict[str, float]) -> dict[str, int]:
+def held(fits: list[AreaTermFit], truth: dict[str, float]) -> dict[str, int]:
     """Return in how many fits the interval of each parameter holds its true value."""
     return {
         name: sum(
@@ -78,7 +78,7 @@ def test_half_the_spread_would_be_seen() -> None:
 def test_intervals_over_many_measurements(stated: bool) -> None:
     """Of 400, 360 are expected; 342 to 377 hold with probability 0.997 for one parameter."""
     fits = [
-        calibrate(*measurement(seed=1000 + seed, stated=stated), fixed=REFERENCE)
+        fit_area_term(*measurement(seed=1000 + seed, stated=stated), fixed=REFERENCE)
         for seed in range(400)
     ]
     for name, count in held(fits, TRUTH).items():
@@ -89,13 +89,15 @@ def test_intervals_over_many_measurements(stated: bool) -> None:
 def test_intervals_of_the_other_law() -> None:
     truth = {"stress_0": 2e6, "ratio": 3.0, "critical_speed": 0.01, "exponent": 0.8}
     law = LeGalKlueppelStress(**truth)
-    fits = [calibrate(*measurement(law, seed=seed), law="le_gal_klueppel") for seed in range(200)]
+    fits = [
+        fit_area_term(*measurement(law, seed=seed), law="le_gal_klueppel") for seed in range(200)
+    ]
     for name, count in held(fits, truth).items():
         assert 166 <= count <= 192, (name, count)  # probability 0.997
 
 
 def test_an_interval_ends_where_the_profile_says() -> None:
-    fit = calibrate(*measurement(), fixed=REFERENCE)
+    fit = fit_area_term(*measurement(), fixed=REFERENCE)
     threshold = threshold_of(fit.optimum, spread_known=True)
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
     for place, one in enumerate(fit.problem.family.free):
@@ -108,7 +110,7 @@ def test_an_interval_ends_where_the_profile_says() -> None:
 def test_the_profile_of_a_factor_is_a_parabola() -> None:
     """A parameter that only multiplies, not in logarithms: linear least squares in closed form."""
     measured, predicted = measurement()
-    fit = calibrate(measured, predicted, law="constant")
+    fit = fit_area_term(measured, predicted, law="constant")
     one = fit.estimates[0]
     weight = predicted.leverage / measured.spread
     error = 1.0 / np.sqrt(weight @ weight)
@@ -123,7 +125,7 @@ def test_the_profile_of_a_factor_is_a_parabola() -> None:
 
 def test_without_spreads_the_residuals_give_them() -> None:
     measured, predicted = measurement(stated=False)
-    fit = calibrate(measured, predicted, law="constant")
+    fit = fit_area_term(measured, predicted, law="constant")
     one, freedom = fit.estimates[0], measured.speed.size - 1
     apart = fit.friction - measured.friction
     scatter = np.sqrt(apart @ apart / freedom)
@@ -136,5 +138,5 @@ def test_without_spreads_the_residuals_give_them() -> None:
 
 def test_well_determined_intervals_are_the_standard_errors() -> None:
     """Where the valley is nearly straight half an interval is 1.645 standard errors."""
-    for one in calibrate(*measurement(seed=None), fixed=REFERENCE).estimates:
+    for one in fit_area_term(*measurement(seed=None), fixed=REFERENCE).estimates:
         assert 0.5 * (one.high - one.low) == pytest.approx(1.645 * one.standard_error, rel=0.05)

@@ -15,14 +15,11 @@ from gripscale.case_file.prepare import read_case
 from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
-from gripscale.io import netcdf
-from gripscale.questions import FrictionSensitivity, case_sensitivity
+from gripscale.questions import FrictionSensitivity
 from gripscale.questions.sensitivity.friction_sensitivity import (
-    CARRIED,
     FEEDBACK,
     KELVIN_STEP,
     LOSS,
-    SENSITIVITY_FILE,
     STORAGE,
 )
 from gripscale.questions.sensitivity.page import (
@@ -131,11 +128,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def data(folder: Path) -> xr.Dataset:
     """Derivatives at three temperatures."""
-    return case_sensitivity(
+    return gs.sensitivity(
         read_case(folder / "case.toml"),
         folder=folder / "result",
         vary={"temperature": "0 C,20 C,60 C"},
-    )
+    ).data
 
 
 def test_bands_that_are_not_excited_count_nothing(data):
@@ -160,12 +157,12 @@ def test_rules_of_thumb_are_shifted_to_the_master_curve(data):
 
 def test_a_second_run_solves_nothing(folder, data):
     solved = []
-    again = case_sensitivity(
+    again = gs.sensitivity(
         read_case(folder / "case.toml"),
         folder=folder / "result",
         vary={"temperature": "0 C,20 C,60 C"},
         on_task=lambda progress: solved.append(progress.stored),
-    )
+    ).data
     assert solved == [True, True, True]
     xr.testing.assert_equal(again[LOSS], data[LOSS])
 
@@ -183,33 +180,11 @@ def test_command_leads_with_the_answer(folder, shell: Shell):
     assert "What decides the friction of case.toml" in page
 
 
-def test_the_chain_answers_the_same_command(folder, shell: Shell):
-    """Its numbers are those of `gripscale.sensitivity` of the chain of the case."""
-    out = folder / "chain"
-    result = shell("sensitivity", folder / "case.toml", "--model", "chain", "--output", out)
-    assert "by the chain" in next(
-        line for line in result.stdout.splitlines() if line.startswith("Answer")
-    )
-    data = netcdf.load_dataset(out / SENSITIVITY_FILE)
-    case = read_case(folder / "case.toml")
-    solved = case.chain.solve(case.rubber, case.surface.sines, case.load)
-    expected = gs.sensitivity(solved, bands_per_decade=4, reference_temperature=293.15)
-    for name in (LOSS, STORAGE, "d_ln_contact_fraction_d_ln_pressure"):
-        assert data[name].values.ravel() == pytest.approx(expected[name].values.ravel(), abs=1e-12)
-    assert CARRIED.format("friction") not in data
-    with pytest.raises(InputError, match="with_feedback must be False for the chain"):
-        case_sensitivity(
-            read_case(folder / "case.toml"), folder=out / "other", model="chain", with_feedback=True
-        )
-
-
 def test_refuses_rest_and_other_inputs(folder, tmp_path):
     with pytest.raises(InputError, match="speed must be above zero"):
-        case_sensitivity(
-            read_case(folder / "case.toml"), folder=tmp_path, vary={"speed": [0.0, 1.0]}
-        )
+        gs.sensitivity(read_case(folder / "case.toml"), folder=tmp_path, vary={"speed": [0.0, 1.0]})
     with pytest.raises(InputError, match="vary must be"):
-        case_sensitivity(read_case(folder / "case.toml"), folder=tmp_path, vary={"waves": [2, 3]})
+        gs.sensitivity(read_case(folder / "case.toml"), folder=tmp_path, vary={"waves": [2, 3]})
 
 
 def test_says_why_there_is_no_answer(data):

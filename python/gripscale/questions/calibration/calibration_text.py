@@ -12,7 +12,7 @@ from gripscale.conditions.area_term import shear_stress_to_dict
 from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, parse_quantity
-from gripscale.questions.calibration.calibration import Calibration, Estimate
+from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate
 from gripscale.questions.calibration.profile_likelihood import LIKELIHOOD_LEVEL
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
@@ -53,7 +53,7 @@ UNLIKELY = 0.01
 """Chance of the sum of squares below which something must be wrong."""
 
 
-def notes(calibration: Calibration) -> Iterator[str]:
+def notes(calibration: AreaTermFit) -> Iterator[str]:
     """Yield a sentence on each thing to know before the numbers are used."""
     if not calibration.spread_known:
         yield (
@@ -107,7 +107,7 @@ HELD_UNITS = {name: _LAW_UNITS[kind] for name, kind in KINDS_OF_QUANTITY.items()
 """Units of parameters that may be held; the others have none."""
 
 
-def shear_stress_table(calibration: Calibration) -> str:
+def shear_stress_table(calibration: AreaTermFit) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
     law = shear_stress_to_dict(calibration.law)
     estimates = {estimate.name: estimate for estimate in calibration.estimates}

@@ -6,21 +6,30 @@ Everything is read from the result, for the terminal and for the page alike.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import xarray as xr
 
+from gripscale.charts.draw import image
+from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.table import Column, Table, digits, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
-from gripscale.questions.calibration.calibration import Estimate
+from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import HELD_UNITS, estimate_interval, written
+from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.page_of_measured import residual_table
 from gripscale.questions.chain.view import CONVERGED_WORD
-from gripscale.report.elements import Card, Facts
-from gripscale.report.failures import Failure
+from gripscale.questions.uncertainty.page import as_elements
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Facts, Page, Section, Text
+from gripscale.report.failures import Failure, explained
 
+_CALIBRATION = (
+    "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
+    "and this area term together give the measured friction. The hysteresis is not fitted."
+)
 PARAMETERS = {
     "stress_0": "shear stress τ_0",
     "width": "width factor c",
@@ -187,4 +196,25 @@ def calibration_failure(data: xr.Dataset) -> Failure | None:
         f"{len(failed)} of {data.sizes['measurement']} measured points have no prediction; "
         f"the first: {why}",
         word,
+    )
+
+
+def calibration_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
+    """Return the page of a calibration: the law, the points, and the profiles of parameters."""
+    case, failed = case_name(data.attrs), calibration_failure(data)
+    points, *tables = as_elements(calibration_parts(data))
+    fit, residuals, profiles = map(image, calibration_pictures(data))
+    errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
+    return Page.of(
+        f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
+        str(data.attrs.get("model", "")).replace("_", " "),
+        [*errors, *findings],
+        calibration_cards(data),
+        [
+            Section("law", "The law", [Text(_CALIBRATION), law_facts(data), *tables]),
+            Section("points", "Point by point", [fit, residuals, points]),
+            Section("profiles", "How well the data determine the law", [profiles]),
+            rerun_section(data.attrs),
+        ],
+        (line.strip() for line in calibration_lines(data)),
     )

@@ -124,7 +124,7 @@ def inputs(
     parts = [({}, _waves(surface)), (_files(case.origin.files), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))
     if case.friction is not None:
-        parts.append((dict(measured_variables(case.friction)), {}))
+        parts.append((dict(measured_variables(case.friction, "measurement_of_case")), {}))
     if surface.measured is not None and surface.correlation is not None:
         parts.append((_profiles(surface.measured), {}))
         texture = surface.measured.texture.variables

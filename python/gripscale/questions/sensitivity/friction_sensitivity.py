@@ -1,8 +1,4 @@
-"""What decides the friction of a case: its prediction with the derivatives of the friction.
-
-    from gripscale.questions import case_sensitivity
-    data = case_sensitivity("case.toml", folder="results", vary={"speed": "0.003:30:log5"})
-    data.d_ln_friction_d_ln_loss.sum("frequency")
+"""The direct contact with the derivatives of its friction by every input.
 
 The profiles of a surface add their friction by length. With m_k the share of profile k in it,
 
@@ -20,52 +16,34 @@ change, of speed, pressure and temperature, from differences of whole solutions.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import fields, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import xarray as xr
 
-from gripscale.case import Case
-from gripscale.chain import Chain
-from gripscale.chain.sensitivity import sensitivity, wave_sensitivity
-from gripscale.core import checks, provenance
+from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
-from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import (
     CONVERGED,
-    solve_design,
     surface_numbers,
     variable_attributes,
 )
-from gripscale.experiment.solve import Bench, OnTask
-from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.experiment.task import Task
 from gripscale.half_space.location import PREFIX, contact_trace, with_traces
 from gripscale.half_space.model import DirectContact
-from gripscale.io import netcdf
+from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.model import STATUS
-from gripscale.questions.inputs import record
-from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
-from gripscale.questions.uncertainty.sampling import stated_options
-from gripscale.questions.vary.axis import axes_of
-from gripscale.questions.vary.inputs import NAMED_MODELS, conditions_of, reading_notes
-from gripscale.questions.vary.study import Study, coordinates
+from gripscale.questions.vary.inputs import conditions_of
 
 if TYPE_CHECKING:
-    from gripscale.chain.prediction import ChainResult
     from gripscale.half_space.result import RoughContact
-    from gripscale.model import Load, Model, OnProgress
+    from gripscale.model import Load, OnProgress
     from gripscale.rubber import Rubber
     from gripscale.surface import Surface
 
-SENSITIVITY_FILE = "sensitivity.nc"
-"""The Dataset, in the folder of the command."""
-DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
-"""What may be varied: derivatives are taken at each value."""
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
 CARRIED = "source_{}_error"
 """Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction"."""
@@ -89,7 +67,7 @@ class FrictionSensitivity(DirectContact):
     """Direct contact whose answer holds the derivatives of its friction over `frequency`.
 
     The frequencies are shifted to the temperature of the rubber as it is handed over. The other
-    fields are those of `DirectContact` and arguments of `gripscale.sensitivity`.
+    fields are those of `DirectContact` and arguments of `contact_sensitivity`.
     """
 
     name: ClassVar[str] = "sensitivity"
@@ -114,7 +92,7 @@ class FrictionSensitivity(DirectContact):
         if answer[STATUS].item() != CONVERGED:
             return answer
         parts = [
-            sensitivity(
+            contact_sensitivity(
                 contact,
                 bands_per_decade=self.bands_per_decade,
                 contact_fraction=self.contact_fraction,
@@ -166,38 +144,6 @@ class FrictionSensitivity(DirectContact):
         }
 
 
-class ChainSensitivity(Chain):
-    """Chain whose answer holds the derivatives of its friction and contact area over `frequency`.
-
-    As `FrictionSensitivity`; the other fields are those of `Chain`.
-    """
-
-    name: ClassVar[str] = "chain_sensitivity"
-
-    bands_per_decade: int = checked(checks.whole, least=1, most=100, default=4)
-
-    def predict(
-        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
-    ) -> xr.Dataset:
-        """Return the answer with the derivatives; without any if a wave has no result."""
-        last: list[ChainResult] = []
-
-        def keep(so_far: ChainResult) -> None:
-            last[:] = [so_far]
-            if on_progress is not None:
-                on_progress(so_far)
-
-        answer = super().predict(rubber, surface, load, on_progress=keep)
-        if answer[STATUS].item() != CONVERGED:
-            return answer
-        derivatives = wave_sensitivity(
-            last[0],
-            bands_per_decade=self.bands_per_decade,
-            reference_temperature=_shifted_to(rubber),
-        )
-        return answer.merge(derivatives[_derivatives_of(derivatives)])
-
-
 def _shifted_to(rubber: Rubber) -> float | None:
     """Return the temperature that frequencies are shifted to [K], of a rubber with a shift."""
     return rubber.reference_temperature if rubber.shift is not None else None
@@ -223,114 +169,14 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
     return xr.Dataset(out)
 
 
-def case_sensitivity(
-    case: Case,
-    *,
-    folder: str | Path,
-    vary: Mapping[str, Any] | None = None,
-    model: str = DirectContact.name,
-    bands_per_decade: int = 4,
-    contact_fraction: bool = False,
-    with_feedback: bool = False,
-    workers: int | None = None,
-    on_task: OnTask | None = None,
-) -> xr.Dataset:
-    """Return the derivatives of the friction of a case, and write them to a folder.
-
-    Parameters
-    ----------
-    case : Case
-        The case; its speed must be above zero, and its surface measured for the direct contact.
-    folder : path
-        Gets `sensitivity.nc`, and each solution as soon as it is there: a run that was stopped goes
-        on where it was.
-    vary : mapping, optional
-        One or two of `DERIVED_OVER`, as for a `Study`: the derivatives at each value. By default
-        those of the case.
-    model : str
-        "direct", or "chain": the waves of the case, from differences of solved waves. The contact
-        fraction of the chain comes with it.
-    bands_per_decade, contact_fraction
-        As for `gripscale.sensitivity`.
-    with_feedback : bool
-        With softening or heat, also derivatives by speed, pressure and temperature with the answer
-        of the rubber: six further solutions.
-    workers, on_task
-        As for `Study.run`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over what is varied: the variables of `gripscale.sensitivity` but for the heights, over
-        `frequency` at the temperature of the master curve. Those with the end `_with_feedback` hold
-        the answer of softening and heat. `storage_modulus` and `loss_modulus` [Pa] of the master
-        curve over `modulus_frequency` [rad/s]; with a shift, over `rule`, the frequency that each
-        rule of thumb stands for, and the share of the effect of E'' within half a decade of it.
-        Of the direct contact, where nothing is varied, `source_friction_error` and
-        `source_contact_fraction_error` over `source`: the relative standard errors that what is not
-        known of the inputs carries to friction and contact area (`first_order`).
-        There, too, the derivatives by height are in the traces of the profiles
-        (`gripscale.half_space.location.traces_of`).
-
-    Raises
-    ------
-    InputError, FileError
-        For what cannot be used; if the case is at rest, or has no measured surface for the direct
-        contact.
-    """
-    axes = {"speed": [case.load.speed]} if vary is None else dict(vary)
-    for axis in axes_of(axes):
-        checks.one_of("vary", axis.name, DERIVED_OVER)
-        if axis.name == "speed" and min(axis.values) <= 0.0:
-            raise InputError("speed must be above zero for derivatives of friction; got 0 m/s")
-    chosen = checks.one_of("model", model, NAMED_MODELS)
-    chain = case.chain
-    if chosen == Chain.name:
-        if with_feedback:
-            raise InputError("with_feedback must be False for the chain; got True")
-        of_case = {item.name: getattr(chain, item.name) for item in fields(chain)}
-        solved: Model = ChainSensitivity(**of_case, bands_per_decade=bands_per_decade)
-    else:
-        solved = FrictionSensitivity(
-            conditions=chain.conditions,
-            bands_per_decade=bands_per_decade,
-            contact_fraction=contact_fraction,
-            with_feedback=with_feedback,
-            traces=vary is None,
-        )
-    study = Study(case, axes, static=False, model=solved)
-    bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
-    data = solve_design(study.design, bench, _kept)
-    data = data.assign_coords(coordinates(study.axes, case.units))
-    if STORAGE in data and chosen == DirectContact.name and vary is None:
-        errors = first_order(case, seed=stated_options(case).seed)
-        named = {f"{name}_error": CARRIED.format(name) for name in CARRIED_QUANTITIES}
-        data = data.assign(errors.rename(named).variables)
-    if STORAGE in data:
-        data = _with_master_curve(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
-    attrs = {
-        "title": "What decides the friction of a case",
-        "case_file": case.origin.name,
-        "model": chosen,
-        "bands_per_decade": bands_per_decade,
-        "iterated": int(chain.conditions is not None and chain.conditions.iterated),
-        **provenance.version_attributes(),
-    }
-    data = data.assign_attrs(case.attributes, **attrs)
-    loads = [point.task.load for point in study.points]
-    of_rubbers = reading_notes(study.measured_rubbers)
-    groups = {"inputs": record.inputs(case, study.surfaces, loads, of_rubbers)}
-    return netcdf.load_dataset(netcdf.save(data, Path(folder) / SENSITIVITY_FILE, groups))
-
-
-def _kept(answer: xr.Dataset, task: Task) -> xr.Dataset:
+def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
     traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
     kept = answer[[*_derivatives_of(answer), *traces]]
     return surface_numbers(answer, task).assign(kept.variables)
 
 
-def _with_master_curve(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
+def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     """Return the Dataset with the master curve of its rubber, and the rules of thumb on it."""
     kelvin, at = _rules(rubber)
     drawn = np.array([*data.frequency.values, *at])

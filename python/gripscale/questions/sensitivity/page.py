@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import xarray as xr
 
-from gripscale.chain import Chain
+from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
 from gripscale.model import STATUS
 from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
+from gripscale.questions.sensitivity.charts import height_charts, sensitivity_charts
 from gripscale.questions.sensitivity.friction_sensitivity import (
     CARRIED,
     FEEDBACK,
@@ -20,10 +21,11 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     STORAGE,
 )
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES
-from gripscale.questions.uncertainty.page import not_stated
+from gripscale.questions.uncertainty.page import as_elements, not_stated
 from gripscale.questions.vary.axis import points
-from gripscale.report.elements import Card
-from gripscale.report.failures import Failure
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Page, Section, Text
+from gripscale.report.failures import Failure, explained, first_of
 
 SCALARS = {
     "ln_pressure": ("pressure", "1"),
@@ -35,6 +37,11 @@ SCALARS = {
 """Ends of the names of derivatives by one number, with their headings and units."""
 _MOST_POINTS = 6
 """Points that the table by decade has columns for."""
+_CURVES = (
+    "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
+    "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
+    "friction, such as that from lines to a surface, do not change them."
+)
 signed = fixed(2, "+")
 
 
@@ -64,7 +71,6 @@ def sensitivity_lines(data: xr.Dataset) -> Iterator[str]:
         if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
     ]
     where = f", at {' and '.join(load)}" if load else ""
-    where += ", by the chain" if data.attrs["model"] == Chain.name else ""
     yield (
         f"Answer: 1 % more E'' at all frequencies gives {_range(loss)} % more friction, "
         f"1 % less E' {_range(-storage)} %{where}"
@@ -203,3 +209,34 @@ def sensitivity_failures(data: xr.Dataset) -> list[Failure]:
         for sentence, word in zip(data[STATUS].values.ravel(), words, strict=True)
     ]
     return [ending for ending in endings if ending.sentence != CONVERGED_WORD]
+
+
+def failure_sentence(data: xr.Dataset) -> str:
+    """Return how many points have no solution, with what to do about the first; empty if none."""
+    return first_of(sensitivity_failures(data), data[STATUS].size, "points")
+
+
+def sensitivity_page(data: xr.Dataset, record: xr.Dataset, findings: Sequence[Finding]) -> Page:
+    """Return the page of what decides the friction; `record` is that of the inputs."""
+    lead, *below = sensitivity_lines(data)
+    solved = STORAGE in data
+    charts = sensitivity_charts(data) if solved else []
+    return Page.of(
+        f"What decides the friction of {case_name(data.attrs) or 'a case'}",
+        str(lead),
+        [
+            *(Finding(Severity.ERROR, explained(each)) for each in sensitivity_failures(data)),
+            *findings,
+        ],
+        sensitivity_cards(data),
+        [
+            Section(
+                "effects",
+                "What the friction depends on",
+                as_elements([*below, *sensitivity_parts(data)]),
+            ),
+            Section("curves", "Over the master curve", [Text(_CURVES), *charts]),
+            Section("heights", "Which heights count", height_charts(data, record)),
+            rerun_section(data.attrs),
+        ],
+    )

@@ -1,4 +1,4 @@
-"""Charts of what is not known of a case, and of the area term fitted to measured friction."""
+"""Charts of what is not known of a case."""
 
 from __future__ import annotations
 
@@ -11,11 +11,8 @@ import xarray as xr
 from gripscale.charts import draw
 from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, INK, ORANGE, WIDE
-from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
+from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
 from gripscale.questions.chain.view import ANSWER, AXIS_TITLES, PredictionView
-from gripscale.questions.compare.charts import measured_sheet
-from gripscale.questions.compare.charts_of_ladder import MARKERS, MeasuredSeries, measured
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import MODELS
@@ -227,124 +224,3 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return draw.on_paper(Sheet(panels, keys=[case]))
-
-
-_UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
-"""What a parameter is divided by to be drawn, and its unit then."""
-PARAMETER_LABELS = {
-    "stress_0": "stress $\\tau_0$",
-    "width": "width $c$",
-    "speed_0": "speed $v_0$",
-    "activation_energy": "activation energy $\\epsilon$",
-    "ratio": "ratio",
-    "critical_speed": "critical speed $v_c$",
-    "exponent": "exponent $n$",
-}
-CEILING = 2.5
-"""Highest excess that is drawn, over the threshold."""
-
-
-def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield the figures of a calibration."""
-    yield Picture(
-        "measured_and_fitted",
-        fitted_figure(data),
-        "Measured friction with its spread, the hysteresis alone, and the fit with its band, at "
-        "each temperature.",
-        "A panel for each temperature with points and two curves over the speed.",
-    )
-    yield Picture(
-        "residuals",
-        residual_figure(data),
-        "Fit minus measured friction over the speed.",
-        "Points around zero over the speed, a marker for each temperature.",
-    )
-    yield Picture(
-        "profiles",
-        profiles_figure(data),
-        "Rise of the sum of squares if a parameter is held at another value.",
-        "A panel for each parameter with a valley around its best value.",
-    )
-
-
-def fitted_figure(data: xr.Dataset) -> Figure:
-    """Draw measured friction with its spread, the hysteresis alone, and the total with its band.
-
-    One panel for each temperature and pressure; points where the model has no answer are left out
-    of its lines.
-    """
-    level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
-
-    def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
-        rows = series.rows[np.isfinite(data.friction.values[series.rows])]
-        speed = speed_unit.of(data.measured_speed.values[rows])
-        total, band, hysteresis = (
-            data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
-        )
-        return [
-            ShadedBand(speed, total - band, total + band, ORANGE, level, alpha=0.25),
-            Series(speed, total, ORANGE, "hysteresis and area term"),
-            Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
-        ]
-
-    return draw.on_paper(measured_sheet(data, fit, head=0.5))
-
-
-def residual_figure(data: xr.Dataset) -> Figure:
-    """Draw fitted minus measured friction over speed, over the spread where it is known."""
-    spread = bool(np.isfinite(data.difference_in_spread).any())
-    values = data["difference_in_spread" if spread else "difference"].values
-    scale = 1.0 if spread else float(data.attrs["scatter"])
-    speed_unit = display_unit_of(data.attrs, "speed")
-    width = "spread of the measurement" if spread else "scatter of the residuals"
-    marks: list[Mark] = [CrossLine(-scale, FAINT, f"± {width}", to=scale), CrossLine(0.0)]
-    for number, series in enumerate(measured(data)):
-        marks.append(Series(
-            speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
-            series.label.removeprefix("measured").removeprefix(", "), "",
-            marker=MARKERS[number % len(MARKERS)],
-        ))  # fmt: skip
-    label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"
-    panel = Panel(
-        PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), PlotAxis(label), marks
-    )
-    height = 2.6 + 0.2 * -(-len(marks) // 4)
-    return draw.on_paper(Sheet([panel], 1, height=height, legend_columns=4, gap=0.02))
-
-
-def profiles_figure(data: xr.Dataset) -> Figure:
-    """Draw by how much the sum of squares rises where each parameter is held elsewhere.
-
-    The interval is where the curve is below the line; an end that is not determined has none.
-    """
-    count = data.sizes["parameter"]
-    columns = 2 if count == 4 else min(count, 3)
-    panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
-    height = 0.4 + 2.1 * -(-count // columns)
-    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
-    return draw.on_paper(Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look))
-
-
-def _profile_panel(data: xr.Dataset) -> Panel:
-    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
-    divisor, unit = _UNITS[str(data.unit.item())]
-    rows = np.isfinite(data.profile_excess.values)
-    value, excess = data.profile_value.values[rows] / divisor, data.profile_excess.values[rows]
-    low, high, best = (float(data[name]) / divisor for name in ("low", "high", "estimate"))
-    least, most = float(value.min()), float(value.max())
-    ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
-    name = str(data.parameter.item())
-    missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
-    title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
-    return Panel(
-        PlotAxis(f"{PARAMETER_LABELS.get(name, name)} [{unit}]", low=least, high=most,
-             log=name != "activation_energy" and most > 5.0 * least),
-        PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
-        [
-            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
-            Series(value, excess, BLUE, "profile"),
-            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
-            CrossLine(best, GREY, "best", width=1.0, upright=True),
-        ],
-        title=title if missing else "",
-    )  # fmt: skip

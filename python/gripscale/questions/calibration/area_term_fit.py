@@ -10,34 +10,24 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import scipy
 import xarray as xr
 
-from gripscale.case import Case
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
-from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
-from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.half_space.model import DirectContact
 from gripscale.model import STATUS, STATUS_WORD
 from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration import profile_likelihood as likelihood
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     in_spread,
-    measured_design,
-    predicted_of,
 )
-from gripscale.questions.vary.inputs import default_model
-from gripscale.rubber.extrapolation import require_measured
 
 FACTORS_SHOWN = 3.0
 """How far the profile of an end that is not determined is kept, in the numbers of the search."""
@@ -67,7 +57,7 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class AreaTermFit:
     """A law of the area term fitted to measured friction beside a predicted hysteresis."""
 
     measured: MeasuredFriction
@@ -215,14 +205,14 @@ class Calibration:
         return calibration_dataset(self)
 
 
-def calibrate(
+def fit_area_term(
     measured: MeasuredFriction,
     predicted: Predicted,
     *,
     law: str = "gaussian",
     fixed: Mapping[str, float] | None = None,
     hold_out: str | None = None,
-) -> Calibration:
+) -> AreaTermFit:
     """Fit a law of the interfacial shear stress to measured friction.
 
     Weighted with the spread of the measurement; without any, all points weigh the same and the
@@ -269,80 +259,9 @@ def calibrate(
 
     optimum, ends = likelihood.settled(problem, fit.best(problem), intervals)
     groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
-    return Calibration(
+    return AreaTermFit(
         measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
     )
-
-
-_MODELS = ("direct", "chain")
-"""Models whose hysteresis an area term can be put beside."""
-
-
-def calibrate_case(
-    case: Case,
-    *,
-    model: str | None = None,
-    law: str = "gaussian",
-    fixed: Mapping[str, float] | None = None,
-    hold_out: str | None = None,
-    measured: MeasuredFriction | None = None,
-    folder: str | Path | None = None,
-    workers: int | None = None,
-    client: Any = None,
-    on_task: OnTask | None = None,
-) -> Calibration:
-    """Predict the hysteresis of a case at every measured point and fit an area term beside it.
-
-    Parameters
-    ----------
-    case : Case
-        The case. An area term of its own has no
-        part in it.
-    model : str, optional
-        "direct" or "chain": what predicts the hysteresis and the real contact area; by default
-        `gripscale.questions.vary.inputs.default_model` of the case.
-    law, fixed, hold_out
-        As for `calibrate`.
-    measured : MeasuredFriction, optional
-        What was measured; what `[measured] friction` of the case names by default.
-    folder : path, optional
-        Keeps each answer as soon as it is there, in `predictions`; what it has is not solved again.
-    workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
-
-    Raises
-    ------
-    InputError, FileError
-        As `calibrate` and the models do; if the case names no measured friction; if it refuses
-        extrapolation and a point excites the rubber beyond its measured frequencies.
-    """
-    if model is not None:
-        checks.one_of("model", model, _MODELS)
-    fit.check_names(law, fixed or ())
-    model = model or default_model(case)
-    friction = measured or measured_of(case)
-    fit.refuse_unfit(friction, law, fixed or {})
-    if hold_out is not None:
-        likelihood.groups_of(hold_out, friction.speed, friction.temperature)
-    rubber, surface = case.rubber, case.surface
-    if case.chain.extrapolate == "refuse":
-        for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
-            warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
-            require_measured(warm, surface.sines.wavelength, float(speed))
-    predicting = case.chain if model == "chain" else DirectContact(conditions=case.conditions)
-    with bench_in(folder, workers, client, on_task) as bench:
-        design = measured_design(friction, predicting, rubber, surface, case.load)
-        predicted = predicted_of(solve_design(design, bench))
-    return calibrate(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
-
-
-def measured_of(case: Case) -> MeasuredFriction:
-    """Return the friction a case names; raise `InputError` if it names none."""
-    if case.friction is None:
-        raise InputError(
-            f"{case.name}: [measured] friction must name a table of measured friction; got none"
-        )
-    return case.friction
 
 
 _SOURCE = "gripscale calibrate"
@@ -366,8 +285,8 @@ _HELD_OUT = {
 """Numbers of what was left out, with their meaning."""
 
 
-def calibration_dataset(calibration: Calibration) -> xr.Dataset:
-    """Return what `Calibration.to_dataset` promises."""
+def calibration_dataset(calibration: AreaTermFit) -> xr.Dataset:
+    """Return what `AreaTermFit.to_dataset` promises."""
     predicted, measured = calibration.predicted, calibration.measured
     estimates, profiles = calibration.estimates, calibration.profiles
     apart = calibration.friction - measured.friction

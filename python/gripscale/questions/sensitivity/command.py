@@ -22,13 +22,6 @@ def sensitivity_command(
             metavar="NAME=VALUES",
         ),
     ] = None,
-    model: Annotated[
-        str,
-        option(
-            "What predicts: the direct contact of the measured surface, or the chain of waves.",
-            metavar="direct|chain",
-        ),
-    ] = "direct",
     bands: Annotated[
         int, typer.Option(help="Bands of frequency in a decade of the figure.", metavar="NUMBER")
     ] = 4,
@@ -54,23 +47,7 @@ def sensitivity_command(
     """Tell which part of the master curve, and which input, decides the friction of a case."""
     from gripscale.case_file import read_case, read_case_file
     from gripscale.case_file.named_inputs import read_named_inputs
-    from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.write import draw as write_pictures
-    from gripscale.io.folders import make_folder
-    from gripscale.questions.answer.findings import case_notices
-    from gripscale.questions.inputs.page_record import InputRecord
-    from gripscale.questions.sensitivity.charts import height_pictures, sensitivity_figure
-    from gripscale.questions.sensitivity.friction_sensitivity import (
-        DERIVED_OVER,
-        SENSITIVITY_FILE,
-        STORAGE,
-        case_sensitivity,
-    )
-    from gripscale.questions.sensitivity.page import (
-        sensitivity_failures,
-        sensitivity_lines,
-        sensitivity_parts,
-    )
+    from gripscale.questions.sensitivity.question import DERIVED_OVER, sensitivity
     from gripscale.questions.vary.axis import parse_vary
 
     pairs = [parse_vary(text, DERIVED_OVER) for text in vary or ()]
@@ -80,37 +57,14 @@ def sensitivity_command(
     file = read_case_file(case)
     opening = f"What decides the friction of {file.path}"
     console, target = terminal.open_folder(file, output, "sensitivity", opening)
-    data = case_sensitivity(
+    result = sensitivity(
         read_case(file),
         folder=target,
         vary=None if axes is None else read_named_inputs(axes, file),
-        model=model,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,
         workers=workers,
         on_task=terminal.progress_printer(console),
     )
-
-    record = InputRecord.of_file(target / SENSITIVITY_FILE)
-
-    def draw() -> None:
-        if STORAGE in data:
-            make_folder(target / "figures")
-            figures = FigureFolder(target / "figures", file.case.output.figures)
-            figures.save(sensitivity_figure(data), "sensitivity")
-            write_pictures(height_pictures(data, record.data), figures)
-
-    failed = sensitivity_failures(data)
-    terminal.conclude(
-        console,
-        target,
-        list(sensitivity_parts(data)),
-        results=[data],
-        lead=list(sensitivity_lines(data)),
-        warnings=case_notices(None, record),
-        text="sensitivity.txt",
-        closing=f"Result ({SENSITIVITY_FILE}), tables and figure are in",
-        draw=draw,
-        failure=terminal.first_of(failed, data.prediction_status.size, "points"),
-    )
+    terminal.finish(console, target, result, file, "sensitivity.txt", "tables and figure")

@@ -1,0 +1,88 @@
+"""`gripscale calibrate CASE.toml`: the area term that agrees with measured friction."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from gripscale import terminal
+from gripscale.terminal import (
+    CasePath,
+    Cluster,
+    MeasuredPath,
+    OwnFolder,
+    Workers,
+    command,
+    option,
+)
+
+
+@command
+def calibrate_command(
+    case: CasePath,
+    model: Annotated[
+        str | None,
+        option(
+            "What predicts hysteresis and contact area: direct, the default where the surface was "
+            "measured, or chain, the default elsewhere.",
+            metavar="direct|chain",
+        ),
+    ] = None,
+    law: Annotated[
+        str, typer.Option(help="Shear stress: constant, gaussian or le_gal_klueppel.")
+    ] = "gaussian",
+    hold_out: Annotated[
+        str | None,
+        option(
+            "Predict each temperature, or each decade of speed, from the others.",
+            metavar="temperature|speed",
+        ),
+    ] = None,
+    fixed: Annotated[
+        list[str] | None,
+        option(
+            "A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
+            "may be repeated.",
+            metavar="NAME=VALUE",
+        ),
+    ] = None,
+    measured: MeasuredPath = None,
+    output: OwnFolder = None,
+    workers: Workers = None,
+    cluster: Cluster = None,
+) -> None:
+    """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.questions.calibration.calibration_text import parse_fixed, shear_stress_table
+    from gripscale.questions.calibration.question import calibrate, measured_of
+
+    values = parse_fixed(fixed or [])
+    file = read_case_file(case)
+    read = read_case(file)
+    friction = measured_of(read, measured)
+    opening = f"Area term of {file.path} from {friction.source}"
+    console, target = terminal.open_folder(file, output, "calibration", opening)
+    result = calibrate(
+        read,
+        friction,
+        model=model,
+        law=law,
+        fixed=values,
+        hold_out=hold_out,
+        folder=target,
+        workers=workers,
+        client=cluster,
+        on_task=terminal.progress_printer(console),
+    )
+    assert result.fit is not None
+    terminal.finish(
+        console,
+        target,
+        result,
+        file,
+        "calibration.txt",
+        "tables, figures and [conditions.shear_stress]",
+        drawings="",
+        files={"shear_stress.toml": shear_stress_table(result.fit)},
+    )

@@ -1,0 +1,185 @@
+"""Which area term agrees with measured friction: its law beside the predicted hysteresis.
+
+result = gs.calibrate(case, measured)
+result.law
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gripscale.case import Case
+from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
+from gripscale.core import checks
+from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding
+from gripscale.experiment.design import solve_design
+from gripscale.experiment.measured_friction import (
+    MeasuredFriction,
+    friction_doubts,
+    read_measured_friction,
+    speed_doubts,
+)
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.half_space.model import DirectContact
+from gripscale.io.table import Table
+from gripscale.model import INPUT_DOUBTS
+from gripscale.questions.answer.findings import case_notices
+from gripscale.questions.calibration import calibration_law as laws
+from gripscale.questions.calibration import page
+from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
+from gripscale.questions.calibration.calibration_text import notes
+from gripscale.questions.calibration.measured_comparison import measured_design, predicted_of
+from gripscale.questions.calibration.profile_likelihood import groups_of
+from gripscale.questions.inputs import record
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.result import Result
+from gripscale.questions.vary.inputs import default_model
+from gripscale.report.elements import Page
+from gripscale.rubber.extrapolation import require_measured
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_MODELS = ("direct", "chain")
+"""Models whose hysteresis an area term can be put beside."""
+
+
+class Calibration(Result):
+    """The area term of a case that agrees best with measured friction."""
+
+    kind = "calibration"
+    fit: AreaTermFit | None = None
+    """The fit with all its numbers; None of a result that was loaded from a file."""
+
+    @property
+    def law(self) -> InterfacialShearStress:
+        """The law with the best parameters."""
+        return shear_stress_from_dict(json.loads(self.data.attrs["law"]))
+
+    @property
+    def estimates(self) -> Sequence[Estimate]:
+        """The fitted parameters with their 90 % intervals."""
+        return tuple(page.estimates(self.data))
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The fitted parameters with their intervals, and what the area term does to friction."""
+        return tuple(page.calibration_lines(self.data))
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        """What may change the fit, the most important first."""
+        return tuple(case_notices(self.data, InputRecord(self.inputs)))
+
+    @property
+    def failure(self) -> str:
+        """How many measured points have no prediction; empty if all have one."""
+        return str(page.calibration_failure(self.data) or "")
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield the misfit point by point, parameters, correlations and points left out."""
+        yield from page.calibration_parts(self.data)
+
+    def table(self) -> Table:
+        """Return the parameters with their intervals."""
+        return page.parameter_table(self.data)
+
+    def figures(self) -> Iterator[tuple[str, Figure]]:
+        """Yield the fit beside the measurement, its residuals, and the profiles of parameters."""
+        from gripscale.questions.calibration.charts import calibration_pictures
+
+        for picture in calibration_pictures(self.data):
+            yield picture.name, picture.figure
+
+    def page_content(self) -> Page:
+        """Return the law, the points, and how well they determine the law."""
+        return page.calibration_page(self.data, self.findings)
+
+
+def calibrate(
+    case: Case,
+    measured: MeasuredFriction | str | Path | None = None,
+    *,
+    model: str | None = None,
+    law: str = "gaussian",
+    fixed: Mapping[str, float] | None = None,
+    hold_out: str | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+) -> Calibration:
+    """Predict the hysteresis of a case at each measured point and fit an area term beside it.
+
+    Parameters
+    ----------
+    case : Case
+        An area term of its own has no part in it.
+    measured : MeasuredFriction or path, optional
+        Measured friction, or a table of it; that of the case by default.
+    model : str, optional
+        "direct" or "chain": what predicts the hysteresis and the real contact area; by default
+        the direct contact where a surface was measured.
+    law, fixed, hold_out
+        As for `gripscale.questions.fit_area_term`.
+    folder : path, optional
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
+    workers, client, on_task
+        As for `gripscale.experiment.Bench`.
+
+    Raises
+    ------
+    InputError, FileError
+        As `fit_area_term` and the models do; if the case has no measured friction; if it refuses
+        extrapolation and a point excites the rubber beyond its measured frequencies.
+    """
+    if model is not None:
+        checks.one_of("model", model, _MODELS)
+    laws.check_names(law, fixed or ())
+    model = model or default_model(case)
+    friction = measured_of(case, measured)
+    laws.refuse_unfit(friction, law, fixed or {})
+    if hold_out is not None:
+        groups_of(hold_out, friction.speed, friction.temperature)
+    rubber, surface = case.rubber, case.surface
+    if case.chain.extrapolate == "refuse":
+        for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
+            warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
+            require_measured(warm, surface.sines.wavelength, float(speed))
+    predicting = case.chain if model == "chain" else DirectContact(conditions=case.conditions)
+    with bench_in(folder, workers, client, on_task) as bench:
+        design = measured_design(friction, predicting, rubber, surface, case.load)
+        predicted = predicted_of(solve_design(design, bench))
+    fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+    data = fit.to_dataset().assign_attrs(
+        case.attributes, case_file=case.origin.name, model=model, notes="\n".join(notes(fit))
+    )
+    if far := speed_doubts(friction, case.load.speed):
+        data.attrs[INPUT_DOUBTS] = "\n".join(far)
+    # its speeds have a doubt of their own
+    loads = [replace(case.load, pressure=float(p)) for p in predicted.pressure]
+    doubts = friction_doubts(friction, case.load.speed)
+    result = Calibration(data, record.inputs(case, loads=loads, friction_notes=doubts))
+    result.fit = fit
+    return result
+
+
+def measured_of(case: Case, measured: MeasuredFriction | str | Path | None) -> MeasuredFriction:
+    """Return measured friction, read from a table, or that of the case.
+
+    Raises `InputError` if there is none, `FileError` if it cannot be read.
+    """
+    if isinstance(measured, str | Path):
+        return read_measured_friction(Path(measured))
+    if measured is None and case.friction is None:
+        raise InputError(
+            f"{case.name}: [measured] friction must name a table of measured friction; got none"
+        )
+    return measured or case.friction  # type: ignore[return-value]
