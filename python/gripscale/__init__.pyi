@@ -26,6 +26,8 @@ from .questions.calibration.question import Calibration as Calibration
 from .questions.calibration.question import calibrate as calibrate
 from .questions.cut_off.question import CutOff as CutOff
 from .questions.cut_off.question import cut_off as cut_off
+from .questions.design.question import CompoundDesign as CompoundDesign
+from .questions.design.question import design as design
 from .questions.result import Result as Result
 from .questions.result import load as load
 from .questions.sensitivity.question import Sensitivity as Sensitivity

@@ -98,3 +98,14 @@ def test_no_module_imports_itself_through_others() -> None:
         free |= ready
     circles = {name: sorted(uses - free) for name, uses in arrows.items() if name not in free}
     assert circles == {}
+
+
+def test_pages_and_examples_of_the_package_are_links() -> None:
+    """One text in a clone; a wheel holds copies."""
+    for folder in (
+        PACKAGE / "pages",
+        PACKAGE / "case_file" / "data",
+        PACKAGE / "case_file" / "cases",
+    ):
+        copies = [path.name for path in folder.rglob("*.*") if not path.is_symlink()]
+        assert copies == []

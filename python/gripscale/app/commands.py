@@ -39,7 +39,6 @@ COMMANDS = (
         "What each assumption of the chain costs, against the direct contact.",
         (FormField("--rungs", "models", "waves,measured,theory"),),
     ),
-    Form("design", "Design of a compound", "Most friction for each rolling resistance."),
     *forms(),
 )  # fmt: skip
 """In the order of the page."""

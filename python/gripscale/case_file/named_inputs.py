@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -140,3 +140,14 @@ def _path(kind: str, value: Any, file: CaseFile, names: tuple[str, ...]) -> Path
     raise FileError(
         f"{kind} {value} is neither a file here or beside the case nor one of {', '.join(names)}"
     )
+
+
+def names_of(arguments: Sequence[str]) -> list[str]:
+    """Return what files and cases are called, cases by their folder, each name once."""
+    names: list[str] = []
+    for text in arguments:
+        path = Path(text)
+        name = path.resolve().parent.name if path.name == "case.toml" else path.stem
+        count = sum(other == name or other.startswith(f"{name} ") for other in names)
+        names.append(f"{name} {count + 1}" if count else name)
+    return names

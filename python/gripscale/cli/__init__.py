@@ -16,7 +16,6 @@ import typer
 from typer.core import TyperGroup
 
 from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces_command
-from gripscale.cli.design import design
 from gripscale.cli.docs import docs
 from gripscale.cli.experiments import study
 from gripscale.cli.export import export
@@ -56,7 +55,6 @@ app.command("init")(init)
 app.command("new")(new)
 app.command("run")(run)
 app.command("compare")(compare)
-app.command("design")(design)
 app.command("report")(report_command)
 app.command("study")(study)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)

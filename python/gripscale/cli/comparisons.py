@@ -207,17 +207,6 @@ def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     return chosen
 
 
-def names_of(arguments: Sequence[str]) -> list[str]:
-    """Return what files and cases are called, cases by their folder, each name once."""
-    names: list[str] = []
-    for text in arguments:
-        path = Path(text)
-        name = path.resolve().parent.name if path.name == "case.toml" else path.stem
-        count = sum(other == name or other.startswith(f"{name} ") for other in names)
-        names.append(f"{name} {count + 1}" if count else name)
-    return names
-
-
 @command
 def compare_surfaces_command(
     surfaces: Annotated[
@@ -244,7 +233,7 @@ def compare_surfaces_command(
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
     from gripscale.case_file import read_case, read_case_file
-    from gripscale.case_file.named_inputs import read_surface
+    from gripscale.case_file.named_inputs import names_of, read_surface
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.questions.vary.charts_side_by_side import road_pictures
@@ -312,7 +301,7 @@ def compare_rubbers(
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
     from gripscale.case_file import read_case, read_case_file
-    from gripscale.case_file.named_inputs import read_rubber
+    from gripscale.case_file.named_inputs import names_of, read_rubber
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.charts.write import draw
     from gripscale.core.units import temperature_in_kelvin

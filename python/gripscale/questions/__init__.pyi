@@ -30,11 +30,12 @@ from .compare.ladder import Rung as Rung
 from .compare.ladder import SampleSpec as SampleSpec
 from .cut_off.question import CutOff as CutOff
 from .cut_off.question import cut_off as cut_off
-from .design.compound_design import design_compound as design_compound
 from .design.compound_limits import CompoundLimits as CompoundLimits
 from .design.compound_limits import PointLimit as PointLimit
 from .design.design_text import designed_rubber as designed_rubber
 from .design.goal_friction import CompoundGoal as CompoundGoal
+from .design.question import CompoundDesign as CompoundDesign
+from .design.question import design as design
 from .inputs.charts_of_rubber import finite_strain_figure as finite_strain_figure
 from .inputs.charts_of_rubber import master_curve_figure as master_curve_figure
 from .inputs.charts_of_rubber import shift_figure as shift_figure

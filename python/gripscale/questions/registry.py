@@ -24,6 +24,7 @@ ROOMS = [
     "gripscale.questions.answer",
     "gripscale.questions.uncertainty",
     "gripscale.questions.sensitivity",
+    "gripscale.questions.design",
     "gripscale.questions.cut_off",
     "gripscale.questions.calibration",
 ]

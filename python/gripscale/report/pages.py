@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import replace
 
 import xarray as xr
 
@@ -12,21 +11,18 @@ from gripscale.charts.draw import image
 from gripscale.charts.page_elements import words_of
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.model import FRICTION_OUTSIDE_BAND
-from gripscale.questions.answer import findings
 from gripscale.questions.chain import findings as notices
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.run_page import run_page
 from gripscale.questions.compare.page import comparison_page
 from gripscale.questions.compare.stored import Compared
-from gripscale.questions.design import page as design
-from gripscale.questions.design.charts import design_pictures
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page as study
 from gripscale.questions.vary import page_side_by_side as side_by_side
 from gripscale.questions.vary.charts import study_charts
 from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section, Text
 from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure, explained
@@ -57,7 +53,6 @@ def page_of(source: ReportSource) -> Page:
         "study": study_page,
         "compounds": compounds_page,
         "roads": roads_page,
-        "design": design_page,
     }
     return pages[source.kind](source)
 
@@ -173,24 +168,3 @@ def compounds_page(source: StudySource) -> Page:
             rerun_section(data.attrs),
         ],
     )
-
-
-def design_page(source: StudySource) -> Page:
-    """Return the report of a compound that was designed."""
-    data, case = source.data, case_name(source.data.attrs)
-    answer_line, *basis = design.design_lines(data)
-    tables = [design.design_table(data), design.designed_compounds_table(data)]
-    page = Page.of(
-        f"Compound for {case or 'a case'}",
-        answer_line,
-        findings.case_notices(None, source.record),
-        design.design_cards(data),
-        [
-            Section(
-                "curve", "Friction over rolling resistance", [*map(image, design_pictures(data))]
-            ),
-            Section("points", "Points of the curve", [each for each in tables if each is not None]),
-            rerun_section(data.attrs),
-        ],
-    )
-    return replace(page, basis=[line.strip() for line in basis])

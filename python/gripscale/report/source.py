@@ -64,19 +64,16 @@ def read_result(path: Path) -> ReportSource:
     if result_class(str(tree.attrs.get(KIND, ""))) is not None:
         result: Result = load(path)
         return result
-    names, kind = set(tree.variables), ""
-    if "rolling_ratio" in names:
-        kind = "design"
-    else:
-        require_totals(tree, path)
-        if "rung" in tree.dims:
-            return Compared.holding([tree.to_dataset()])
-        if {"model", "surface"} <= set(tree.dims):
-            kind = "roads"
-        elif "total_friction_difference" in names:
-            kind = "compounds"
-        elif tree["total_friction"].ndim:
-            kind = "study"
+    require_totals(tree, path)
+    if "rung" in tree.dims:
+        return Compared.holding([tree.to_dataset()])
+    kind = ""
+    if {"model", "surface"} <= set(tree.dims):
+        kind = "roads"
+    elif "total_friction_difference" in tree.variables:
+        kind = "compounds"
+    elif tree["total_friction"].ndim:
+        kind = "study"
     if not kind:
         return run_of({path.stem: tree})
     data = with_best_estimate(tree.to_dataset())

@@ -24,7 +24,7 @@ from gripscale.half_space.sampling_error import (
 )
 from gripscale.io import netcdf
 from gripscale.model import Load
-from gripscale.questions import design_compound, designed_rubber
+from gripscale.questions import designed_rubber
 from gripscale.questions.design import compound_design
 from gripscale.questions.design.charts import design_figure
 from gripscale.questions.design.compound_gain import gain
@@ -64,7 +64,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def data(case):
-    return design_compound(read_case(case), case.parent / "stored", levels=LEVELS)
+    return gs.design(read_case(case), folder=case.parent / "stored", levels=LEVELS).data
 
 
 def test_the_page_begins_with_the_gain(case, data):
@@ -141,12 +141,12 @@ def test_stored_points_are_not_solved_again(case, data, monkeypatch):
         raise AssertionError("solved again")
 
     monkeypatch.setattr(compound_design, "best_change", refuse)
-    again = design_compound(read_case(case), case.parent / "stored", levels=LEVELS)
+    again = gs.design(read_case(case), folder=case.parent / "stored", levels=LEVELS).data
     np.testing.assert_array_equal(again.modulus_ratio.values, data.modulus_ratio.values)
     np.testing.assert_array_equal(again.gain.values, data.gain.values)
     wider = CompoundLimits(largest_factor=3.0)
     with pytest.raises(AssertionError, match="solved again"):
-        design_compound(read_case(case), case.parent / "stored", levels=LEVELS, limits=wider)
+        gs.design(read_case(case), folder=case.parent / "stored", levels=LEVELS, limits=wider)
 
 
 def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
@@ -160,7 +160,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
         return replace(design, ratio=0.9 + 0.1 * design.ratio)
 
     monkeypatch.setattr(compound_design, "nearest_design", worse)
-    worst = design_compound(read_case(case), tmp_path, levels=LEVELS)
+    worst = gs.design(read_case(case), folder=tmp_path, levels=LEVELS).data
     assert worst.rolling_level.values.tolist() == [0.8]
     assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
     lines = list(design_lines(worst))
@@ -168,7 +168,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
     assert "still with friction" not in lines[0]  # the only point is not said twice
     assert "more rolling resistance than -20 % gives no more friction" in lines[1]
     monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
-    again = design_compound(read_case(case), tmp_path, levels=LEVELS)
+    again = gs.design(read_case(case), folder=tmp_path, levels=LEVELS).data
     np.testing.assert_array_equal(again.gain.values, worst.gain.values)
 
 
@@ -195,9 +195,9 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
 
     short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
     others = {"short": replace(SHIFTED_RUBBER, shift=short)}
-    data = design_compound(
-        read_case(tmp_path / "case.toml"), tmp_path, levels=[1.0], rubbers=others
-    )
+    data = gs.design(
+        read_case(tmp_path / "case.toml"), folder=tmp_path, levels=[1.0], rubbers=others
+    ).data
     assert np.isfinite(data.compound_gain).all()
     assert np.isnan(data.compound_rolling_ratio).all()
     assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
@@ -213,7 +213,7 @@ def test_wider_limits_are_worth_what_is_said(case, data, tmp_path, which):
         CompoundLimits(factor, 1.1 * per_decade),
         CompoundLimits(factor, per_decade, (replace(stiff, low=0.9 / 1.1, high=1.21),)),
     ][which]
-    more = design_compound(read_case(case), tmp_path, levels=[1.0], limits=wider)
+    more = gs.design(read_case(case), folder=tmp_path, levels=[1.0], limits=wider).data
     gained = np.log1p(float(more.gain_optimum[0])) - np.log1p(float(point.gain_optimum))
     # second order in a tenth; the contacts of the search start elsewhere
     assert float(point.limit_worth[which]) == pytest.approx(gained, rel=0.2, abs=1e-3)
@@ -267,16 +267,16 @@ def test_frequencies_on_the_figure_keep_apart(data):
 
 def test_no_level_within_the_limits_is_refused(case, tmp_path):
     with pytest.raises(InputError, match="levels must include one above"):
-        design_compound(read_case(case), tmp_path, levels=[0.01])
+        gs.design(read_case(case), folder=tmp_path, levels=[0.01])
     stiff = CompoundLimits(points=[PointLimit("storage_modulus", 3.0, 4.0)])
     with pytest.raises(InputError, match="limits must leave an admissible change"):
-        design_compound(read_case(case), tmp_path, limits=stiff)
+        gs.design(read_case(case), folder=tmp_path, limits=stiff)
 
 
 def test_limits_that_today_does_not_keep(case, tmp_path):
     """A stiffer rubber is asked for: the search starts outside and ends inside."""
     stiff = CompoundLimits(points=[PointLimit("storage_modulus", 1.2, 1.5)])
-    data = design_compound(read_case(case), tmp_path, levels=[1.0], limits=stiff)
+    data = gs.design(read_case(case), folder=tmp_path, levels=[1.0], limits=stiff).data
     assert float(data.limited_ratio[0, 0]) == pytest.approx(1.2, abs=1e-4)
 
 
@@ -287,14 +287,14 @@ def test_a_goal_on_another_road(case, tmp_path):
     smooth = read_surface(str(tmp_path / "smooth.txt"), read_case_file(case))
     goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road="smooth")]
     free = CompoundLimits(points=[])
-    data = design_compound(
+    data = gs.design(
         read_case(case),
-        tmp_path,
+        folder=tmp_path,
         goals=goals,
         levels=[1.0],
         limits=free,
         roads={"smooth": smooth},
-    )
+    ).data
     assert data.sizes["limit"] == 0
     rough, mild = data.today_friction.values
     assert mild < 0.8 * rough

@@ -42,7 +42,7 @@ def design_pictures(data: xr.Dataset) -> Iterator[Picture]:
 def design_figure(data: xr.Dataset) -> Figure:
     """Draw the trade-off curve of a design, and moduli, loss factor and change of some points.
 
-    `data` is that of `gripscale.questions.design_compound`.
+    `data` is that of `gripscale.design`.
     """
     points = _drawn_points(data)
     panels = [

@@ -30,7 +30,6 @@ from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
 from gripscale.io import netcdf
-from gripscale.io.folders import make_folder
 from gripscale.questions.design.compound_gain import gain, series_derivatives, series_error
 from gripscale.questions.design.compound_limits import CompoundLimits, changed, require_shift
 from gripscale.questions.design.compound_search import (
@@ -76,70 +75,31 @@ class Reference:
         )
 
 
-def design_compound(
+def solved_design(
     case: Case,
-    folder: str | Path,
+    folder: Path | None,
     *,
-    goals: Sequence[CompoundGoal] = (),
-    limits: CompoundLimits | None = None,
-    levels: Sequence[float] = (),
-    rubbers: Mapping[str, Any] | None = None,
-    roads: Mapping[str, Any] | None = None,
-    workers: int | None = None,
-    on_point: OnPoint | None = None,
-) -> xr.Dataset:
-    """Return the trade-off curve of a case: friction against rolling resistance of new compounds.
+    goals: Sequence[CompoundGoal],
+    limits: CompoundLimits | None,
+    levels: Sequence[float],
+    rubbers: Mapping[str, Any] | None,
+    roads: Mapping[str, Any] | None,
+    workers: int | None,
+    on_point: OnPoint | None,
+) -> tuple[xr.Dataset, xr.Dataset]:
+    """Return numbers and inputs of `gripscale.design`, whose arguments these are.
 
-    Small strain, direct contact, hysteresis alone: of the conditions of the case only the
-    temperature counts.
-
-    Parameters
-    ----------
-    case
-        The case, or its file: road, today's compound, load and temperature are taken from it.
-    folder
-        Gets `design.nc` after each point; points it has already are not solved again.
-    goals : sequence of CompoundGoal, optional
-        Where friction is wanted; by default at the load of the case. A road is "case" or whatever
-        `gripscale compare-surfaces` takes.
-    limits : CompoundLimits, optional
-        How far the compound may be changed.
-    levels : sequence of float, optional
-        Largest loss factors at the rolling condition over today's [-]; by default today's, four
-        down to the least that the limits admit, and 1.15 and 1.3. Those below the least are left
-        out, and those that give no more friction than a lower one.
-    rubbers : mapping, optional
-        Other compounds by what they are called, as for `compare_compounds`.
-    roads : mapping, optional
-        Surfaces of the goals by the names that the goals use.
-    workers : int, optional
-        Threads; one per core by default.
-    on_point : callable, optional
-        Called with the Dataset of each point as it is solved or read.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %), friction,
-        moduli and master curve; over `compound` the other compounds; today's values without
-        either.
-
-    Raises
-    ------
-    InputError, FileError, ConvergenceError
-        If the case, a goal or a limit cannot be used, a temperature needs a shift that the rubber
-        does not have, or today's compound has no friction.
+    A folder gets `design.nc` after each point.
     """
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     key = _key(case, problem, wanted, rubbers or {})
-    target = Path(folder) / DESIGN_FILE
-    make_folder(target.parent)
-    stored, fruitless = _stored_points(target, key)
+    stored, fruitless = _stored_points(folder, key)
     reference = Reference.of(problem.friction)
     base = today(problem, reference.contacts, DESIGN_TOLERANCE).assign_attrs(
         case.attributes,
         case_file=case.origin.name,
+        kind="design",
         design_key=key,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
     )
@@ -171,10 +131,11 @@ def design_compound(
         if not bool(point.rolling_reached):
             fruitless |= {higher for higher in rising if higher > level}
         data = _joined(base, points).assign_attrs({FRUITLESS: json.dumps(sorted(fruitless))})
-        netcdf.save(data, target, {"inputs": of_inputs})
+        if folder is not None:
+            netcdf.save(data, folder / DESIGN_FILE, {"inputs": of_inputs})
         if rises and on_point is not None:
             on_point(point)
-    return data
+    return data, of_inputs
 
 
 def _solved_point(
@@ -298,9 +259,9 @@ def _key(
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]
 
 
-def _stored_points(target: Path, key: str) -> tuple[dict[float, xr.Dataset], set[float]]:
+def _stored_points(folder: Path | None, key: str) -> tuple[dict[float, xr.Dataset], set[float]]:
     """Return the points of an earlier run of the same design by level, and levels without one."""
-    stored = load_stored(target)
+    stored = None if folder is None else load_stored(folder / DESIGN_FILE)
     if stored is None or stored.attrs.get("design_key") != key:
         return {}, set()
     names = [name for name, variable in stored.data_vars.items() if "point" in variable.dims]

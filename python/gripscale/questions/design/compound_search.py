@@ -271,7 +271,7 @@ def design_problem(
     workers: int | None = None,
     surfaces: Mapping[str, Any] | None = None,
 ) -> DesignProblem:
-    """Return the problem that a case, goals and limits make; arguments as `design_compound`."""
+    """Return the problem that a case, goals and limits make; arguments as `gripscale.design`."""
     rubber = case.rubber
     if not rubber.moduli.size:
         raise InputError("a design needs a rubber that relaxes; got an elastic one")

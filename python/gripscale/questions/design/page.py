@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import xarray as xr
 
+from gripscale.charts.draw import image
+from gripscale.core.finding import Finding
 from gripscale.io.table import Column, Table, change, fixed, significant
-from gripscale.questions.design.charts import SAME
+from gripscale.questions.design.charts import SAME, design_pictures
 from gripscale.questions.design.compound_design import FRUITLESS
 from gripscale.questions.design.compound_search import ROLLING_LEVEL
 from gripscale.questions.design.design_text import (
@@ -19,7 +21,8 @@ from gripscale.questions.design.design_text import (
     changed_frequencies,
     rolling_at_todays_friction,
 )
-from gripscale.report.elements import Card
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Page, Section
 
 DECIDES = 1e-3
 """Friction gained by a tenth more room from which a limit decides."""
@@ -203,3 +206,28 @@ def _rolling(value: float) -> str:
 
 def _share(value: float) -> str:
     return f"{100.0 * value:.0f} %"
+
+
+def design_tables(data: xr.Dataset) -> list[Table]:
+    """Return the points of a design, then the other compounds, if there are any."""
+    compounds = designed_compounds_table(data)
+    return [design_table(data), *([] if compounds is None else [compounds])]
+
+
+def design_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
+    """Return the page of a design: the curve, then its points."""
+    answer, *basis = design_lines(data)
+    return Page.of(
+        f"Compound for {case_name(data.attrs) or 'a case'}",
+        answer,
+        findings,
+        design_cards(data),
+        [
+            Section(
+                "curve", "Friction over rolling resistance", [*map(image, design_pictures(data))]
+            ),
+            Section("points", "Points of the curve", design_tables(data)),
+            rerun_section(data.attrs),
+        ],
+        (line.strip() for line in basis),
+    )

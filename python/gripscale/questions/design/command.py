@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.cli.comparisons import names_of
 from gripscale.terminal import CasePath, OwnFolder, Workers, command, option, print_wrapped
 
 if TYPE_CHECKING:
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @command
-def design(
+def design_command(
     case: CasePath,
     goal: Annotated[
         list[str] | None,
@@ -65,12 +64,7 @@ def design(
     Resumes where it was stopped.
     """
     from gripscale.case_file import folder, read_case, read_case_file
-    from gripscale.case_file.named_inputs import read_rubber, read_surface
-    from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.write import draw
-    from gripscale.questions.answer.findings import case_notices
-    from gripscale.questions.design.charts import design_pictures
-    from gripscale.questions.design.compound_design import DESIGN_FILE, design_compound
+    from gripscale.case_file.named_inputs import names_of, read_rubber, read_surface
     from gripscale.questions.design.compound_limits import CompoundLimits
     from gripscale.questions.design.compound_search import default_goal
     from gripscale.questions.design.design_text import (
@@ -79,13 +73,11 @@ def design(
         parse_limit,
         write_targets,
     )
-    from gripscale.questions.design.page import design_lines, design_table, designed_compounds_table
-    from gripscale.questions.inputs.page_record import InputRecord
+    from gripscale.questions.design.question import design
 
     file = read_case_file(case)
     read = read_case(file)
     points = None if not limit else tuple(parse_limit(text) for text in limit)
-    limits = CompoundLimits(largest_factor, factor_per_decade, points)
     goals = [parse_goal(text, default_goal(read)) for text in goal or ()]
     wanted = [] if levels is None else parse_levels(levels)
     others = list(rubber or ())
@@ -98,33 +90,20 @@ def design(
         rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
         print_wrapped(console, f"tan δ when rolling {rolling:+.1%}: friction {gain:+.1%}")
 
-    data = design_compound(
+    result = design(
         read,
-        target,
         goals=goals,
-        limits=limits,
+        limits=CompoundLimits(largest_factor, factor_per_decade, points),
         levels=wanted,
         rubbers={
             name: read_rubber(value, file)
             for name, value in zip(names_of(others), others, strict=True)
         },
         roads={road: read_surface(road, file) for road in sorted({goal.road for goal in goals})},
+        folder=target,
         workers=workers,
         on_point=print_point,
     )
-    write_targets(data, target)
-    compounds = designed_compounds_table(data)
-    figures = FigureFolder(target, file.case.output.figures)
-    terminal.conclude(
-        console,
-        target,
-        [design_table(data), *([] if compounds is None else [compounds])],
-        results=[data],
-        lead=list(design_lines(data)),
-        warnings=case_notices(None, InputRecord.of_file(target / DESIGN_FILE)),
-        text="design.txt",
-        closing=f"Result ({DESIGN_FILE}), figure, and master curve, Prony series and rubber of "
-        "each point (target_*) are in",
-        draw=lambda: draw(design_pictures(data), figures),
-        page=DESIGN_FILE,
-    )
+    write_targets(result.data, target)
+    contents = "figure, and master curve, Prony series and rubber of each point (target_*)"
+    terminal.finish(console, target, result, file, "design.txt", contents, drawings="", page=True)

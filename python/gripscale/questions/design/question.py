@@ -1,0 +1,132 @@
+"""What compound is better: more friction on a measured road for a given rolling resistance.
+
+result = gs.design(case, levels=[0.9, 1.0, 1.1])
+result.data.gain
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gripscale.case import Case
+from gripscale.core.finding import Finding
+from gripscale.io.folders import make_folder
+from gripscale.io.table import Table
+from gripscale.questions.answer.findings import case_notices
+from gripscale.questions.design import page
+from gripscale.questions.design.compound_design import OnPoint, solved_design
+from gripscale.questions.design.compound_limits import CompoundLimits
+from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.result import Result
+from gripscale.report.elements import Page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class CompoundDesign(Result):
+    """The trade-off curve of a case: friction of new compounds against rolling resistance."""
+
+    kind = "design"
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """Friction gained at the same rolling resistance, what decides it and what it rests on."""
+        return tuple(page.design_lines(self.data))
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        """What may change the design, the most important first."""
+        return tuple(case_notices(None, InputRecord(self.inputs)))
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield the points of the curve, then other compounds."""
+        yield from page.design_tables(self.data)
+
+    def table(self) -> Table:
+        """Return the points of the curve."""
+        return page.design_table(self.data)
+
+    def figures(self) -> Iterator[tuple[str, Figure]]:
+        """Yield friction over rolling resistance, and the master curves."""
+        from gripscale.questions.design.charts import design_pictures
+
+        for picture in design_pictures(self.data):
+            yield picture.name, picture.figure
+
+    def page_content(self) -> Page:
+        """Return the curve and its points."""
+        return page.design_page(self.data, self.findings)
+
+
+def design(
+    case: Case,
+    *,
+    goals: Sequence[CompoundGoal] = (),
+    limits: CompoundLimits | None = None,
+    levels: Sequence[float] = (),
+    rubbers: Mapping[str, Any] | None = None,
+    roads: Mapping[str, Any] | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    on_point: OnPoint | None = None,
+) -> CompoundDesign:
+    """Return the trade-off curve of a case: friction of new compounds by rolling resistance.
+
+    Small strain, direct contact, hysteresis alone: of the conditions of the case only the
+    temperature counts.
+
+    Parameters
+    ----------
+    case : Case
+        Road, today's compound, load and temperature.
+    goals : sequence of CompoundGoal, optional
+        Where friction is wanted; by default at the load of the case.
+    limits : CompoundLimits, optional
+        How far the compound may be changed.
+    levels : sequence of float, optional
+        Largest loss factors at the rolling condition over today's [-]; by default today's, four
+        down to the least that the limits admit, and 1.15 and 1.3. A level below the least is left
+        out, and one that gives no more friction than a lower one.
+    rubbers : mapping, optional
+        Other compounds by name, to be compared with the curve.
+    roads : mapping, optional
+        Surfaces of the goals by the names that the goals use.
+    folder : path, optional
+        Keeps `design.nc` after each point: what was interrupted resumes.
+    workers : int, optional
+        Threads; one per core by default.
+    on_point : callable, optional
+        Called with the Dataset of each point as it is solved or read.
+
+    Returns
+    -------
+    CompoundDesign
+        Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %), friction,
+        moduli and master curve; over `compound` the other compounds; today's values without
+        either.
+
+    Raises
+    ------
+    InputError, FileError, ConvergenceError
+        If the case, a goal or a limit cannot be used, a temperature needs a shift that the rubber
+        does not have, or today's compound has no friction.
+    """
+    target = None if folder is None else Path(folder)
+    if target is not None:
+        make_folder(target)
+    data, inputs = solved_design(
+        case,
+        target,
+        goals=goals,
+        limits=limits,
+        levels=levels,
+        rubbers=rubbers,
+        roads=roads,
+        workers=workers,
+        on_point=on_point,
+    )
+    return CompoundDesign(data, inputs)
