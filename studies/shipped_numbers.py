@@ -14,8 +14,8 @@ from typing import Any
 
 import xarray as xr
 
+import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.questions import compare_case
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.page import number_and_interval
 from gripscale.questions.compare.page import best_line
@@ -36,7 +36,7 @@ def of_run() -> dict[str, Any]:
 
 def of_comparison() -> dict[str, Any]:
     """Return what `gripscale compare` estimates, and what the chain has of it."""
-    data: xr.Dataset = compare_case(read_case(CASE)).to_dataset()
+    data: xr.Dataset = gs.compare(read_case(CASE)).to_dataset()
     return {"compare": best_line(data)}
 
 

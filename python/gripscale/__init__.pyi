@@ -24,6 +24,8 @@ from .questions.answer.answer import Answer as Answer
 from .questions.answer.answer import answer as answer
 from .questions.calibration.question import Calibration as Calibration
 from .questions.calibration.question import calibrate as calibrate
+from .questions.compare.question import Comparison as Comparison
+from .questions.compare.question import compare as compare
 from .questions.cut_off.question import CutOff as CutOff
 from .questions.cut_off.question import cut_off as cut_off
 from .questions.design.question import CompoundDesign as CompoundDesign
@@ -33,6 +35,8 @@ from .questions.result import load as load
 from .questions.sensitivity.question import Sensitivity as Sensitivity
 from .questions.sensitivity.question import sensitivity as sensitivity
 from .questions.uncertainty.question import uncertainty as uncertainty
+from .questions.vary.question import Variation as Variation
+from .questions.vary.question import vary as vary
 from .rubber import MasterCurve as MasterCurve
 from .rubber import Rubber as Rubber
 from .rubber import fit_prony as fit_prony

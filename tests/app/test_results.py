@@ -20,7 +20,7 @@ from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.report import source
 from gripscale.report.elements import Element, Text
-from gripscale.report.pages import page_of
+from gripscale.report.source import page_of
 
 from .conftest import CASE
 

@@ -13,7 +13,7 @@ from gripscale import surface
 from gripscale.case_file import read_case, read_case_file, run_case
 from gripscale.cli import app
 from gripscale.io import netcdf
-from gripscale.questions import Study, compare_over
+from gripscale.questions import Study
 from tests.samples import HALF_PLANE, case_text, write_road
 
 CASE = case_text('files = ["road.txt"]\nscales = 3\n{end}', solver=HALF_PLANE, static=False)
@@ -150,6 +150,6 @@ def write(case: Path, end: str) -> Path:
 def test_numbers_are_still_an_axis_of_numbers(case: Path) -> None:
     assert Study(read_case(case), vary={"cut_off": "0.5 mm:1 mm:log3"}).axes[0].numeric
     with pytest.raises(gs.InputError, match="varies cut_off by numbers; got instrument"):
-        compare_over(read_case(case), {"cut_off": "instrument,1 mm"})
+        gs.compare(read_case(case), vary={"cut_off": "instrument,1 mm"})
     with pytest.raises(gs.InputError, match="cut_off = 'dust': expected a length"):
         Study(read_case(case), vary={"cut_off": "dust"})

@@ -12,11 +12,11 @@ from gripscale.case_file import prepare_surface, read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
 from gripscale.chain import Chain
 from gripscale.charts.figure_folder import FigureFolder
-from gripscale.charts.write import surface_figures
 from gripscale.core.errors import InputError
 from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact
 from gripscale.model import Load
+from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import surface_lines
 from gripscale.theory import HalfPlane
 from tests.half_space.rough_cases import ZENER, isotropic_heights

@@ -21,9 +21,7 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.model import INPUT_DOUBTS, Load, load_doubts
 from gripscale.questions import (
     Study,
-    compare_case,
     compare_compounds,
-    compare_over,
     compare_surfaces,
 )
 from gripscale.questions.answer.answer import answer
@@ -267,7 +265,7 @@ def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any
 
 def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
     misread = write(tmp_path, dma=dma_text(60.0, "0.2"))
-    ladder = compare_case(read_case(misread), rungs=["direct"]).data
+    ladder = gs.compare(read_case(misread), rungs=["direct"]).data
     roads = compare_surfaces(
         read_case(misread), {"a": "case", "b": "case"}, tmp_path / "roads", samples=None
     )
@@ -363,7 +361,7 @@ def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) 
         tmp_path / "study", workers=1
     )
     assert study.attrs[INPUT_DOUBTS].startswith("Speed = 1e+06 m/s is not between")
-    over = compare_over(read_case(file), {"speed": "1,1e6"}, rungs=["persson"]).data
+    over = gs.compare(read_case(file), vary={"speed": "1,1e6"}, rungs=["persson"]).data
     assert over.attrs[INPUT_DOUBTS] == study.attrs[INPUT_DOUBTS]
 
 

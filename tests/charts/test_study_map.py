@@ -10,13 +10,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.charts.figure_folder import FigureFolder
-from gripscale.charts.write import draw_study
-from gripscale.io import netcdf
 from gripscale.model import TOTALS
-from gripscale.questions import friction_master_figure, map_figure
+from gripscale.questions import Variation, friction_master_figure, map_figure
+from gripscale.questions.vary.charts import study_figures
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, with_master_curve
-from gripscale.report import write_report
 from gripscale.rubber import WLF, Rubber
 from tests.samples import DOCS
 
@@ -88,20 +85,15 @@ def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
     assert len({mpl.colors.to_hex(one.get_color()) for one in friction.lines}) == 3
 
 
-def test_both_are_among_the_figures_of_a_study(study: xr.Dataset, tmp_path: Path) -> None:
-    draw_study(study, FigureFolder(tmp_path))
-    assert {path.stem for path in tmp_path.glob("*.png")} == {
-        "totals",
-        "map",
-        "friction_master_curve",
-    }
-    (alone := tmp_path / "alone").mkdir()
-    draw_study(study.isel(temperature=[0]), FigureFolder(alone))
-    assert {path.stem for path in alone.glob("*.png")} == {"totals", "friction_master_curve"}
+def test_both_are_among_the_figures_of_a_study(study: xr.Dataset) -> None:
+    names = {name for name, _ in study_figures(study)}
+    assert names == {"totals", "map", "friction_master_curve"}
+    alone = {name for name, _ in study_figures(study.isel(temperature=[0]))}
+    assert alone == {"totals", "friction_master_curve"}
 
 
 def test_page_shows_celsius_and_one_curve(study: xr.Dataset, tmp_path: Path) -> None:
-    page = write_report(netcdf.save(study, tmp_path / "study.nc")).read_text(encoding="utf-8")
+    page = Variation(study).page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "40 °C lies beyond the temperatures of the shift" in page
     assert "friction over a_T v" in page
     assert "one curve, temperatures up to" in page

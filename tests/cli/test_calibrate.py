@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+import gripscale as gs
 from gripscale.case_file import prepare_conditions, read_case, read_case_file
 from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
-from gripscale.questions import calibrate
 from gripscale.questions.calibration.calibration_text import parse_fixed
 from gripscale.questions.calibration.charts import fitted_figure, profiles_figure, residual_figure
 from gripscale.questions.calibration.page import calibration_lines
@@ -104,7 +104,7 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     assert isinstance(conditions.shear_stress, GaussianStress)
     assert vars(conditions.shear_stress) == pytest.approx(vars(fitted), rel=1e-5)
     # with its own area term in the case, the fit is the same
-    again = calibrate(read_case(written), model="chain", folder=target)
+    again = gs.calibrate(read_case(written), model="chain", folder=target)
     assert again.law == fitted
 
 
@@ -171,7 +171,7 @@ def test_what_needs_no_prediction_is_refused_before_any(case: Path, tmp_path: Pa
         ({"law": "constant", "hold_out": "temperature"}, "needs the temperature of every point"),
     ):
         with pytest.raises(InputError, match=sentence):
-            calibrate(read_case(short), model="chain", on_task=pytest.fail, **options)
+            gs.calibrate(read_case(short), model="chain", on_task=pytest.fail, **options)
 
 
 def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:
@@ -182,7 +182,7 @@ def test_a_case_that_refuses_extrapolation(case: Path, tmp_path: Path) -> None:
     too_fast.write_text("speed,friction\n0.1,0.9\n1e9,0.9\n1,0.9\n")
     strict.write_text(text.replace("synthetic_friction.csv", str(too_fast)))
     with pytest.raises(ExtrapolationError):
-        calibrate(read_case(strict), model="chain", law="constant")
+        gs.calibrate(read_case(strict), model="chain", law="constant")
 
 
 @pytest.mark.parametrize(

@@ -16,13 +16,10 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
-from gripscale.charts.figure_folder import FigureFolder
-from gripscale.charts.write import draw_comparison
 from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
-from gripscale.questions import compare_case, compare_over
 from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.direct_contact import (
     direct_contact_totals,
@@ -30,12 +27,16 @@ from gripscale.questions.answer.direct_contact import (
 )
 from gripscale.questions.answer.samples import curve_at
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.compare.charts import comparison_axis_figure, comparison_figure
+from gripscale.questions.compare.charts import (
+    comparison_axis_figure,
+    comparison_figure,
+    comparison_figures,
+)
 from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.questions.compare.page import comparison_table, judgement, remarks
 from gripscale.questions.compare.stored import Compared
-from gripscale.report.pages import page_of
+from gripscale.report.source import page_of
 from tests.samples import Shell
 
 FORMATS = ("png",)
@@ -106,13 +107,11 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
 
 
 @pytest.mark.parametrize("group", ["waves", "measured", "theory", "windows"])
-def test_rungs_of_any_group_alone_are_drawn(
-    comparison: tuple[str, Path], tmp_path: Path, group: str
-) -> None:
+def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group: str) -> None:
     data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(rung=[4])
     data = data.assign_coords(group=("rung", [group]))
     for octaves in (data, data.isel(wavelength=slice(0))):  # maps and blocks have no octaves
-        draw_comparison(octaves, FigureFolder(tmp_path))
+        assert next(name for name, _ in comparison_figures(octaves)) == "comparison"
         labels = [row.label for row in rows_of(octaves, "friction")]
         assert labels[0].startswith(str(data.label.item(0)))
         assert len(page_of(Compared.holding([octaves])).charts) >= 2
@@ -139,7 +138,7 @@ def test_factors_lead_from_the_chain_to_the_profile_as_measured(
 def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     results = read_case(inputs / "case.toml")
     asked = ["chain_half_plane", "direct"]
-    made = compare_case(results, seeds=1, tolerance=0.02, rungs=asked)
+    made = gs.compare(results, seeds=1, tolerance=0.02, rungs=asked).ladder
     means = made.data.total_friction
     measured = results.surface.measured
     assert measured is not None
@@ -183,7 +182,7 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
         "scales = 3\ns_wavelength = 3", 'scales = 4\ntop_height_fraction = 0.5\ncut_off = "4 mm"'
     )
     results = read_case(case)
-    direct = compare_case(results, rungs=["direct"], tolerance=0.02).data.isel(rung=0)
+    direct = gs.compare(results, rungs=["direct"], tolerance=0.02).data.isel(rung=0)
     measured = results.surface.measured
     assert measured is not None
     load = {"pressure": 3e5, "speed": 0.3}
@@ -191,13 +190,13 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
         results.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
     )
     assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-9)
-    upper = compare_case(results, rungs=["chain_upper"]).data.squeeze("rung")
+    upper = gs.compare(results, rungs=["chain_upper"]).data.squeeze("rung")
     own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
     chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
     assert float(upper.total_friction) == pytest.approx(chain.friction, rel=1e-6)
     assert float(upper.total_contact_fraction) == pytest.approx(chain.contact_fraction, rel=1e-6)
     case.write_text(case.read_text() + "[chain]\npressure_classes = 4\n")
-    rungs = compare_case(read_case(case), rungs=["waves"]).data
+    rungs = gs.compare(read_case(case), rungs=["waves"]).data
     assert rungs.rung.values.tolist() == ["chain_half_plane", "sines"]
     own |= {"points": 128, "pressure_classes": 4}
     chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
@@ -220,7 +219,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     }
     data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
     assert data.total_friction.dims == ("speed", "rung")
-    alone = compare_case(read_case(inputs / "case.toml"), rungs=["direct"]).data.isel(rung=0)
+    alone = gs.compare(read_case(inputs / "case.toml"), rungs=["direct"]).data.isel(rung=0)
     assert data.total_friction.sel(speed=0.3, rung="direct") == alone.total_friction
     friction = comparison_axis_figure(data).axes[1]
     lines = [line.get_ydata() for line in friction.lines if len(line.get_ydata()) == 2]
@@ -267,7 +266,7 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     )
     case.write_text(case.read_text().replace("scales = 3", "scales = 6"))  # below the cut-off
     (case.parent / "mu.csv").write_text(MEASURED)
-    made = compare_case(read_case(case), rungs=["theory"])
+    made = gs.compare(read_case(case), rungs=["theory"]).ladder
     assert made.measured is not None
     assert [rung.name for rung in made.rungs] == ["persson", "klueppel_heinrich"]
     theory = made.data.sel(rung="klueppel_heinrich")
@@ -291,14 +290,14 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case.write_text(WAVES_BY_HAND)
     results = read_case(case)
     assert solve_direct_contact(results) is None
-    rungs = compare_case(results, seeds=1).rungs
+    rungs = gs.compare(results, seeds=1).ladder.rungs
     assert [rung.name for rung in rungs] == ["chain_half_plane", "sines"]
 
 
 def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND.replace("speed = 0.3", "speed = 0.0"))
-    data = compare_case(read_case(case), seeds=2).to_dataset()
+    data = gs.compare(read_case(case), seeds=2).to_dataset()
     assert data.attrs["display_units"] == json.dumps(read_case_file(case).units)
     assert (data.total_friction == 0.0).all()
     assert np.isnan(data.friction_uncertainty).all()
@@ -318,9 +317,7 @@ def test_what_was_measured_is_refused_before_anything_is_solved(
     (tmp_path / "mu.csv").write_text("speed [m/s],friction\n0.1,none\n")
     options: dict[str, Any] = {"rungs": ["chain_half_plane"], "on_task": pytest.fail}
     with pytest.raises(FileError, match=r"mu\.csv"):
-        compare_case(read_case(case), **options) if vary is None else compare_over(
-            read_case(case), vary, **options
-        )
+        gs.compare(read_case(case), vary=vary, **options)
 
 
 def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) -> None:
@@ -331,9 +328,9 @@ def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) ->
 
 
 def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
-    made = compare_case(
+    made = gs.compare(
         read_case(inputs / "case.toml"), seeds=1, rungs=["chain_half_plane", "direct"]
-    )
+    ).ladder
     direct = made.rungs[1]
     second = made.samples.isel(sample=[0])
     second["prediction_status"] = second.prediction_status.where(False, "tolerance not met")
@@ -341,7 +338,7 @@ def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
     samples["prediction_status"].values[0] = ["tolerance not met", ""]
     broken = replace(made, samples=samples)
     assert not broken.converged
-    data = broken.to_dataset()
+    data = broken.data
     assert np.isnan(data.total_friction.values[0])
     assert data.total_friction[1] == made.data.total_friction[1]
     told = "1 of 2 samples failed: tolerance not met"

@@ -42,7 +42,7 @@ def test_an_unknown_page_is_one_sentence(shell: Shell) -> None:
 def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter() -> None:
     sources = [*ROOT.glob("python/gripscale/**/*.py"), ROOT / "rust" / "status.rs"]
     found = {match for path in sources for match in POINTER.findall(path.read_text("utf-8"))}
-    assert len(found) >= 8
+    assert len(found) >= 7
     for page, heading in found:
         text = pages()[page].read_text(encoding="utf-8")
         assert not heading or heading in anchors(text), f"{page}#{heading}"

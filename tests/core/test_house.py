@@ -100,12 +100,23 @@ def test_no_module_imports_itself_through_others() -> None:
     assert circles == {}
 
 
-def test_pages_and_examples_of_the_package_are_links() -> None:
+def test_pages_and_data_of_the_package_are_links() -> None:
     """One text in a clone; a wheel holds copies."""
-    for folder in (
-        PACKAGE / "pages",
-        PACKAGE / "case_file" / "data",
-        PACKAGE / "case_file" / "cases",
-    ):
+    for folder in (PACKAGE / "pages", PACKAGE / "case_file" / "data"):
         copies = [path.name for path in folder.rglob("*.*") if not path.is_symlink()]
         assert copies == []
+
+
+def test_charts_and_reports_name_no_question() -> None:
+    """But for what finds the page of a folder, and the flat table of answers."""
+    uses = {
+        f"{module} -> {other}"
+        for module, tree in modules().items()
+        for other in imported(module, tree)
+        if module.split(".")[1:2] in (["charts"], ["report"])
+        and other.startswith("gripscale.questions.")
+    }
+    assert {use.split(" -> ")[0] for use in uses} <= {
+        "gripscale.report.source",
+        "gripscale.report.summary",
+    }

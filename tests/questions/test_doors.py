@@ -15,6 +15,16 @@ from tests.samples import Shell
 
 FRICTION = "friction.csv"
 QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
+    "comparison": (
+        lambda case, **options: gs.compare(case, rungs=["waves", "measured"], **options),
+        ["compare", "--rungs", "waves,measured"],
+        "comparison.nc",
+    ),
+    "study": (
+        lambda case, **options: gs.vary(case, speed=[0.1, 0.3], **options),
+        ["study", "--vary", "speed=0.1,0.3"],
+        "study.nc",
+    ),
     "sensitivity": (gs.sensitivity, ["sensitivity"], "sensitivity.nc"),
     "cut_off": (
         lambda case, **options: gs.cut_off(case, down_to=1e-3, **options),

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import gripscale as gs
 from gripscale.case_file import read_case, run_case
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
-from gripscale.questions import Factor, LogNormalValue, compare_case
+from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.vary.axis import axes_of
 from tests.samples import COARSE_BLOCK, case_text, three_waves, write_maxwell, write_road
 
@@ -137,6 +138,7 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         },
     )
     data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
+    data.attrs["kind"] = "study"
     return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")
 
 
@@ -146,7 +148,7 @@ def compared(run_folder: Path) -> list[xr.Dataset]:
     results = read_case(run_folder.parent / "case.toml")
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
     options: dict[str, Any] = {"rungs": ["chain_half_plane", "direct", "persson"]}
-    made = compare_case(results, measured=measured, tolerance=0.2, **options)
+    made = gs.compare(results, measured=measured, tolerance=0.2, **options).ladder
     factors = [
         Factor(
             "finite_strain", "finite strain", LogNormalValue(1.02, 0.01), LogNormalValue(0.98, 0.1)
@@ -163,7 +165,7 @@ def compared(run_folder: Path) -> list[xr.Dataset]:
         failed[name].values[1, 1] = "tolerance not met"
     both = xr.concat([made.samples, failed], "speed")
     over = replace(alone, axis=axis, setups=setups, samples=both)
-    return [alone.to_dataset(), over.to_dataset()]
+    return [data.assign_attrs(kind="comparison") for data in (alone.data, over.data)]
 
 
 @pytest.fixture

@@ -22,8 +22,7 @@ from gripscale.charts.chart import (
     ShadedBand,
     ValueMap,
 )
-from gripscale.report.pages import page_of
-from gripscale.report.source import read_result
+from gripscale.report.source import page_of, read_result
 
 X = np.array([1.0, 2.0, 4.0])
 MARKS = [

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,7 @@ from gripscale.case_file import read_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.core.status import Status
 from gripscale.io import netcdf
-from gripscale.questions import Study
+from gripscale.questions import Study, Variation
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.vary.charts import study_charts
 from gripscale.report import source as results
@@ -88,10 +87,9 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
 def test_inputs_of_a_study_are_read_from_its_attributes(study_file: Path) -> None:
     """Whatever the text of its case says."""
     source = results.read_result(study_file)
-    assert isinstance(source, results.StudySource)
+    assert isinstance(source, Variation)
     attrs = {"display_units": '{"pressure": "kPa"}', "case": "no = toml = at all"}
-    changed = replace(source, data=source.data.assign_attrs(attrs))
-    load = input_sections(changed)[0].elements[0]
+    load = input_sections(source.data.assign_attrs(attrs))[0].elements[0]
     assert isinstance(load, Facts)
     facts = dict(load.pairs)
     assert (facts["Nominal pressure"], facts["Footprint"]) == ("300 kPa", "100 mm")

@@ -36,6 +36,10 @@ from gripscale.app.elements import (
 )
 from gripscale.app.runs import AppRun, Runs
 from gripscale.app.uploads import file_upload
+from gripscale.charts.chart import Panel, PlotAxis, Series
+from gripscale.charts.draw import panels_on_page
+from gripscale.charts.page_elements import Chart
+from gripscale.charts.style import INK
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
@@ -43,12 +47,10 @@ from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
-from gripscale.questions.chain.view import SYMBOLS, PredictionView
+from gripscale.questions.chain.view import AXIS_TITLES, HEADINGS, SYMBOLS, PredictionView
 from gripscale.questions.registry import Form, FormField
 from gripscale.report import source
 from gripscale.report.elements import Element, Text
-from gripscale.report.head import with_answer
-from gripscale.report.pages import page_of
 
 POLL = 500
 """Milliseconds between two readings of the events of a run."""
@@ -178,7 +180,7 @@ def answer_elements(run: AppRun) -> PageElements:
         result = source.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
-    page = with_answer(page_of(result), result)
+    page = source.page_of(result)
     numbers = Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
     folded = [Folded(page.notices_folded)] if page.notices_folded else []
     return [*page.errors, numbers, *page.notices_open, *folded]
@@ -256,7 +258,7 @@ NONE_TO_COMPARE = (
     "every other answer has its page in the tab before."
 )
 COMPARED_CHARTS = ("contact-area", "friction")
-"""Figures with one curve a run; the others show one run alone."""
+"""Figures of waves with one curve a run, where no run has an answer."""
 
 
 def all_runs_tab(runs: Runs) -> pn.Column:
@@ -296,8 +298,38 @@ def compared_elements(runs: Runs) -> PageElements:
                 compared.append(ComparedRun(run, replace(view, name=name), direct))
     if not compared:
         return [Text(NONE_TO_COMPARE)]
-    charts = contact_charts([view for _, view, _ in compared])
-    return [runs_table(compared), *(chart for chart in charts if chart.name in COMPARED_CHARTS)]
+    charts = answer_charts(compared)
+    if not charts:
+        of_waves = contact_charts([view for _, view, _ in compared])
+        charts = [chart for chart in of_waves if chart.name in COMPARED_CHARTS]
+    return [runs_table(compared), *charts]
+
+
+def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
+    """Return friction and contact area of the runs with their intervals; nothing without any."""
+    answers = [(view.name, direct) for _, view, direct in compared if direct is not None]
+    if not answers:
+        return []
+    at = np.arange(len(answers), dtype=float)
+    ticks = {float(i): name for i, (name, _) in enumerate(answers)}
+    runs = PlotAxis(low=-0.5, high=len(answers) - 0.5, ticks=ticks)
+    panels = []
+    for name in reversed(SYMBOLS):
+        value = np.array([float(direct[f"best_{name}"]) for _, direct in answers])
+        low, high = np.array([_interval(direct, name) for _, direct in answers], dtype=float).T
+        points = Series(at, value, INK, dash="", marker="o", size=6.0, low=low, high=high)
+        words = f"{HEADINGS[name]} {SYMBOLS[name]}"
+        panels.append(
+            Panel(
+                runs,
+                PlotAxis(f"{AXIS_TITLES[name]} [-]", low=0.0),
+                [points],
+                name=f"answers-{name.replace('_', '-')}",
+                caption=f"The answer of each run: {words}, with its 90 % interval.",
+                alt=f"Points with error bars: {words} of each run.",
+            )
+        )
+    return panels_on_page(panels)
 
 
 def runs_table(compared: Sequence[ComparedRun]) -> Table:

@@ -15,9 +15,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from gripscale.cli.comparisons import compare, compare_rubbers, compare_surfaces_command
 from gripscale.cli.docs import docs
-from gripscale.cli.experiments import study
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.new import new
@@ -54,19 +52,15 @@ app = typer.Typer(
 app.command("init")(init)
 app.command("new")(new)
 app.command("run")(run)
-app.command("compare")(compare)
+for name, question in commands():
+    app.command(name)(question)
 app.command("report")(report_command)
-app.command("study")(study)
 app.command("reproduce", context_settings=PASS_ON)(reproduce)
 app.command("fit-surface")(fit_surface)
 app.command("fit-rubber")(fit_rubber)
-app.command("compare-rubbers")(compare_rubbers)
-app.command("compare-surfaces")(compare_surfaces_command)
 app.command("keys")(keys)
 app.command("docs")(docs)
 app.command("app")(app_command)
-for name, question in commands():
-    app.command(name)(question)
 app.add_typer(export, name="export")
 
 

@@ -198,7 +198,7 @@ def fit_surface(
     print_parts(console, parts)
     if output is not None:
         from gripscale.charts.figure_folder import FigureFolder
-        from gripscale.charts.write import surface_figures
+        from gripscale.questions.inputs.charts_of_surface import surface_figures
 
         make_folder(output)
         surface_figures(prepared, FigureFolder(output, _FIGURES))
@@ -283,8 +283,8 @@ def fit_rubber(
 def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.charts.write import rubber_figures
     from gripscale.io.folders import make_folder, write_text
+    from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 
     make_folder(output)
     rubber_figures(prepared, (), FigureFolder(output, _FIGURES))

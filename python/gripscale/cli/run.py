@@ -122,10 +122,9 @@ def _run(
     """Prepare, solve, print and write a case, with an event for each step."""
     from gripscale.case_file import read_case
     from gripscale.case_file.finished import case_replaced, note_finished
-    from gripscale.charts.background import background_figures
-    from gripscale.charts.write import draw_effects, draw_heat
     from gripscale.questions.chain.events import FileWritten
     from gripscale.questions.chain.run import ChainRun
+    from gripscale.questions.chain.run_figures import background_figures, draw_effects, draw_heat
     from gripscale.report.failures import explained
     from gripscale.report.summary import SUMMARY_FILE as SUMMARY
 

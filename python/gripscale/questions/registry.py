@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 ROOMS = [
     "gripscale.questions.answer",
+    "gripscale.questions.compare",
+    "gripscale.questions.vary",
     "gripscale.questions.uncertainty",
     "gripscale.questions.sensitivity",
     "gripscale.questions.design",

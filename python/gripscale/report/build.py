@@ -16,9 +16,7 @@ from gripscale.charts.bokeh_parts import document
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
 from gripscale.report.elements import Page, with_code
-from gripscale.report.head import with_answer
-from gripscale.report.pages import page_of
-from gripscale.report.source import read_result
+from gripscale.report.source import page_of, read_result
 
 _REPORT = "report.html"
 
@@ -28,7 +26,7 @@ def build(result: Path, output: Path | None) -> Path:
     source = read_result(result)
     if output is None:
         output = (result if result.is_dir() else result.parent) / _REPORT
-    return write(with_answer(page_of(source), source), output)
+    return write(page_of(source), output)
 
 
 def write(page: Page, output: Path) -> Path:

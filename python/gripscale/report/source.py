@@ -1,54 +1,34 @@
-"""What a report is made of: a run with its inputs, a comparison, a study, a calibration, ..."""
+"""What a report is made of: a run with its inputs, comparisons, or the result of a question."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-
-import xarray as xr
 
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
-from gripscale.questions.answer.best_estimate import with_best_estimate
-from gripscale.questions.chain.run_folder import (
-    RunSource,
-    read_run,
-    run_of,
-)
+from gripscale.questions.chain.run_folder import RunSource, read_run, run_of
+from gripscale.questions.chain.run_page import run_page
+from gripscale.questions.compare.page import comparison_page
 from gripscale.questions.compare.stored import (
     KINDS_OF_REPORTS,
     Compared,
     require_totals,
     stored_comparisons,
 )
-from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.registry import result_class
 from gripscale.questions.result import KIND, Result, load
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
-from gripscale.questions.vary.axis import dimensions
+from gripscale.report.elements import Page
+
+ReportSource = RunSource | Compared | Result
 
 
-@dataclass(frozen=True)
-class StudySource:
-    """The Dataset of many predictions.
-
-    `kind` is study, compounds (a study over rubbers, with the differences to the first), roads,
-    sensitivity, cut_off, design, uncertainty or calibration.
-    """
-
-    kind: str
-    name: str
-    data: xr.Dataset
-    record: InputRecord = field(default_factory=lambda: InputRecord(xr.Dataset()))
-    """The record of its inputs, where its command keeps it."""
-
-    @property
-    def axes(self) -> list[str]:
-        """Names of the varied axes."""
-        return dimensions(self.data)
-
-
-ReportSource = RunSource | StudySource | Compared | Result
+def page_of(source: ReportSource) -> Page:
+    """Return the page of a result."""
+    if isinstance(source, RunSource):
+        return run_page(source)
+    return comparison_page(source) if isinstance(source, Compared) else source.page_content()
 
 
 def read_result(path: Path) -> ReportSource:
@@ -65,19 +45,7 @@ def read_result(path: Path) -> ReportSource:
         result: Result = load(path)
         return result
     require_totals(tree, path)
-    if "rung" in tree.dims:
-        return Compared.holding([tree.to_dataset()])
-    kind = ""
-    if {"model", "surface"} <= set(tree.dims):
-        kind = "roads"
-    elif "total_friction_difference" in tree.variables:
-        kind = "compounds"
-    elif tree["total_friction"].ndim:
-        kind = "study"
-    if not kind:
-        return run_of({path.stem: tree})
-    data = with_best_estimate(tree.to_dataset())
-    return StudySource(kind, path.stem, data, InputRecord.of_tree(tree))
+    return run_of({path.stem: tree})
 
 
 def _read_folder(folder: Path) -> ReportSource:

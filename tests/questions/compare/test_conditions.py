@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.io.table import as_text, significant
-from gripscale.questions import Comparison, compare_case, compare_over
+from gripscale.questions import SolvedLadder
 from gripscale.questions.answer.page import basis_lines
 from gripscale.questions.compare.page import comparison_table, remarks
 from gripscale.surface import self_affine_profile
@@ -41,16 +41,19 @@ stress_0 = "2 MPa"
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
+def made(tmp_path_factory: pytest.TempPathFactory) -> SolvedLadder:
     folder = tmp_path_factory.mktemp("conditions")
     line = self_affine_profile(0.8, 5e-3, 0.1e-3, 0.1, 1e-4, seed=4)
     np.savetxt(folder / "road.dat", np.column_stack([line.x, line.z]))
     case = folder / "case.toml"
     case.write_text(CASE, encoding="utf-8")
-    return compare_case(read_case(case), seeds=1, rungs=["chain_half_plane", "direct", "persson"])
+    rungs = ["chain_half_plane", "direct", "persson"]
+    ladder = gs.compare(read_case(case), seeds=1, rungs=rungs).ladder
+    assert ladder is not None
+    return ladder
 
 
-def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
+def test_chain_and_direct_contact_know_every_effect(made: SolvedLadder) -> None:
     (subject,) = made.setups
     alone = gs.solve_rough_contact(
         subject.rubber,
@@ -73,7 +76,7 @@ def test_chain_and_direct_contact_know_every_effect(made: Comparison) -> None:
     )
 
 
-def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
+def test_a_theory_knows_the_temperature_only(made: SolvedLadder) -> None:
     subject, persson = made.setups[0], made.data.sel(rung="persson")
     warm = subject.rubber.at(308.15)
     spectrum = gs.surface.areal_spectrum(
@@ -86,12 +89,12 @@ def test_a_theory_knows_the_temperature_only(made: Comparison) -> None:
     assert persson.total_friction == pytest.approx(alone.friction, rel=1e-9)
     own = 2e6 * alone.contact_fraction / 3e5
     assert persson.total_adhesive_friction == pytest.approx(own, rel=1e-9)
-    data = made.to_dataset()
+    data = made.data
     assert any("Softening: in the chains" in line for line in remarks(data))
 
 
-def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
-    data = made.to_dataset()
+def test_table_and_best_estimate_have_the_area_term(made: SolvedLadder) -> None:
+    data = made.data
     text = as_text(comparison_table(data))
     direct = made.data.sel(rung="direct")
     total = float(direct.total_friction + direct.total_adhesive_friction)
@@ -101,14 +104,14 @@ def test_table_and_best_estimate_have_the_area_term(made: Comparison) -> None:
     assert f"comes on top: μ = {significant(both)} with it" in " ".join(basis_lines(data))
 
 
-def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: Comparison) -> None:
-    over = compare_over(
+def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLadder) -> None:
+    over = gs.compare(
         made.case,
-        {"temperature": "20 C,35 C"},
+        vary={"temperature": "20 C,35 C"},
         seeds=1,
         rungs=["chain_half_plane", "persson"],
     )
-    data = over.to_dataset()
+    data = over.data
     warm = data.sel(temperature=308.15)
     for rung in ("chain_half_plane", "persson"):
         own = float(made.data.total_friction.sel(rung=rung))

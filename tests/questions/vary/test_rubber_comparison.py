@@ -147,7 +147,8 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     text = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
     (tmp_path / "case.toml").write_text(case_text(text, solver=HALF_PLANE))
     compounds = {"one": measured(1.0, 0.02), "lossy": measured(3.0, 0.02)}
-    data = compare_compounds(read_case(tmp_path / "case.toml"), compounds, tmp_path / "out").data
+    result = compare_compounds(read_case(tmp_path / "case.toml"), compounds, tmp_path / "out")
+    data = result.data
     np.testing.assert_allclose(
         data.friction_ratio, data.best_friction / data.best_friction.values[0], rtol=1e-12
     )
@@ -171,7 +172,7 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     assert chain.get_title() == "chain, less reliable"
     best = [text.get_text() for text in ranking.get_xticklabels()]
     assert best == [significant(mu, 2) for mu in data.best_friction.values]
-    page = write_report(tmp_path / "out").read_text()
+    page = result.page(tmp_path / "page.html").read_text()
     assert page.index("μ of lossy") < page.index("Best estimates, from the direct contact")
 
 

@@ -17,7 +17,8 @@ from gripscale.conditions import Conditions, ConstantStress
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.io.table import as_text
-from gripscale.questions import Study, compare_case
+from gripscale.questions import Study
+from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.page import collapse_sentences, shift_sentence, study_table
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
@@ -106,7 +107,7 @@ def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) ->
     """As a comparison does: a model that knows no conditions is given the shifted rubber."""
     case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
     result = Study(read_case(case), {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
-    compared = compare_case(read_case(case), rungs=["persson"]).to_dataset()
+    compared = gs.compare(read_case(case), rungs=["persson"]).to_dataset()
     friction = float(compared.total_friction.sel(rung="persson"))
     assert float(result.total_friction[0]) == pytest.approx(friction, rel=1e-12)
 
@@ -217,7 +218,7 @@ def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -
 
 
 def test_kelvin_from_python_and_units_from_texts() -> None:
-    axis = gs.questions.vary.axis.axes_of({"temperature": [293.15, "40 C"]})[0]
+    axis = axes_of({"temperature": [293.15, "40 C"]})[0]
     assert axis.values == (293.15, 313.15)
     assert axis.labels == ("20 C", "40 C")
 
@@ -228,5 +229,5 @@ def test_command_draws_map_and_master_curve_of_the_direct_contact(shell: Shell, 
     assert result.exit_code == 0, result.output
     figures = {path.stem for path in (case.parent / "results/study/figures").glob("*.png")}
     assert {"map", "friction_master_curve", "totals"} <= figures
-    for words in ("temperature 60 C", "* 60 °C lies beyond", "Over a_T v, friction: cannot be"):
+    for words in ("temperature 60 C", "60 °C lies beyond", "Over a_T v, friction: cannot be"):
         assert words in result.stdout

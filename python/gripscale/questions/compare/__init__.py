@@ -1,1 +1,14 @@
-"""How do the models compare."""
+"""How the models compare: the answer beside the chain and the theories."""
+
+from gripscale.questions.registry import Form, FormField
+
+KINDS = {"comparison": "question:Comparison"}
+COMMANDS = {"compare": "command:compare_command"}
+FORMS = (
+    Form(
+        "compare",
+        "Comparison of models",
+        "What each assumption of the chain costs, against the direct contact.",
+        (FormField("--rungs", "models", "waves,measured,theory"),),
+    ),
+)

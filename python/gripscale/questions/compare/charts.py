@@ -340,3 +340,13 @@ def measured_sheet(
         gap=0.05,
         layout={"sharex": True, "sharey": True},
     )
+
+
+def comparison_figures(data: xr.Dataset) -> Iterator[tuple[str, Figure]]:
+    """Yield the figures of a comparison: its ladder and wavelengths, or all over its axis."""
+    if axis := ladder.varied(data):
+        yield f"over_{axis}", comparison_axis_figure(data)
+        return
+    yield "comparison", comparison_figure(data)
+    if ladder.worth_drawing(ladder.on_the_surface(data)).any():
+        yield "by_wavelength", comparison_wavelength_figure(data)

@@ -17,7 +17,7 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction
-from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import (
@@ -25,10 +25,9 @@ from gripscale.questions.answer.best_estimate import (
     FINITE_STRAIN,
     Factor,
 )
-from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.calibration import measured_comparison
-from gripscale.questions.compare.comparison_dataset import Comparison
+from gripscale.questions.compare.comparison_dataset import SolvedLadder
 from gripscale.questions.compare.ladder import (
     WINDOWS,
     ComparisonSetup,
@@ -56,7 +55,7 @@ FEWEST_WINDOWS = 3
 """Windows whose scatter is believed."""
 
 
-OnStage = Callable[[Comparison], None]
+OnStage = Callable[[SolvedLadder], None]
 """Called with the comparison as it stands, while more samples are solved."""
 
 
@@ -72,98 +71,17 @@ class ComparisonOptions(NamedTuple):
     on_stage: OnStage | None = None
 
 
-def compare_case(
-    case: Case,
-    *,
-    seeds: int = 3,
-    tolerance: float = 0.05,
-    rungs: Sequence[str] = (),
-    measured: MeasuredFriction | None = None,
-    factors: Sequence[Factor] = (),
-    accuracy: float = 0.1,
-    folder: str | Path | None = None,
-    workers: int | None = None,
-    client: Any = None,
-    on_task: OnTask | None = None,
-    on_stage: OnStage | None = None,
-) -> Comparison:
-    """Put the models side by side over the inputs of a case.
+def solved_ladder(
+    case: Case, vary: Mapping[str, Any] | None, choice: ComparisonOptions, bench: Bench
+) -> SolvedLadder:
+    """Return the rungs of a case with their samples, under its load or over a varied input.
 
-    Parameters
-    ----------
-    case : Case
-        The case.
-    seeds : int
-        Random phases drawn of each surface.
-    tolerance : float
-        Estimated relative error of each direct contact.
-    rungs : sequence of str
-        Names and groups of the rungs wanted, see `LADDER`; by default all.
-    measured : MeasuredFriction, optional
-        Friction measured elsewhere; what `[measured] friction` of the case names by default.
-    factors : sequence of Factor
-        Factors of the best estimate known from elsewhere.
-    accuracy : float
-        Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
-        their factor is known to a third of it, or of what the rest of the estimate leaves open.
-    folder : path, optional
-        Keeps each answer as soon as it is there, in `predictions`; what it has is not solved again.
-    workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
-    on_stage : callable, optional
-        Called with the `Comparison` as it stands, while more samples are solved.
-
-    Returns
-    -------
-    Comparison
-        Without a measured profile only the chain and its own waves at once. A sample that did not
-        converge counts in no mean, and its rung says so.
-
-    Raises
-    ------
-    InputError, FileError
-        If an input cannot be used by a model, a result cannot be written, or the case refuses
-        extrapolation and a wave excites the rubber beyond the measured band.
+    Raises `InputError` if an input cannot be used by a model, the case refuses extrapolation and a
+    wave excites the rubber beyond the measured band, or other than one input of numbers is varied.
     """
-    factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
-    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
-    task = Task(case.rubber, case.surface, case.load, case.chain)
-    with bench_in(folder, workers, client, on_task) as bench:
+    if vary is None:
+        task = Task(case.rubber, case.surface, case.load, case.chain)
         return _compared(case, {"": task}, [case.measured_rubber], choice, None, bench)
-
-
-def compare_over(
-    case: Case,
-    vary: Mapping[str, Any],
-    *,
-    seeds: int = 3,
-    tolerance: float = 0.05,
-    rungs: Sequence[str] = (),
-    measured: MeasuredFriction | None = None,
-    factors: Sequence[Factor] = (),
-    accuracy: float = 0.1,
-    folder: str | Path | None = None,
-    workers: int | None = None,
-    client: Any = None,
-    on_task: OnTask | None = None,
-    on_stage: OnStage | None = None,
-) -> Comparison:
-    """Put the models side by side over one varied input of a case, such as the speed.
-
-    Parameters
-    ----------
-    vary : mapping
-        One input of numbers with its values, as for `gripscale.questions.Study`.
-    case, seeds, tolerance, rungs, measured, factors, accuracy, folder
-        As for `compare_case`.
-    workers, client, on_task, on_stage
-        As for `compare_case`.
-
-    Raises
-    ------
-    InputError, FileError
-        As for `compare_case`, and if other than one input of numbers is varied.
-    """
     study = Study(case, vary, static=False, model=Chain.name)
     axis = study.axes[0]
     if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
@@ -173,10 +91,8 @@ def compare_over(
         raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
     if len(axis.values) < 2:
         raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     tasks = {point.label: point.task for point in study.points}
-    with bench_in(folder, workers, client, on_task) as bench:
-        return _compared(case, tasks, study.measured_rubbers, choice, axis, bench)
+    return _compared(case, tasks, study.measured_rubbers, choice, axis, bench)
 
 
 def _compared(
@@ -186,7 +102,7 @@ def _compared(
     choice: ComparisonOptions,
     axis: Axis | None,
     bench: Bench,
-) -> Comparison:
+) -> SolvedLadder:
     """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
     measured = choice.measured or case.friction
     setups = []
@@ -212,7 +128,7 @@ def _compared(
     wanted = chosen(choice.rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
     make = partial(
-        Comparison, case, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
+        SolvedLadder, case, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
     )
     rungs: Sequence[Rung] = quick or wanted
     while True:
@@ -262,7 +178,7 @@ def _design(
     return Design(outer | sizes, points, coords), list(draws)
 
 
-def _windows_left(comparison: Comparison, accuracy: float) -> bool:
+def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     """Return whether more windows would narrow the estimate, and there are more.
 
     Enough are three that converged, with a factor known to a third of the accuracy wanted, or to a
@@ -297,7 +213,7 @@ PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "
 
 
 def at_measured(
-    comparison: Comparison,
+    ladder: SolvedLadder,
     store: str | Path,
     *,
     workers: int | None = None,
@@ -308,7 +224,7 @@ def at_measured(
 
     Parameters
     ----------
-    comparison : Comparison
+    ladder : SolvedLadder
         Under one load, with what was measured.
     store : path
         Folder of the finished predictions.
@@ -326,12 +242,12 @@ def at_measured(
     InputError, FileError
         As `predictions_at`.
     """
-    measured, setup = comparison.measured, comparison.setups[0]
+    measured, setup = ladder.measured, ladder.setups[0]
     if measured is None:
         return None
     designs: dict[str, list[Design]] = {}
     tasks: dict[str, Task] = {}
-    for rung in comparison.rungs:
+    for rung in ladder.rungs:
         if rung.name not in PREDICTING:
             continue
         specs = rung.draws(setup)
@@ -353,4 +269,4 @@ def at_measured(
         predicted[name] = measured_comparison.averaged(samples)
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = measured_comparison.residuals(measured, predicted, law)
-    return data.assign_attrs(comparison.case.attributes, measured_source=measured.source)
+    return data.assign_attrs(ladder.case.attributes, measured_source=measured.source)

@@ -39,8 +39,8 @@ _WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), s
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
-    """The rungs of one case, under one load or over a varied input."""
+class SolvedLadder:
+    """The rungs of one case with their samples, under one load or over a varied input."""
 
     case: Case
     setups: Sequence[ComparisonSetup]
@@ -68,12 +68,8 @@ class Comparison:
         """Everything as a labelled Dataset over the axis and `rung`."""
         return comparison_dataset(self)
 
-    def to_dataset(self) -> xr.Dataset:
-        """Return `data`."""
-        return self.data
 
-
-def comparison_dataset(comparison: Comparison) -> xr.Dataset:
+def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     """Return means, scatter, factors and the best estimate of the rungs of a comparison."""
     samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
     outer = () if axis is None else (axis.name,)
@@ -202,7 +198,7 @@ def comparison_dataset(comparison: Comparison) -> xr.Dataset:
     )
 
 
-def _factor(comparison: Comparison, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+def _factor(comparison: SolvedLadder, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
     """Return the factor from the rung that the one at `at` follows; NaN if it is not there."""
     samples = comparison.samples
     before = comparison.rungs[at].follows

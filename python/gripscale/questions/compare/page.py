@@ -34,7 +34,7 @@ from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import Failure, explained
+from gripscale.report.failures import Failure, explained, first_of
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 TINY = 0.05
@@ -297,3 +297,17 @@ def comparison_elements(compared: Compared) -> list[Element]:
         elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
         elements += axis_charts(data)
     return elements
+
+
+def failed_models(data: xr.Dataset) -> str:
+    """Return which models failed; empty if the best estimate stands without them.
+
+    A failed sample is named in its row.
+    """
+    if bool(data.best_contact_fraction.notnull().all()):
+        return ""
+    failed = [
+        replace(failure, sentence=f"{where} did not converge: {failure}")
+        for where, failure in comparison_failures(data)
+    ]
+    return first_of(failed, data.status.size, "models with all their samples")

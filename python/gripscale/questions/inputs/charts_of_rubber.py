@@ -41,6 +41,9 @@ from gripscale.rubber.superposition import temperatures_in
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from gripscale.charts.figure_folder import Figures
+    from gripscale.rubber.measured_rubber import MeasuredRubber
+
 OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
 CELSIUS = PlotAxis("temperature [°C]")
 KILO = 1e3
@@ -454,3 +457,19 @@ def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number:
         marks,
         test.name,
     )
+
+
+def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: Figures) -> None:
+    """Draw the master curve with the angular frequencies `omega` [rad/s] marked.
+
+    Of sweeps at several temperatures also how they meet, and the shift factors.
+    """
+    sweeps, master, report = prepared.sweeps, prepared.master, prepared.superposition
+    figure = master_curve_sheet(prepared.rubber, master, prepared.fit, omega)
+    figures.save(figure, "master_curve")
+    if sweeps is None or master is None or report is None or len(sweeps) < 2:
+        return
+    figures.save(superposition_sheet(sweeps, master), "superposition")
+    figures.save(superposition_tests_sheet(sweeps, report), "superposition_tests")
+    if isinstance(master.shift, ShiftTable):
+        figures.save(shift_sheet(master.shift, prepared.shift_fits()), "shift")

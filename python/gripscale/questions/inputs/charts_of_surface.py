@@ -38,6 +38,9 @@ from gripscale.surface.profile import HeightMap, Profile
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from gripscale.charts.figure_folder import Figures
+    from gripscale.surface import Surface
+
 DISTANCE, _HEIGHT = PlotAxis("distance $x$ [mm]"), PlotAxis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
 MANY = 500
@@ -296,3 +299,14 @@ def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
         alt="Difference of fitted and measured height difference correlation against lag.",
         height=400,
     )
+
+
+def surface_figures(prepared: Surface, figures: Figures) -> None:
+    """Draw the profiles and their correlation; waves stated by hand have neither."""
+    if prepared.measured is None or prepared.correlation is None:
+        return
+    figures.save(profile_sheet(prepared.measured.profiles), "profile")
+    waves = {f"{len(prepared.sines)} sine waves": prepared.sines}
+    fit = prepared.measured.self_affine
+    figure = correlation_sheet(prepared.correlation, waves, fit)
+    figures.save(figure, "correlation")

@@ -23,6 +23,7 @@ from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, signif
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
 from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
     from gripscale.questions.chain.run_folder import RunSource
     from gripscale.questions.chain.view import PredictionView
-    from gripscale.report.source import StudySource
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
@@ -408,13 +408,13 @@ _CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
 """Effects of the conditions of a study."""
 
 
-def input_sections(study: StudySource) -> list[Section]:
+def input_sections(data: xr.Dataset) -> list[Section]:
     """Return the chapters on the inputs of a study; those its file does not tell of are empty."""
-    data, attrs = study.data, study.data.attrs
+    attrs, axes = data.attrs, dimensions(data)
 
     def quantity(key: str, attribute: str) -> str:
-        if key in study.axes or attribute not in attrs:
-            return _VARIED if key in study.axes else NONE
+        if key in axes or attribute not in attrs:
+            return _VARIED if key in axes else NONE
         return display_unit_of(attrs, key).text(attrs[attribute])
 
     effects = json.loads(attrs.get("conditions", "null")) or {}

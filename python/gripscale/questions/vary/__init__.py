@@ -1,1 +1,41 @@
-"""How does the answer vary with an input."""
+"""How the answer varies: over inputs of a case, from road to road, from compound to compound."""
+
+from gripscale.questions.registry import Form, FormField
+
+SPEEDS = FormField("--vary", "speeds", "0.003:30:log9", "speed=")
+
+KINDS = {
+    "study": "question:Variation",
+    "compounds": "side_by_side:Compounds",
+    "roads": "side_by_side:Roads",
+}
+COMMANDS = {
+    "study": "command:study_command",
+    "compare-rubbers": "command_side_by_side:compare_rubbers",
+    "compare-surfaces": "command_side_by_side:compare_surfaces_command",
+}
+FORMS = (
+    Form("study", "Speed sweep", "Friction and contact area by speed.", (SPEEDS,)),
+    Form(
+        "study",
+        "Map of speed and temperature",
+        "Friction and contact area over both; the rubber needs a shift.",
+        (
+            FormField("--vary", "speeds", "0.003:30:log5", "speed="),
+            FormField("--vary", "temperatures", "0 C:60 C:lin4", "temperature="),
+        ),
+    ),
+    Form(
+        "compare-rubbers",
+        "Compounds on this road",
+        "The rubber of the case beside others, on its road and under its load.",
+        others="compounds",
+    ),
+    Form(
+        "compare-surfaces",
+        "Roads under this rubber",
+        "The road of the case beside others, under its rubber and its load.",
+        (FormField("--samples", "samples", "20"),),
+        others="roads",
+    ),
+)

@@ -17,7 +17,7 @@ import xarray as xr
 
 from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
-from gripscale.charts.page_elements import Chart, is_evidence, telling, words_of
+from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW, RowFlags
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
@@ -32,6 +32,7 @@ from gripscale.questions.vary.axis import (
     of_numbers,
 )
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
+from gripscale.questions.vary.words import is_evidence, telling, words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -491,3 +492,24 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
         "but shift the relaxation times of the rubber.",
         alt=f"{words} against a_T v at every temperature.",
     )
+
+
+def study_figures(result: xr.Dataset) -> Iterator[tuple[str, Figure]]:
+    """Yield totals and, over a single axis, what the waves do; over two axes the page does."""
+    yield "totals", totals_figure(result)
+    if REDUCED_SPEED in result.coords and np.isfinite(result.total_friction.values).any():
+        yield "friction_master_curve", friction_master_figure(result)
+        if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
+            yield "map", map_figure(result)
+    several = [name for name in dimensions(result) if result.sizes[name] > 1]
+    if len(several) != 1 or "wavelength" not in result:
+        return
+    axis = several[0]
+    result = result.isel({name: 0 for name in dimensions(result) if name != axis})
+    if not (result.prediction_status == "converged").any():
+        return
+    yield "wavelength", wavelength_figure(result, axis)
+    if axis in numeric(result):
+        yield "stacked", stacked_figure(result, axis)
+        if "friction_by_decade" in result:
+            yield "decades", decades_figure(result, axis)

@@ -18,6 +18,8 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
+TEMPERATURE = "temperature_K"
+"""Attribute of a comparison of compounds: the temperature that all of them hold for [K]."""
 OF_THE_CASE = "case"
 """What stands for the surface or the rubber of the case itself."""
 _NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.page_elements import is_evidence, telling, words_of
 from gripscale.core.units import MILLI
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
@@ -17,6 +16,7 @@ from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS, believed
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
+from gripscale.questions.vary.words import is_evidence, telling, words_of
 from gripscale.report.failures import Failure
 
 _MOST_ROWS = 200
@@ -84,12 +84,8 @@ def study_table(data: xr.Dataset) -> Table:
 
 
 def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the table and the sentences below it: extrapolation, temperatures over a_T v."""
+    """Yield the predictions as a table, and how far temperatures over a_T v are one curve."""
     yield study_table(data)
-    yield from filter(None, [study_sentence(data)])
-    shifted = shift_sentence(data)
-    if shifted:
-        yield f"* {shifted}"
     yield from (f"Over a_T v, {words}: {text}." for words, text in collapse_sentences(data))
 
 

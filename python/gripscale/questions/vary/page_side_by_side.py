@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
 from gripscale.chain.chain import Chain
+from gripscale.charts.draw import image
 from gripscale.charts.style import power_of_ten
+from gripscale.core.finding import Finding
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
@@ -18,10 +20,25 @@ from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of, status_w
 from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.inputs.page import texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
-from gripscale.questions.vary.rubber_comparison import TEMPERATURE
+from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
+from gripscale.questions.vary.inputs import TEMPERATURE
+from gripscale.questions.vary.page_of_study import count_cards, study_findings, study_sections
+from gripscale.report.again import rerun_section
+from gripscale.report.elements import Card, Element, Page, Section, Text
+from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure
+from gripscale.rubber import Rubber
 
 _RATIOS = {"friction": "friction", "contact_fraction": "contact area"}
+_ROADS = (
+    "The same rubber under the same load on each road: in the chain of its sine waves, and in the "
+    "direct contact of its whole profile. A range holds 90 % of what other stretches of the same "
+    "road might give. A difference is significant if its range does not contain zero."
+)
+_COMPOUNDS = (
+    "Each compound on the same road under the same load. A range is what the measured moduli leave "
+    "open. A difference is significant if its range does not contain zero."
+)
 CHAIN_RANKS_NOTHING = (
     "The chain solves the sine waves of the road one by one and leaves out how they meet in the "
     "contact. It says where a difference may come from; the ranking is that of the direct contact."
@@ -324,3 +341,65 @@ def _reasons(data: xr.Dataset) -> Sequence[str]:
             f"{power_of_ten(power + 1)} s"
         )
     return reasons
+
+
+def ratio_cards(data: xr.Dataset, dim: str) -> Iterator[Card]:
+    """Yield friction of each over that of the first, with its interval."""
+    if "friction_ratio" not in data:
+        return
+    names = [str(name) for name in data[dim].values]
+    for i, name in enumerate(names[1:], start=1):
+        ratio = float(data["friction_ratio"].values[i])
+        low, high = ratio_ends(data, "friction", i)
+        interval = f"{significant(low)} to {significant(high)} (90 %)" if math.isfinite(low) else ""
+        label = f"{SYMBOLS['friction']} of {name}"
+        yield Card(label, f"× {significant(ratio)}", f"that of {names[0]}; {interval}".rstrip("; "))
+
+
+def roads_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
+    """Return the page of roads side by side."""
+    statistics, friction = map(image, road_pictures(data))
+    sentences = [*roads_sentences(data), *str(data.attrs.get("notes", "")).splitlines()]
+    tables: list[Element] = [Text(_ROADS), *roads_tables(data), *map(Text, sentences), friction]
+    return Page.of(
+        f"Roads side by side: {', '.join(data.surface.values.tolist())}",
+        str(data.attrs.get("title", "")),
+        findings,
+        ratio_cards(data, "surface"),
+        [
+            Section("roads", "Contact and friction", tables),
+            Section("statistics", "The roads", [statistics]),
+            rerun_section(data.attrs),
+        ],
+        _basis(data, "surface"),
+    )
+
+
+def compounds_page(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Page:
+    """Return the page of compounds side by side: differences, then what a study has."""
+    names = [str(name) for name in data.rubber.values]
+    best = believed_table(data, "rubber", "compound")
+    tables: list[Element] = [*filter(None, [best]), Text(_COMPOUNDS), compounds_table(data)]
+    tables += map(Text, compounds_sentences(data))
+    tables += map(image, compound_pictures(data, rubbers))
+    curves, *inputs = study_sections(data)
+    return Page.of(
+        f"Compounds side by side: {', '.join(names)}",
+        str(data.attrs.get("title", "")),
+        study_findings(data),
+        [*ratio_cards(data, "rubber"), *count_cards(data)],
+        [
+            Section("compounds", "Contact and friction", tables),
+            *inputs,
+            curves,
+            method_section(),
+            rerun_section(data.attrs),
+        ],
+        _basis(data, "rubber"),
+    )
+
+
+def _basis(data: xr.Dataset, dim: str) -> list[str]:
+    """Return the ratios in words, where there are any."""
+    lines = ratio_lines(data, dim) if "friction_ratio" in data else ()
+    return [line.strip() for line in lines]

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,14 +32,14 @@ from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
-from gripscale.experiment.solve import Bench, OnTask
-from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.experiment.solve import Bench, OnTask, bench_in
+from gripscale.experiment.task import Task
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
-from gripscale.io import netcdf
 from gripscale.model import input_doubts
 from gripscale.questions.answer.best_estimate import with_best_estimate
-from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
+from gripscale.questions.vary.inputs import TEMPERATURE, measured_rubber_of, reading_notes
+from gripscale.questions.vary.side_by_side import Compounds
 from gripscale.questions.vary.study import Study
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.theory.half_plane import HalfPlane
@@ -105,10 +105,6 @@ def at_one_temperature(
         together[name] = rubber.at(wanted)
         shifted.append(f"{name} shifted from {_celsius(before)} to {_celsius(wanted)}")
     return together, (*shifted, *temperature_doubts(together))
-
-
-TEMPERATURE = "temperature_K"
-"""Attribute of a comparison of compounds: the temperature that all of them hold for [K]."""
 
 
 def _celsius(kelvin: float) -> str:
@@ -216,27 +212,14 @@ def ranges(
     }
 
 
-_RESULT = "compounds.nc"
 _POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
-
-
-@dataclass(frozen=True)
-class Compounds:
-    """Compounds that were compared."""
-
-    rubbers: dict[str, Rubber]
-    """The rubbers as they were solved, at one temperature."""
-    notes: tuple[str, ...]
-    """What is to be said of their temperatures."""
-    data: xr.Dataset
-    """A study over `rubber`, with ranges and differences; kept in compounds.nc."""
 
 
 def compare_compounds(
     case: Case,
     rubbers: Mapping[str, Any],
-    folder: str | Path,
+    folder: str | Path | None = None,
     *,
     temperature: float | None = None,
     uncertainty: bool = True,
@@ -253,8 +236,8 @@ def compare_compounds(
         Two to six compounds by what they are called; the others are compared with the first. Each
         is a `Rubber`, "case", a rubber known by name, another case, or a file of moduli, read with
         what the case says of its own where it does not say itself.
-    folder
-        Gets predictions and `compounds.nc`; what it has already is not solved again.
+    folder : path, optional
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
     temperature : float, optional
         Where they are compared [K]; by default the temperature of the case's conditions, or one
         all of them have or can be shifted to.
@@ -295,8 +278,8 @@ def compare_compounds(
     study = Study(case, vary, static=False, model=Chain.name)
     data = study.run(folder, workers=workers, on_task=_of_model(study, on_task))
     if uncertainty:
-        bench = Bench(Store(Path(folder) / PREDICTIONS), workers)
-        data = data.assign(_ranges(study, data, bench))
+        with bench_in(folder, workers) as bench:
+            data = data.assign(_ranges(study, data, bench))
     data = data.assign(_believed(data if best is None else with_best_estimate(best), data))
     loads = [point.task.load for point in study.points]
     data = data.assign(_differences(data)).assign_attrs(
@@ -306,9 +289,7 @@ def compare_compounds(
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     if kelvins[0] is not None and len({*kelvins}) == 1:
         data = data.assign_attrs({TEMPERATURE: kelvins[0]})
-    return Compounds(
-        together, notes, netcdf.load_dataset(netcdf.save(data, Path(folder) / _RESULT))
-    )
+    return Compounds(data)
 
 
 def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:

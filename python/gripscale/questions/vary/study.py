@@ -36,8 +36,8 @@ from gripscale.experiment.design import (
     basis_numbers,
     variable_attributes,
 )
-from gripscale.experiment.solve import Bench, OnTask, Progress
-from gripscale.experiment.task import PREDICTIONS, Store, Task, canonical_json, load_stored
+from gripscale.experiment.solve import Bench, OnTask, Progress, bench_in
+from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
 from gripscale.io import netcdf
@@ -249,7 +249,7 @@ class Study:
 
     def run(
         self,
-        folder: str | Path,
+        folder: str | Path | None = None,
         *,
         workers: int | None = None,
         client: Any = None,
@@ -259,7 +259,7 @@ class Study:
 
         Parameters
         ----------
-        folder
+        folder : path, optional
             Gets `study.nc`, and the predictions in `predictions`. Several studies may share one
             folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
@@ -276,13 +276,15 @@ class Study:
         InputError, FileError
             An input that cannot be used, a result that cannot be written.
         """
-        folder = Path(folder)
-        bench = Bench(Store(folder / PREDICTIONS), workers, client, on_task)
-        data = self.stored(folder)
-        if data is not None and self._all_there(data, bench):
+        with bench_in(folder, workers, client, on_task) as bench:
+            data = None if folder is None else self.stored(folder)
+            if data is not None and self._all_there(data, bench):
+                return data
+            answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
+            data = self.assemble(answers).assign_attrs(kind="study")
+        if folder is None:
             return data
-        answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
-        return netcdf.load_dataset(netcdf.save(self.assemble(answers), folder / STUDY_FILE))
+        return netcdf.load_dataset(netcdf.save(data, Path(folder) / STUDY_FILE))
 
     def stored(self, folder: str | Path) -> xr.Dataset | None:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""

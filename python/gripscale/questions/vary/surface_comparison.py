@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -39,11 +39,10 @@ from gripscale.experiment.design import (
     surface_numbers,
     variable_attributes,
 )
-from gripscale.experiment.solve import Bench, OnTask
-from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.experiment.task import Task
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
-from gripscale.io import netcdf
 from gripscale.model import STATUS, STATUS_WORD, Load, Model, input_doubts
 from gripscale.model import TOTALS as OF_ALL
 from gripscale.questions.answer.best_estimate import with_best_estimate
@@ -53,6 +52,7 @@ from gripscale.questions.uncertainty.sampling import draws
 from gripscale.questions.uncertainty.sources import SOURCES, SourceOptions
 from gripscale.questions.vary import rubber_comparison
 from gripscale.questions.vary.inputs import model_of, reading_notes, surface_of
+from gripscale.questions.vary.side_by_side import Roads
 from gripscale.questions.vary.study import UPPER_HEIGHT
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
@@ -227,7 +227,6 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
     return out
 
 
-_RESULT = "surfaces.nc"
 _POINTS = 128
 """Points of the half-planes that tell the range: only ratios of theirs count."""
 _TOLERANCE = 2.0 * JUDGED_TO
@@ -240,22 +239,10 @@ SAMPLES = 20
 SEED = 0
 
 
-@dataclass(frozen=True)
-class Roads:
-    """Roads that were compared."""
-
-    surfaces: dict[str, Surface]
-    """The roads as they were solved."""
-    notes: tuple[str, ...]
-    """How a road was read, why it has no range or no direct contact."""
-    data: xr.Dataset
-    """Over `model` and `surface`; kept in surfaces.nc."""
-
-
 def compare_surfaces(
     case: Case,
     surfaces: Mapping[str, Any],
-    folder: str | Path,
+    folder: str | Path | None = None,
     *,
     samples: int | None = SAMPLES,
     workers: int | None = None,
@@ -271,8 +258,8 @@ def compare_surfaces(
         Two to six roads by what they are called; the others are compared with the first. Each is a
         `Surface`, a `SineStack`, "case", a surface known by name, another case, or a
         profile (of a case on a map, a map), read with all other settings of the case but the crop.
-    folder
-        Gets predictions and `surfaces.nc`; what it has already is not solved again.
+    folder : path, optional
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
     samples : int or None
         Block bootstraps of each road, 10 to 10 000, for the range of its totals; None: no ranges.
     workers, on_task
@@ -329,8 +316,8 @@ def compare_surfaces(
     sizes = {"model": len(_MODELS), "surface": len(roads)}
     sizes["sample"] = 1 if samples is None else REFERENCE + 1 + samples
     design = Design(sizes, points, {"model": list(_MODELS), "surface": list(roads)})
-    bench = Bench(Store(Path(folder) / PREDICTIONS), workers, None, on_task)
-    solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
+    with bench_in(folder, workers, None, on_task) as bench:
+        solved = solve_design(design, bench, road_numbers).assign_attrs(nominal_speed=load.speed)
     words = [value if isinstance(value, str) else name for name, value in surfaces.items()]
     heights = {
         name: road.measured.heights if road.measured else None for name, road in roads.items()
@@ -344,9 +331,7 @@ def compare_surfaces(
         **input_doubts([*roads.values(), case.measured_rubber], [load], case.units),
         **provenance.version_attributes(),
     )
-    return Roads(
-        roads, tuple(notes), netcdf.load_dataset(netcdf.save(data, Path(folder) / _RESULT))
-    )
+    return Roads(data)
 
 
 def _drawn(measurement: Measurement, model: Model, load: Load, samples: int) -> dict[int, Task]:

@@ -1,20 +1,19 @@
-"""Many predictions of one case: a study over its inputs, its uncertainty, a calibration."""
+"""`gripscale study CASE.toml`: the answer over one or two inputs of a case."""
 
 from __future__ import annotations
 
 import json
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.report.failures import first_of
 from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
 
 
 @command
-def study(
+def study_command(
     case: CasePath,
     vary: Annotated[
         list[str],
@@ -47,22 +46,19 @@ def study(
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
     from gripscale.case_file import folder, read_case, read_case_file
     from gripscale.case_file.named_inputs import read_named_inputs
-    from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.io import netcdf
-    from gripscale.io.folders import make_folder
-    from gripscale.questions.answer.best_estimate import with_best_estimate
+    from gripscale.questions.vary import question
     from gripscale.questions.vary.axis import parse_vary
-    from gripscale.questions.vary.page import failed_predictions, study_parts
-    from gripscale.questions.vary.page_of_answer import study_lines
-    from gripscale.questions.vary.study import STUDY_FILE, Study
+    from gripscale.questions.vary.study import Study
 
     pairs = [parse_vary(text) for text in vary]
-    axes = dict(pairs)
+    axes: dict[str, Any] = dict(pairs)
     if len(axes) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
     file = read_case_file(case)
-    axes = read_named_inputs(axes, file)
-    planned = Study(read_case(file), axes, static=static, model=model, tolerance=tolerance)
+    axes = dict(read_named_inputs(axes, file))
+    options: dict[str, Any] = {"static": static, "model": model, "tolerance": tolerance}
+    read = read_case(file)
+    planned = Study(read, axes, **options)
     console, target = terminal.open_folder(file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
@@ -70,31 +66,16 @@ def study(
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
         terminal.print_wrapped(console, line)
-    figures = FigureFolder(target / "figures", file.case.output.figures)
-    make_folder(figures.path)
     folder.save_case(file, target)
-    result = planned.run(
-        target, workers=workers, client=cluster, on_task=terminal.progress_printer(console)
+    result = question.vary(
+        read,
+        **options,
+        **axes,
+        folder=target,
+        workers=workers,
+        client=cluster,
+        on_task=terminal.progress_printer(console),
     )
-    result = with_best_estimate(result)
-    netcdf.save(result, target / STUDY_FILE)
-    drawn = stored is not None and any(figures.path.iterdir())
-
-    def draw_figures() -> None:
-        from gripscale.charts.write import draw_study
-
-        draw_study(result, figures)
-
-    failed, total = failed_predictions(result)
-    terminal.conclude(
-        console,
-        target,
-        list(study_parts(result)),
-        results=[result],
-        lead=list(study_lines(result)),
-        text="study.txt",
-        closing="Result (study.nc), table and figures are in",
-        opening=opening,
-        draw=None if drawn else draw_figures,
-        failure=first_of(failed, total, "predictions"),
+    terminal.finish(
+        console, target, result, file, "study.txt", "table and figures", opening=opening
     )

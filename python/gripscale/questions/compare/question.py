@@ -1,0 +1,172 @@
+"""How the models compare: the answer beside the chain and the theories, with a best estimate.
+
+result = gs.compare(case, rungs=["waves", "measured"])
+result.data.total_friction
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gripscale.case import Case
+from gripscale.core.finding import Finding, ranked
+from gripscale.experiment.measured_friction import (
+    FRICTION_DOUBTS,
+    MeasuredFriction,
+    friction_doubts,
+)
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.io.table import Table, significant
+from gripscale.questions.answer.best_estimate import Factor
+from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
+from gripscale.questions.answer.findings import answer_notices
+from gripscale.questions.answer.page import answer_lines
+from gripscale.questions.chain.findings import friction_notices
+from gripscale.questions.chain.view import SYMBOLS
+from gripscale.questions.compare import page
+from gripscale.questions.compare.charts_of_ladder import varied
+from gripscale.questions.compare.comparison import ComparisonOptions, OnStage, solved_ladder
+from gripscale.questions.compare.comparison_dataset import SolvedLadder
+from gripscale.questions.compare.stored import Compared
+from gripscale.questions.result import Result
+from gripscale.report.elements import Page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class Comparison(Result):
+    """The models side by side over the inputs of a case, under one load or over one input."""
+
+    kind = "comparison"
+    ladder: SolvedLadder | None = None
+    """The rungs with all samples; None of a result that was loaded from a file."""
+
+    @property
+    def axis(self) -> str:
+        """Name of the varied input; empty under one load."""
+        return varied(self.data)
+
+    @property
+    def file(self) -> str:
+        """Name of the result in a results folder."""
+        return f"over_{self.axis}.nc" if self.axis else "comparison.nc"
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The answer and what it rests on; over a varied input its range."""
+        if not self.axis:
+            return tuple(answer_lines(self.data))
+        ranges = []
+        for name, symbol in reversed(SYMBOLS.items()):
+            values = self.data[f"best_{name}"].values
+            if np.isfinite(values).any():
+                low, high = (significant(float(pick(values))) for pick in (np.nanmin, np.nanmax))
+                ranges.append(f"{symbol} = {low} to {high}")
+        text = ", ".join(ranges) or "none"
+        return (f"Answer: {text} over the {self.axis.replace('_', ' ')}",)
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        """Doubts of measured friction, and what may change the answer."""
+        doubts = friction_notices(str(self.data.attrs.get(FRICTION_DOUBTS, "")).splitlines())
+        return tuple(doubts if self.axis else ranked([*doubts, *answer_notices(self.data)]))
+
+    @property
+    def failure(self) -> str:
+        """Which models failed; empty if the best estimate stands without them."""
+        return page.failed_models(self.data)
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield the models with all that qualifies their numbers."""
+        yield from page.comparison_parts(self.data)
+
+    def table(self) -> Table:
+        """Return the models, one a row; over a varied input the friction of each."""
+        if self.axis:
+            return page.axis_table(self.data, self.axis, "friction")
+        return page.comparison_table(self.data)
+
+    def figures(self) -> Iterator[tuple[str, Figure]]:
+        """Yield the ladder and the friction by wavelength, or everything over the varied input."""
+        from gripscale.questions.compare.charts import comparison_figures
+
+        yield from comparison_figures(self.data)
+
+    def page_content(self) -> Page:
+        """Return the models side by side."""
+        return page.comparison_page(Compared.holding([self.data]))
+
+
+def compare(
+    case: Case,
+    *,
+    vary: Mapping[str, Any] | None = None,
+    seeds: int = 3,
+    tolerance: float = 0.05,
+    rungs: Sequence[str] = (),
+    measured: MeasuredFriction | None = None,
+    factors: Sequence[Factor] = (),
+    accuracy: float = 0.1,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+    on_stage: OnStage | None = None,
+) -> Comparison:
+    """Put the models side by side over the inputs of a case.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    vary : mapping, optional
+        One input of numbers with its values, as for `gripscale.questions.Study`.
+    seeds : int
+        Random phases drawn of each surface.
+    tolerance : float
+        Estimated relative error of each direct contact.
+    rungs : sequence of str
+        Names and groups of the rungs wanted, see `LADDER`; by default all.
+    measured : MeasuredFriction, optional
+        Friction measured elsewhere; that of the case by default.
+    factors : sequence of Factor
+        Factors of the best estimate known from elsewhere; under one load only.
+    accuracy : float
+        Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
+        their factor is known to a third of it, or of what the rest of the estimate leaves open.
+    folder : path, optional
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
+    workers, client, on_task
+        As for `gripscale.experiment.Bench`.
+    on_stage : callable, optional
+        Called with the `SolvedLadder` as it stands, while more samples are solved.
+
+    Returns
+    -------
+    Comparison
+        Over `rung`, and what is varied. Without a measured profile only the chain and its own waves
+        at once. A sample that did not converge counts in no mean, and its rung says so.
+
+    Raises
+    ------
+    InputError, FileError
+        If an input cannot be used by a model, a result cannot be written, the case refuses
+        extrapolation and a wave excites the rubber beyond the measured band, or other than one
+        input of numbers is varied.
+    """
+    if vary is None:
+        factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
+    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
+    with bench_in(folder, workers, client, on_task) as bench:
+        ladder = solved_ladder(case, vary, choice, bench)
+    data = ladder.data
+    if doubts := friction_doubts(ladder.measured, case.load.speed):
+        data = data.assign_attrs({FRICTION_DOUBTS: "\n".join(doubts)})
+    result = Comparison(data)
+    result.ladder = ladder
+    return result

@@ -1,0 +1,129 @@
+"""`gripscale compare-surfaces` and `compare-rubbers`: roads or compounds side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gripscale import terminal
+from gripscale.core.errors import InputError
+from gripscale.terminal import OwnFolder, Workers, argument, command, option
+
+
+def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
+    """Return the case the rest is taken from: the one stated, or the first of those given.
+
+    Raises `InputError` if there is none; `what` is taken from it.
+    """
+    chosen = case or next((Path(text) for text in arguments if text.endswith(".toml")), None)
+    if chosen is None:
+        raise InputError(f"--case must be given: {what} are taken from a case")
+    return chosen
+
+
+@command
+def compare_surfaces_command(
+    surfaces: Annotated[
+        list[str],
+        argument(
+            "Two to six roads: files of profiles, cases (their surface), or surfaces known by "
+            "name. The others are compared with the first.",
+            "SURFACE...",
+        ),
+    ],
+    case: Annotated[
+        Path | None,
+        option(
+            "Case whose rubber, load and solver are taken; by default the first case given.",
+            metavar="CASE.toml",
+        ),
+    ] = None,
+    samples: Annotated[
+        int,
+        typer.Option(help="Stretches drawn of each road, for the range of its totals; 0: none."),
+    ] = 20,
+    output: OwnFolder = None,
+    workers: Workers = None,
+) -> None:
+    """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.case_file.named_inputs import names_of, read_surface
+    from gripscale.questions.vary.surface_comparison import compare_surfaces
+
+    file = read_case_file(case_of(surfaces, case, "the rubber and the load"))
+    console, target = terminal.open_folder(file, output, "surfaces")
+    roads = compare_surfaces(
+        read_case(file),
+        {
+            name: read_surface(value, file)
+            for name, value in zip(names_of(surfaces), surfaces, strict=True)
+        },
+        target,
+        samples=samples or None,
+        workers=workers,
+        on_task=terminal.progress_printer(console),
+    )
+    terminal.finish(
+        console, target, roads, file, "surfaces.txt", "tables and figures", drawings="", page=True
+    )
+
+
+@command
+def compare_rubbers(
+    rubbers: Annotated[
+        list[str],
+        argument(
+            "Two to six compounds: files of moduli, cases (their rubber), or rubbers known by "
+            "name. The others are compared with the first.",
+            "RUBBER...",
+        ),
+    ],
+    case: Annotated[
+        Path | None,
+        option(
+            "Case whose road, load and solver are taken; by default the first case given.",
+            metavar="CASE.toml",
+        ),
+    ] = None,
+    temperature: Annotated[
+        str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
+    ] = None,
+    uncertainty: Annotated[
+        bool, typer.Option(help="Predict what each measurement leaves open, too.")
+    ] = True,
+    output: OwnFolder = None,
+    workers: Workers = None,
+) -> None:
+    """Compare compounds on the same road: friction, area, and what makes the difference."""
+    from gripscale.case_file import read_case, read_case_file
+    from gripscale.case_file.named_inputs import names_of, read_rubber
+    from gripscale.core.units import temperature_in_kelvin
+    from gripscale.questions.vary.rubber_comparison import compare_compounds
+
+    chosen = case_of(rubbers, case, "the road and the load")
+    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
+    file = read_case_file(chosen)
+    opening = (
+        "Each compound is predicted first; then the range that the error of its measured moduli "
+        "leaves, on half-planes."
+    )
+    console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
+    compounds = compare_compounds(
+        read_case(file),
+        {
+            name: read_rubber(value, file)
+            for name, value in zip(names_of(rubbers), rubbers, strict=True)
+        },
+        target,
+        temperature=kelvin,
+        uncertainty=uncertainty,
+        workers=workers,
+        on_task=terminal.progress_printer(console),
+    )
+    contents = "table and figures"
+    terminal.finish(
+        console, target, compounds, file, "compounds.txt", contents, drawings="", page=True
+    )

@@ -1,0 +1,116 @@
+"""How the answer varies: friction and contact area over one or two inputs of a case.
+
+result = gs.vary(case, speed=[0.01, 0.1, 1.0], temperature=["0 C", "20 C"])
+result.data.best_friction
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import xarray as xr
+
+from gripscale.case import Case
+from gripscale.core.finding import Finding
+from gripscale.experiment.solve import OnTask
+from gripscale.half_space.model import JUDGED_TO
+from gripscale.io.table import Table
+from gripscale.model import Model
+from gripscale.questions.answer.best_estimate import with_best_estimate
+from gripscale.questions.result import Result
+from gripscale.questions.vary import page, page_of_answer, page_of_study
+from gripscale.questions.vary.study import Study
+from gripscale.report.elements import Page
+from gripscale.report.failures import first_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+class Variation(Result):
+    """Friction and contact area of a case over one or two of its inputs."""
+
+    kind = "study"
+
+    def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
+        super().__init__(with_best_estimate(data), inputs)
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The course of friction and contact area with intervals, and what they rest on."""
+        return tuple(page_of_answer.study_lines(self.data))
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        """Predictions without a result, extrapolation, and notes about the surfaces."""
+        return tuple(page_of_study.study_findings(self.data))
+
+    @property
+    def failure(self) -> str:
+        """Which predictions failed; empty if none did."""
+        failed, total = page.failed_predictions(self.data)
+        return first_of(failed, total, "predictions")
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield the predictions as a table, and how far curves over a_T v agree."""
+        yield from page.study_parts(self.data)
+
+    def table(self) -> Table:
+        """Return the predictions, one a row."""
+        return page.study_table(self.data)
+
+    def figures(self) -> Iterator[tuple[str, Figure]]:
+        """Yield totals and, over a single axis, what the waves do."""
+        from gripscale.questions.vary.charts import study_figures
+
+        yield from study_figures(self.data)
+
+    def page_content(self) -> Page:
+        """Return the predictions, their curves, and the inputs."""
+        return page_of_study.study_page(self.data)
+
+
+def vary(
+    case: Case,
+    *,
+    model: Model | str | None = None,
+    static: bool | None = None,
+    tolerance: float = JUDGED_TO,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
+    on_task: OnTask | None = None,
+    **axes: Any,
+) -> Variation:
+    """Return friction and contact area of a case over one or two of its inputs.
+
+    Parameters
+    ----------
+    case : Case
+        What is not varied is as in the case.
+    model, static, tolerance
+        As for `gripscale.questions.Study`.
+    folder : path, optional
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
+    workers, client, on_task
+        As for `gripscale.experiment.Bench`.
+    **axes
+        One or two inputs with their values, such as `speed=[0.1, 1.0]` [m/s] or
+        `temperature="0 C,20 C"`; see `gripscale.questions.Study` for all.
+
+    Returns
+    -------
+    Variation
+        Per wave and in total, over the varied axes; at rest with the prefix `static_`. A prediction
+        that did not converge has NaN totals and says why in `prediction_status`.
+
+    Raises
+    ------
+    InputError, FileError
+        An input that cannot be used, a result that cannot be written.
+    """
+    study = Study(case, axes, static=static, model=model, tolerance=tolerance)
+    data = study.run(folder, workers=workers, client=client, on_task=on_task)
+    return Variation(data)
