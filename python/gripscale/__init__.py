@@ -4,15 +4,11 @@ From a surface profile and a DMA master curve, through superposed sine waves, to
 viscoelastic contact solution of every wave (Lind & Wangenheim, ASME IMECE2014-37998).
 """
 
-from importlib import import_module
 from typing import Any
 
 import lazy_loader
 
 _lazy, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
-
-_ALIASES = {"rough": "half_space", "interface": "conditions"}
-"""Rooms by the names they had before 0.2."""
 
 
 def __getattr__(name: str) -> Any:
@@ -21,6 +17,4 @@ def __getattr__(name: str) -> Any:
         from gripscale.core.provenance import version_of
 
         return version_of("gripscale")
-    if name in _ALIASES:
-        return import_module(f"{__name__}.{_ALIASES[name]}")
     return _lazy(name)
