@@ -120,3 +120,26 @@ def test_charts_and_reports_name_no_question() -> None:
         "gripscale.report.source",
         "gripscale.report.summary",
     }
+
+
+NO_NAMES = {
+    *("one", "found", "told", "known", "given", "own"),
+    *("place", "stated", "beside", "shown", "left", "such"),
+}
+"""Pronouns and participles: a name is a noun of the field, or a verb for a function."""
+
+
+def test_no_pronoun_or_participle_is_a_name() -> None:
+    named = set()
+    for module, tree in modules().items():
+        for node in ast.walk(tree):
+            name = ""
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                name = node.name
+            elif isinstance(node, ast.arg):
+                name = node.arg
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                name = node.id
+            if name.strip("_") in NO_NAMES:
+                named.add(f"{module}: {name}")
+    assert named == set()

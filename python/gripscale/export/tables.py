@@ -103,7 +103,7 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
     used = {dim for dims in by_dimensions for dim in dims}
     by_dimensions |= {(str(index),): [] for index in data.indexes if str(index) not in used}
     for dims in sorted(by_dimensions, key=len):
-        places = [_place(data, dims, dim) for dim in dims]
+        places = [_place_column(data, dims, dim) for dim in dims]
         columns = [
             Column(name, np.asarray(variable.values).ravel(), unit=_unit(variable))
             for name, variable in ((name, data.variables[name]) for name in by_dimensions[dims])
@@ -117,7 +117,7 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
         yield Table(name, (*places, *columns))
 
 
-def _place(data: xr.Dataset, dims: tuple[str, ...], dim: str) -> Column:
+def _place_column(data: xr.Dataset, dims: tuple[str, ...], dim: str) -> Column:
     """Return where each row stands along one dimension: its coordinate, or a number from 0."""
     along = data.variables.get(dim)
     values = np.arange(data.sizes[dim]) if along is None else along.values

@@ -46,12 +46,8 @@ ANSWER_FILE = "answer.nc"
 """Name of the saved answer in a results folder."""
 
 
-class Answer(Result):
-    """Friction and contact area of a case, with their intervals and what they rest on."""
-
-    kind = "answer"
-    curve: xr.Dataset | None = None
-    """Contact against the cut-off, where the case continues its roughness below the measurement."""
+class NumbersWithIntervals(Result):
+    """Friction and contact area of a case with their intervals, whatever these hold."""
 
     @property
     def friction(self) -> float:
@@ -72,6 +68,14 @@ class Answer(Result):
     def contact_fraction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
         return answer_interval(self.data, "contact_fraction")
+
+
+class Answer(NumbersWithIntervals):
+    """Friction and contact area of a case, with their intervals and what they rest on."""
+
+    kind = "answer"
+    curve: xr.Dataset | None = None
+    """Contact against the cut-off, where the case continues its roughness below the measurement."""
 
     @property
     def reliable(self) -> bool:

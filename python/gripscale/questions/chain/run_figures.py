@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from gripscale.charts.figure_folder import Figures
+from gripscale.charts.figure_folder import FigureProcess, Figures
 from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
 from gripscale.questions.chain import charts as wave_and_chain
 from gripscale.questions.chain.charts_of_blocks import all_blocks
+from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
+from gripscale.questions.chain.run import planned
 from gripscale.questions.chain.view import JUDGE, PredictionView
 from gripscale.questions.cut_off.charts import cut_off_sheet
+from gripscale.questions.inputs.charts_of_rubber import rubber_figures
+from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.record import excited
 
 if TYPE_CHECKING:
     from gripscale.case import Case
     from gripscale.questions.answer.answer import Answer
     from gripscale.questions.chain.run import ChainRun
-
-
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
-from typing import Any
-
-from gripscale.charts.figure_folder import FigureProcess
-from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
-from gripscale.questions.chain.run import planned
-from gripscale.questions.inputs.charts_of_rubber import rubber_figures
-from gripscale.questions.inputs.charts_of_surface import surface_figures
 
 
 @contextmanager

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.io import netcdf
 from gripscale.io.table import significant
 from gripscale.report.elements import number_text
 
@@ -27,11 +25,6 @@ class InputRecord:
     def of_tree(cls, tree: xr.DataTree) -> InputRecord:
         """Return the record in a result with its groups; an empty one where it holds none."""
         return cls(tree.children.get("inputs", xr.DataTree()).to_dataset(inherit=False))
-
-    @classmethod
-    def of_file(cls, path: Path) -> InputRecord:
-        """Return the record in a result file; raise `FileError` if it cannot be read."""
-        return cls.of_tree(netcdf.load_tree(path))
 
     def has(self, name: str) -> bool:
         """Return whether a variable or an attribute is there."""

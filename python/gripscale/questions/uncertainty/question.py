@@ -14,8 +14,7 @@ from gripscale.case import Case
 from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask
 from gripscale.io.table import Table
-from gripscale.questions.answer.reliance import answer_interval, answer_number
-from gripscale.questions.result import Result
+from gripscale.questions.answer.answer import NumbersWithIntervals
 from gripscale.questions.uncertainty import page
 from gripscale.questions.uncertainty.propagation import propagate
 from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
@@ -25,30 +24,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class SampledAnswer(Result):
+class SampledAnswer(NumbersWithIntervals):
     """The answer of a case with the errors of its inputs, and the parts of its interval."""
 
     kind = "uncertainty"
-
-    @property
-    def friction(self) -> float:
-        """Friction coefficient of the hysteresis [-]; NaN without an answer."""
-        return answer_number(self.data, "friction")
-
-    @property
-    def friction_interval(self) -> tuple[float, float]:
-        """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
-        return answer_interval(self.data, "friction")
-
-    @property
-    def contact_fraction(self) -> float:
-        """Real over nominal contact area [-]; NaN without an answer."""
-        return answer_number(self.data, "contact_fraction")
-
-    @property
-    def contact_fraction_interval(self) -> tuple[float, float]:
-        """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
-        return answer_interval(self.data, "contact_fraction")
 
     @property
     def lines(self) -> Sequence[str]:
