@@ -39,7 +39,7 @@ from gripscale.app.uploads import file_upload
 from gripscale.charts.chart import Panel, PlotAxis, Series
 from gripscale.charts.draw import panels_on_page
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import INK
+from gripscale.charts.style import BLUE
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
@@ -317,7 +317,7 @@ def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
     for name in reversed(SYMBOLS):
         value = np.array([float(direct[f"best_{name}"]) for _, direct in answers])
         low, high = np.array([_interval(direct, name) for _, direct in answers], dtype=float).T
-        points = Series(at, value, INK, dash="", marker="o", size=6.0, low=low, high=high)
+        points = Series(at, value, BLUE, dash="", marker="o", size=6.0, low=low, high=high)
         words = f"{HEADINGS[name]} {SYMBOLS[name]}"
         panels.append(
             Panel(
