@@ -30,8 +30,7 @@ pub fn table(meshes: &[(usize, usize)]) {
                 continue;
             };
             let model = &solved.model;
-            let history =
-                SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0);
+            let history = SlidingHistory::new(solved.mesh.columns, &model.maxwell, 5.0);
             let (memory, executor) = (Memory::Sliding(history), serial());
             let pressed = model.pressed(&solved.mesh, &memory, &executor);
             let start = &solved.start;
