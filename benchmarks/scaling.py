@@ -14,7 +14,6 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.charts import draw
 from gripscale.charts.chart import Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, WIDE
@@ -174,4 +173,4 @@ def _draw(costs: dict[str, list[Cost]]) -> Figure:
         ],
         legend="upper left",
     )  # fmt: skip
-    return draw.on_paper(Sheet([panel], 1, WIDE / 2, legend="", gap=0.02))
+    return Sheet([panel], 1, WIDE / 2, legend="", gap=0.02).on_paper()

@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.charts import draw
 from gripscale.charts.chart import (
     CrossLine,
     Mark,
@@ -66,7 +65,7 @@ def master_curves_figure(
         Panel(omega_axis, PlotAxis("storage modulus $E'$ [MPa]", log=True), storage),
         Panel(omega_axis, PlotAxis("loss modulus $E''$ [MPa]", log=True), loss),
     ]
-    return draw.on_paper(Sheet(panels, height=3.3, legend="below"))
+    return Sheet(panels, height=3.3, legend="below").on_paper()
 
 
 def correlations_figure(
@@ -115,7 +114,7 @@ def _surface(curve: HeightDifference) -> Series:
 
 def _correlations(panels: Sequence[Panel], height: float) -> Figure:
     layout = {"sharey": True}
-    return draw.on_paper(Sheet(panels, len(panels), height=height, legend="", layout=layout))
+    return Sheet(panels, len(panels), height=height, legend="", layout=layout).on_paper()
 
 
 def predictions_figure(
@@ -151,17 +150,15 @@ def predictions_figure(
             name if several else "",
             legend="" if alike else "best",
         ))  # fmt: skip
-    return draw.on_paper(
-        Sheet(
-            drawn,
-            len(drawn),
-            WIDE if several else NARROW,
-            height=3.5,
-            legend="below" if alike else "",
-            legend_columns=6 if several else 3,
-            title=textwrap.fill(title, 100 if several else 64),
-        )
-    )
+    return Sheet(
+        drawn,
+        len(drawn),
+        WIDE if several else NARROW,
+        height=3.5,
+        legend="below" if alike else "",
+        legend_columns=6 if several else 3,
+        title=textwrap.fill(title, 100 if several else 64),
+    ).on_paper()
 
 
 def _lines(predictions: Predictions, variable: str, *, ordered: bool) -> Iterator[Mark]:

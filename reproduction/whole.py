@@ -13,7 +13,6 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from gripscale.charts import draw
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import COLOURS, GREY
@@ -56,7 +55,7 @@ def chain_and_whole_figure(found: Sequence[Found]) -> Figure:
         PlotAxis("contact fraction [-]"), PlotAxis("friction coefficient [-]", log=True), marks
     )
     sheet = Sheet([panel], 1, height=3.6, legend="beside", gap=0.02)
-    return draw.on_paper(replace(sheet, legend_title="open squares: the chain"))
+    return replace(sheet, legend_title="open squares: the chain").on_paper()
 
 
 if __name__ == "__main__":

@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.charts import draw
 from gripscale.charts.chart import (
     Bars,
     CrossLine,
@@ -147,7 +146,7 @@ def wave(shipped: Shipped) -> Figure:
             ],
         ),
     ]
-    return draw.on_paper(Sheet(panels, height=2.9, legend_columns=4))
+    return Sheet(panels, height=2.9, legend_columns=4).on_paper()
 
 
 def stack(shipped: Shipped) -> Figure:
@@ -183,7 +182,7 @@ def stack(shipped: Shipped) -> Figure:
             ],
         ),
     ]  # fmt: skip
-    return draw.on_paper(Sheet(panels, height=3.2))
+    return Sheet(panels, height=3.2).on_paper()
 
 
 def road(shipped: Shipped) -> Figure:
@@ -201,7 +200,7 @@ def road(shipped: Shipped) -> Figure:
             marks.append(CrossLine(low, SKY, upright=True, to=high))
         heights = PlotAxis("height $z$ [mm]")
         panels.append(Panel(PlotAxis("distance $x$ [mm]", low=start, high=end), heights, marks))
-    return draw.on_paper(Sheet(panels, 1, height=5.0))
+    return Sheet(panels, 1, height=5.0).on_paper()
 
 
 def draped(shipped: Shipped) -> Figure:
@@ -212,9 +211,9 @@ def draped(shipped: Shipped) -> Figure:
     far = _draped_panel(trace, (afar, afar + STRETCH), room=0.0)
     far = far.with_marks([CrossLine(start, SKY, upright=True, to=end)])
     close = _draped_panel(trace, (start, end), room=0.35)
-    return draw.on_paper(
-        Sheet([replace(far, x=replace(far.x, label="")), close], 1, height=5.4, legend_columns=4)
-    )
+    return Sheet(
+        [replace(far, x=replace(far.x, label="")), close], 1, height=5.4, legend_columns=4
+    ).on_paper()
 
 
 def _draped_panel(trace: xr.Dataset, ends: tuple[float, float], room: float) -> Panel:
@@ -304,7 +303,7 @@ def models(shipped: Shipped) -> Figure:
         PlotAxis("friction $\\mu$ [-]", True, 0.1, 1.0),
         [interval, *marks, star],
     )
-    return draw.on_paper(Sheet([panel], 1, 6.4, 3.4, legend="beside"))
+    return Sheet([panel], 1, 6.4, 3.4, legend="beside").on_paper()
 
 
 def errors(shipped: Shipped) -> Figure:
@@ -327,7 +326,7 @@ def errors(shipped: Shipped) -> Figure:
     ]
     keys = [Bars(0, 0, 0, 0, BLUE, "of the inputs"), Bars(0, 0, 0, 0, ORANGE, "of the model")]
     panel = Panel(PlotAxis("standard error of friction $\\mu$ [%]", low=0.0), rows, bars)
-    return draw.on_paper(Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys))
+    return Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys).on_paper()
 
 
 PICTURES = (block, wave, stack, road, draped, sensitivity, speeds, conditions, models, errors)

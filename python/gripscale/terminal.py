@@ -170,13 +170,15 @@ def finish(
     opening: Sequence[str | Table] = (),
     drawings: str = "figures",
     files: Mapping[str, str] | None = None,
+    keep_figures: bool = False,
     page: bool = False,
 ) -> None:
     """End a command with the result of its question: save, print and draw it.
 
     `text` is the file of what is printed, `contents` what the folder holds beside the result, and
-    `drawings` the folder of its figures in it; `files` are further texts by name. With `page` the
-    page of the result is written, too.
+    `drawings` the folder of its figures in it; `files` are further texts by name. With
+    `keep_figures` figures of an earlier run stay as they are. With `page` the page of the result
+    is written, too.
     """
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io.folders import make_folder
@@ -186,6 +188,8 @@ def finish(
     make_folder(figures.path)
 
     def draw() -> None:
+        if keep_figures and any(figures.path.iterdir()):
+            return
         for name, figure in result.figures():
             figures.save(figure, name)
 

@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.charts.draw import on_paper
 from gripscale.questions import contact_figure
 from gripscale.questions.calibration.charts import profiles_figure, residual_figure
 from gripscale.questions.chain.view import ANSWER, JUDGE
@@ -133,7 +132,7 @@ def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names() -> None:
         },
         {"cut_off": lengths, "rule": list(rules)},
     )
-    figure = on_paper(cut_off_sheet(data))
+    figure = cut_off_sheet(data).on_paper()
     names = [name for name in legend(figure) if name.endswith("mm")]
     assert names == ["shortest wavelength measured, cut-off of the case: 0.2 mm", "slope: 0.3 mm"]
     for axes in figure.axes:

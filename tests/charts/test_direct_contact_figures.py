@@ -10,7 +10,6 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from gripscale.charts import draw
 from gripscale.charts.chart import CrossLine, Panel, Series, Sheet
 from gripscale.charts.paper import png
 from gripscale.half_space.location import with_traces
@@ -111,7 +110,7 @@ def test_panels_to_scale_are_as_wide_as_the_others() -> None:
 
 
 def drawn(sheet: Sheet) -> Figure:
-    return draw.on_paper(sheet)
+    return sheet.on_paper()
 
 
 def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.charts.chart import Blocks, DrawnBlock, Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import Panel, PlotAxis, Series, Sheet
 from gripscale.charts.figure_folder import FigureFolder, FigureProcess, figures_elsewhere
 from gripscale.core.errors import FileError
+from gripscale.questions.chain.charts_of_blocks import Blocks, DrawnBlock
 
 X = np.linspace(-0.5, 0.5, 33)
 SHEET = Sheet([Panel(PlotAxis("$x$ [mm]"), PlotAxis("height [mm]"), [Series(X, X**2)])])

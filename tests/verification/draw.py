@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.charts import draw
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, GREY, ORANGE
@@ -35,7 +34,7 @@ def convergence_figure(errors: dict[str, Errors]) -> Figure:
         marks.append(Series(COLUMNS, slope, GREY, "slope 2", "dotted", 1.0))
         columns = PlotAxis("columns (rows = columns / 8)", log=True, ticks=ticks)
         panels.append(Panel(columns, PlotAxis(label, log=True), marks, legend="best"))
-    return draw.on_paper(Sheet(panels, legend=""))
+    return Sheet(panels, legend="").on_paper()
 
 
 def start_stop_return() -> tuple[gs.TransientResult, gs.ScaleResult]:
@@ -64,7 +63,7 @@ def transient_figure(moving: gs.TransientResult, steady: gs.ScaleResult) -> Figu
         panels.append(
             Panel(PlotAxis("sliding distance over wavelength [-]"), PlotAxis(label), marks)
         )
-    return draw.on_paper(Sheet(panels))
+    return Sheet(panels).on_paper()
 
 
 def main(folder: str) -> None:

@@ -6,9 +6,5 @@ from gripscale.questions.registry import Form, forms
 
 RUN_COMMAND = "run"
 
-
-COMMANDS = (
-    Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."),
-    *forms(),
-)  # fmt: skip
+COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
 """In the order of the page."""

@@ -8,15 +8,19 @@ equations stand between dollar signs, such as "friction $\mu$ [-]"; the page spe
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.charts.style import BLUE, GREY, INK, WIDE
 from gripscale.core.arrays import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
@@ -246,8 +250,16 @@ class ColourBar:
     """Whether it belongs to the first row of panels only."""
 
 
+class Drawing(ABC):
+    """What a figure on paper is drawn from."""
+
+    @abstractmethod
+    def on_paper(self) -> Figure:
+        """Draw it with matplotlib, which is imported here."""
+
+
 @dataclass(frozen=True)
-class Sheet:
+class Sheet(Drawing):
     """Panels of a figure on paper, row by row."""
 
     panels: Sequence[Panel]
@@ -267,33 +279,8 @@ class Sheet:
     layout: Mapping[str, Any] = field(default_factory=dict)
     """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
 
+    def on_paper(self) -> Figure:
+        """Draw the panels with matplotlib, which is imported here."""
+        from gripscale.charts.paper import draw_sheet
 
-@dataclass(frozen=True)
-class DrawnBlock:
-    """One wave: pressure and mesh of a solution, or the words why there is none."""
-
-    caption: str
-    steepness: float
-    """Amplitude of the rigid wave over its wavelength."""
-    mean: float
-    """Mean pressure in the unit of the figure."""
-    pressure: tuple[Array, Array] | None
-    """x over the wavelength and contact pressure; None without a solution."""
-    mesh: tuple[Array, Array] | None
-    """Nodes in wavelengths, see `PredictionView.mesh_along`; None without them."""
-    slides: bool
-
-
-@dataclass(frozen=True)
-class Blocks:
-    """Blocks of a figure on paper, row by row."""
-
-    blocks: Sequence[DrawnBlock]
-    pressure_unit: str
-    columns: int
-    width: float
-    """Of the figure with all its columns [inch]."""
-
-
-Drawing = Sheet | Blocks
-"""What a figure on paper is drawn from."""
+        return draw_sheet(self)

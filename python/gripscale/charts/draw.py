@@ -5,23 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from gripscale.charts.chart import Drawing, Panel, Sheet
+from gripscale.charts.chart import Panel
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from gripscale.charts.page_elements import Chart, Image, Picture
-
-
-def on_paper(drawing: Drawing) -> Figure:
-    """Draw a figure with matplotlib, which is imported here."""
-    if isinstance(drawing, Sheet):
-        from gripscale.charts.paper import draw_sheet
-
-        return draw_sheet(drawing)
-    from gripscale.questions.chain.charts_on_paper import blocks_on_paper
-
-    return blocks_on_paper(drawing)
 
 
 def panels_on_page(panels: Iterable[Panel]) -> list[Chart]:

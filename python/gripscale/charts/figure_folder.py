@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from gripscale.charts import draw
 from gripscale.charts.chart import Drawing
 from gripscale.core.errors import FileError
 
@@ -40,7 +39,7 @@ class FigureFolder:
         """Return the content of each file of a figure."""
         from gripscale.charts import paper
 
-        drawn = draw.on_paper(figure) if isinstance(figure, Drawing) else figure
+        drawn = figure.on_paper() if isinstance(figure, Drawing) else figure
         return paper.rendered(drawn, self.kinds)
 
     def write(self, files: Mapping[str, bytes], name: str) -> None:

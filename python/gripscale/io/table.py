@@ -53,6 +53,12 @@ def significant(value: float, digits: int = 3) -> str:
     return f"{value:.{digits - 1}e}"
 
 
+def least_to_most(values: Any, text: Callable[[float], str] = significant) -> str:
+    """Return the ends of finite `values` in words, or one of them if both read the same."""
+    low, high = text(float(np.nanmin(values))), text(float(np.nanmax(values)))
+    return low if low == high else f"{low} to {high}"
+
+
 def digits(count: int) -> Callable[[float], str]:
     """Return the format of `count` significant digits."""
     return lambda value: significant(value, count)

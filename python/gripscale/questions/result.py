@@ -95,14 +95,13 @@ class Result(ABC):
         Raises `InputError` if there is nothing to draw.
         """
         from gripscale.charts.chart import Drawing
-        from gripscale.charts.draw import on_paper
 
         _, figure = next(self.figures(), ("", None))
         if figure is None:
             raise InputError(
                 f"the {self.kind} has no figure: {next(iter(self.lines), 'no result')}"
             )
-        return on_paper(figure) if isinstance(figure, Drawing) else figure
+        return figure.on_paper() if isinstance(figure, Drawing) else figure
 
     def page(self, path: str | Path) -> Path:
         """Write the result as one HTML page that needs no network, and return its path.
@@ -187,11 +186,41 @@ def load(path: str | Path) -> Any:
     FileError
         If it does not exist, is damaged, or is no result of a question.
     """
-    tree = netcdf.load_tree(path)
-    kind = str(tree.attrs.get(KIND, ""))
-    result = registry.result_class(kind)
+    result = result_of(netcdf.load_tree(path))
     if result is None:
         expected = ", ".join(registry.kinds())
         raise FileError(f"{path} holds no result of a question ({expected})")
+    return result
+
+
+def result_of(tree: xr.DataTree) -> Any:
+    """Return the result that a file holds; None where it is of no question."""
+    room = registry.result_class(str(tree.attrs.get(KIND, "")))
+    if room is None:
+        return None
     inputs = tree.children.get(_INPUTS, xr.DataTree()).to_dataset(inherit=False)
-    return result(tree.to_dataset(), inputs)
+    return room(tree.to_dataset(), inputs)
+
+
+KINDS_OF_REPORTS = (
+    "run, comparison, study, sensitivity, cut-off, design, calibration or uncertainty, or of "
+    "surfaces or rubbers side by side"
+)
+
+
+def predicted_tree(path: Path) -> xr.DataTree:
+    """Return the file of a prediction; raise `FileError` for one that no model answered."""
+    tree = netcdf.load_tree(path)
+    require_totals(tree, path)
+    return tree
+
+
+def require_totals(tree: xr.DataTree, path: Path) -> None:
+    """Raise `FileError` if a file holds no answer of a model."""
+    names = set(tree.variables)
+    if not ({"total_contact_fraction", "total_friction"} <= names) or not (
+        {"prediction_status", "status"} & names
+    ):
+        raise FileError(
+            f"{path} has no report: it holds no totals or quantiles of a {KINDS_OF_REPORTS}"
+        )

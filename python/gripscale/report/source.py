@@ -10,14 +10,8 @@ from gripscale.io import netcdf
 from gripscale.questions.chain.run_folder import RunSource, read_run, run_of
 from gripscale.questions.chain.run_page import run_page
 from gripscale.questions.compare.page import comparison_page
-from gripscale.questions.compare.stored import (
-    KINDS_OF_REPORTS,
-    Compared,
-    require_totals,
-    stored_comparisons,
-)
-from gripscale.questions.registry import result_class
-from gripscale.questions.result import KIND, Result, load
+from gripscale.questions.compare.stored import Compared, stored_comparisons
+from gripscale.questions.result import KINDS_OF_REPORTS, Result, require_totals, result_of
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.report.elements import Page
 
@@ -41,8 +35,8 @@ def read_result(path: Path) -> ReportSource:
     if not path.exists():
         raise FileError(f"result {path} does not exist")
     tree = netcdf.load_tree(path)
-    if result_class(str(tree.attrs.get(KIND, ""))) is not None:
-        result: Result = load(path)
+    result: Result | None = result_of(tree)
+    if result is not None:
         return result
     require_totals(tree, path)
     return run_of({path.stem: tree})

@@ -72,7 +72,7 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
     InputError
         If the stretch is not positive.
     """
-    return draw.on_paper(trace_sheet(contact_trace(contact, stretch=stretch), length=stretch))
+    return trace_sheet(contact_trace(contact, stretch=stretch), length=stretch).on_paper()
 
 
 def named_traces(data: xr.Dataset, profiles: Sequence[str] = ()) -> list[tuple[str, xr.Dataset]]:
@@ -150,7 +150,7 @@ def height_figure(trace: xr.Dataset, name: str) -> Figure:
     """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
     close, worth = height_panels(trace, name)
     sheet = _sheet([worth, close], [_ROW, _drawn_height(close)], name)
-    return draw.on_paper(replace(sheet, layout={**sheet.layout, "sharex": True}))
+    return replace(sheet, layout={**sheet.layout, "sharex": True}).on_paper()
 
 
 def _sheet(panels: list[Panel], heights: list[float], title: str) -> Sheet:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, ORANGE, WIDE
@@ -78,7 +77,7 @@ def fitted_figure(data: xr.Dataset) -> Figure:
             Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
         ]
 
-    return draw.on_paper(measured_sheet(data, fit, head=0.5))
+    return measured_sheet(data, fit, head=0.5).on_paper()
 
 
 def residual_figure(data: xr.Dataset) -> Figure:
@@ -100,7 +99,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
         PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), PlotAxis(label), marks
     )
     height = 2.6 + 0.2 * -(-len(marks) // 4)
-    return draw.on_paper(Sheet([panel], 1, height=height, legend_columns=4, gap=0.02))
+    return Sheet([panel], 1, height=height, legend_columns=4, gap=0.02).on_paper()
 
 
 def profiles_figure(data: xr.Dataset) -> Figure:
@@ -113,7 +112,7 @@ def profiles_figure(data: xr.Dataset) -> Figure:
     panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
     height = 0.4 + 2.1 * -(-count // columns)
     look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
-    return draw.on_paper(Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look))
+    return Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look).on_paper()
 
 
 def _profile_panel(data: xr.Dataset) -> Panel:

@@ -14,7 +14,7 @@ import xarray as xr
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.io.table import Column, Table, digits, percent, significant
+from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import HELD_UNITS, estimate_interval, written
@@ -56,7 +56,7 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     yield f"Answer: {lead} with {', '.join(values)} ({level} % intervals)."
     if not bool(data["area_term"].notnull().any()):
         return
-    term, hysteresis = (_range(data[name]) for name in ("area_term", "hysteresis"))
+    term, hysteresis = (least_to_most(data[name]) for name in ("area_term", "hysteresis"))
     share = float((data["area_term"] / data["friction"]).mean())
     yield (
         f"  It adds {term} to a hysteresis friction of {hysteresis}: {percent(share)} of the "
@@ -70,11 +70,6 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
         f"  Friction with it misses the measured friction by {significant(missed, 2)} (rms), "
         f"without it by {significant(without, 2)}."
     )
-
-
-def _range(values: xr.DataArray) -> str:
-    low, high = (significant(float(end)) for end in (values.min(), values.max()))
-    return low if low == high else f"{low} to {high}"
 
 
 def calibration_parts(data: xr.Dataset) -> Iterator[str | Table]:

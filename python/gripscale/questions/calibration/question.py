@@ -178,8 +178,9 @@ def measured_of(case: Case, measured: MeasuredFriction | str | Path | None) -> M
     """
     if isinstance(measured, str | Path):
         return read_measured_friction(Path(measured))
-    if measured is None and case.friction is None:
+    friction = case.friction if measured is None else measured
+    if friction is None:
         raise InputError(
             f"{case.name}: [measured] friction must name a table of measured friction; got none"
         )
-    return measured or case.friction  # type: ignore[return-value]
+    return friction

@@ -54,7 +54,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     of a prediction without a single converged wave the legend says that there is nothing to draw.
     Lines are dashed beyond the measured band of the rubber.
     """
-    return draw.on_paper(contact_sheet(predictions))
+    return contact_sheet(predictions).on_paper()
 
 
 def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
@@ -356,7 +356,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     InputError
         If there are no temperatures in it.
     """
-    return draw.on_paper(heat_sheet(data, title))
+    return heat_sheet(data, title).on_paper()
 
 
 def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
@@ -435,9 +435,7 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
             PlotAxis(along.label, grid=False), PlotAxis("$y$ [mm]", grid=False), [field]
         )
     layout = {"width_ratios": [1.0, 1.5]}
-    return draw.on_paper(
-        Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout)
-    )
+    return Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout).on_paper()
 
 
 _HEIGHT, _ROW = 1.5, 0.32
@@ -469,7 +467,7 @@ def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
     title : str
         Above the panels.
     """
-    return draw.on_paper(effects_sheet(*results, title=title))
+    return effects_sheet(*results, title=title).on_paper()
 
 
 def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:

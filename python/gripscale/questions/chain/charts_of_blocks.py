@@ -6,20 +6,55 @@ Described once, as charts are; `gripscale.questions.chain.charts_on_paper` draws
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from gripscale.charts import draw
-from gripscale.charts.chart import Blocks, DrawnBlock
+from gripscale.charts.chart import Drawing
 from gripscale.charts.page_elements import Image, Picture
 from gripscale.charts.style import WIDE
 from gripscale.core import checks
+from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.questions.chain.view import PredictionView
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class DrawnBlock:
+    """One wave: pressure and mesh of a solution, or the words why there is none."""
+
+    caption: str
+    steepness: float
+    """Amplitude of the rigid wave over its wavelength."""
+    mean: float
+    """Mean pressure in the unit of the figure."""
+    pressure: tuple[Array, Array] | None
+    """x over the wavelength and contact pressure; None without a solution."""
+    mesh: tuple[Array, Array] | None
+    """Nodes in wavelengths, see `PredictionView.mesh_along`; None without them."""
+    slides: bool
+
+
+@dataclass(frozen=True)
+class Blocks(Drawing):
+    """Blocks of a figure on paper, row by row."""
+
+    blocks: Sequence[DrawnBlock]
+    pressure_unit: str
+    columns: int
+    width: float
+    """Of the figure with all its columns [inch]."""
+
+    def on_paper(self) -> Figure:
+        """Draw the blocks with matplotlib, which is imported here."""
+        from gripscale.questions.chain.charts_on_paper import blocks_on_paper
+
+        return blocks_on_paper(self)
 
 
 def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
@@ -39,12 +74,12 @@ def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
     """
     view = PredictionView(prediction)
     number = checks.whole("wave", wave, least=1, most=max(view.waves, 1))
-    return draw.on_paper(_described(view, [number - 1], columns=1, width=4.2))
+    return _described(view, [number - 1], columns=1, width=4.2).on_paper()
 
 
 def blocks_figure(prediction: xr.Dataset) -> Figure:
     """Draw every wave of a prediction, largest first, four side by side."""
-    return draw.on_paper(all_blocks(prediction))
+    return all_blocks(prediction).on_paper()
 
 
 def all_blocks(prediction: xr.Dataset) -> Blocks:

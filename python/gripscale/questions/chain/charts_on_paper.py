@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from gripscale.charts.chart import Blocks, DrawnBlock
 from gripscale.charts.paper import DASHES, DPI, ROUND, RULES
 from gripscale.charts.style import BLUE, FAINT, GREY, INK, ORANGE
 from gripscale.core.arrays import Array
+from gripscale.questions.chain.charts_of_blocks import Blocks, DrawnBlock
 
 _LINE = 0.12
 """Of a title beyond its third line [inch]."""

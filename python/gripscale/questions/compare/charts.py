@@ -65,16 +65,14 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
     star = any(label.endswith(STAR) for label in labels)
-    return draw.on_paper(
-        Sheet(
-            panels,
-            height=0.95 + 0.33 * len(labels),
-            gap=0.05,
-            legend="below" if star else "",
-            keys=[Series([], [], INK, BEYOND_LABEL, dash="", marker="$*$")] if star else (),
-            layout={"sharey": True},
-        )
-    )
+    return Sheet(
+        panels,
+        height=0.95 + 0.33 * len(labels),
+        gap=0.05,
+        legend="below" if star else "",
+        keys=[Series([], [], INK, BEYOND_LABEL, dash="", marker="$*$")] if star else (),
+        layout={"sharey": True},
+    ).on_paper()
 
 
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
@@ -177,7 +175,7 @@ def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     """
     on_surface = ladder.on_the_surface(comparison)
     panels = [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
-    return draw.on_paper(Sheet(panels, height=3.5))
+    return Sheet(panels, height=3.5).on_paper()
 
 
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -225,7 +223,7 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
     with its own.
     """
-    return draw.on_paper(Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7))
+    return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
@@ -309,7 +307,7 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
                 yield Series(speed_unit.of(series.speed), values, look.colour,
                              labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
 
-    return draw.on_paper(measured_sheet(data, models, head=1.2))
+    return measured_sheet(data, models, head=1.2).on_paper()
 
 
 def measured_sheet(

@@ -7,21 +7,14 @@ from pathlib import Path
 
 import xarray as xr
 
-from gripscale.core.errors import FileError
-from gripscale.io import netcdf
 from gripscale.questions.compare.charts_of_ladder import varied
+from gripscale.questions.result import predicted_tree
 from gripscale.questions.uncertainty.propagation import of_same_inputs
 
 COMPARISON = "comparison"
 """Folder of a comparison in that of the run, and the name of its file."""
 OVER = "over_*.nc"
 """Files of comparisons over a varied input."""
-
-
-KINDS_OF_REPORTS = (
-    "run, comparison, study, sensitivity, cut-off, design, calibration or uncertainty, or of "
-    "surfaces or rubbers side by side"
-)
 
 
 @dataclass(frozen=True)
@@ -64,21 +57,3 @@ def stored_comparisons(folder: Path) -> Compared:
     """Read the comparisons in `folder`."""
     paths = [folder / f"{COMPARISON}.nc", *sorted(folder.glob(OVER))]
     return Compared.holding([predicted_tree(path).to_dataset() for path in paths if path.is_file()])
-
-
-def predicted_tree(path: Path) -> xr.DataTree:
-    """Return the file of a prediction; raise `FileError` for one that no model answered."""
-    tree = netcdf.load_tree(path)
-    require_totals(tree, path)
-    return tree
-
-
-def require_totals(tree: xr.DataTree, path: Path) -> None:
-    """Raise `FileError` if a file holds no answer of a model."""
-    names = set(tree.variables)
-    if not ({"total_contact_fraction", "total_friction"} <= names) or not (
-        {"prediction_status", "status"} & names
-    ):
-        raise FileError(
-            f"{path} has no report: it holds no totals or quantiles of a {KINDS_OF_REPORTS}"
-        )

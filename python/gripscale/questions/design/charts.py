@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw
 from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
@@ -51,7 +50,7 @@ def design_figure(data: xr.Dataset) -> Figure:
         _loss_factor_panel(data, points),
         _change_panel(data, points),
     ]
-    return draw.on_paper(Sheet(panels, 2, height=5.6, legend_columns=4))
+    return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
 
 
 def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:

@@ -59,7 +59,6 @@ ROLLING = ZERO_CELSIUS + 60.0
 FREQUENCY = 10.0
 """Its frequency [Hz]."""
 LARGEST_FACTOR, PER_DECADE = "largest factor on a modulus", "largest change per decade"
-FACTORS = {LARGEST_FACTOR: "largest_factor", PER_DECADE: "factor_per_decade"}
 ROLLING_LEVEL = "rolling resistance"
 """What is limited, beside ranges of moduli."""
 WIDER = 1.1

@@ -69,7 +69,7 @@ def master_curve_figure(
     excitation
         Angular frequencies of the waves [rad/s], marked on the curves.
     """
-    return draw.on_paper(master_curve_sheet(rubber, master, fit, excitation))
+    return master_curve_sheet(rubber, master, fit, excitation).on_paper()
 
 
 def master_curve_sheet(
@@ -233,7 +233,7 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
         Panel(OMEGA, PlotAxis("loss factor [-]", low=0.0), loss),
     ]
     layout = {"sharex": True}
-    return draw.on_paper(Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout))
+    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout).on_paper()
 
 
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
@@ -251,7 +251,7 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     InputError
         If the master curve has no shift.
     """
-    return draw.on_paper(superposition_sheet(sweeps, master))
+    return superposition_sheet(sweeps, master).on_paper()
 
 
 def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
@@ -316,7 +316,7 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     fits
         Formulas fitted to them; dashed beyond the temperatures fitted.
     """
-    return draw.on_paper(shift_sheet(table, fits))
+    return shift_sheet(table, fits).on_paper()
 
 
 def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
@@ -378,7 +378,7 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
     report
         Of their superposition.
     """
-    return draw.on_paper(superposition_tests_sheet(sweeps, report))
+    return superposition_tests_sheet(sweeps, report).on_paper()
 
 
 def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
@@ -431,7 +431,7 @@ def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
         raise InputError("fits must hold at least one fit, all of the same tests")
     panels = [_test_panel(test, fits, number) for number, test in enumerate(first.tests)]
     height = 2.6 * -(-len(panels) // 2) + 0.3
-    return draw.on_paper(Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02))
+    return Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02).on_paper()
 
 
 def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number: int) -> Panel:

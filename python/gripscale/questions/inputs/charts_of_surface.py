@@ -53,7 +53,7 @@ def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
     Rows: as read, with the points cleaning removed or cut off; cleaned; 30 mm of it close up,
     where the missing heights are gaps.
     """
-    return draw.on_paper(profile_sheet(pairs))
+    return profile_sheet(pairs).on_paper()
 
 
 def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
@@ -195,7 +195,7 @@ def correlation_figure(
     self_affine: SelfAffineFit | None = None,
 ) -> Figure:
     """Draw C_z [mm^2] against lag [mm], with the named sine stacks and their wavelengths marked."""
-    return draw.on_paper(correlation_sheet(measured, sines, self_affine))
+    return correlation_sheet(measured, sines, self_affine).on_paper()
 
 
 def correlation_sheet(

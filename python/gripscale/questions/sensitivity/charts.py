@@ -61,7 +61,7 @@ def _traces(data: xr.Dataset, inputs: xr.Dataset) -> list[tuple[str, xr.Dataset]
 def sensitivity_figure(data: xr.Dataset) -> Figure:
     """Draw master curve and derivatives of the friction over the same frequencies."""
     layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
-    return draw.on_paper(Sheet(_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout))
+    return Sheet(_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
 
 
 def _panels(data: xr.Dataset) -> list[Panel]:

@@ -7,7 +7,6 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.core.errors import InputError
 from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
 
 
@@ -48,19 +47,16 @@ def sensitivity_command(
     from gripscale.case_file import read_case, read_case_file
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.questions.sensitivity.question import DERIVED_OVER, sensitivity
-    from gripscale.questions.vary.axis import parse_vary
+    from gripscale.questions.vary.axis import parse_axes
 
-    pairs = [parse_vary(text, DERIVED_OVER) for text in vary or ()]
-    axes = dict(pairs) or None
-    if axes is not None and len(axes) < len(pairs):
-        raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
+    axes = parse_axes(vary or (), DERIVED_OVER)
     file = read_case_file(case)
     opening = f"What decides the friction of {file.path}"
     console, target = terminal.open_folder(file, output, "sensitivity", opening)
     result = sensitivity(
         read_case(file),
         folder=target,
-        vary=None if axes is None else read_named_inputs(axes, file),
+        vary=read_named_inputs(axes, file) or None,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,

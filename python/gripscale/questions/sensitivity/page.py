@@ -9,7 +9,7 @@ import xarray as xr
 
 from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import display_unit_of
-from gripscale.io.table import Column, Table, fixed, on_page, percent, significant
+from gripscale.io.table import Column, Table, digits, fixed, least_to_most, on_page, percent
 from gripscale.model import STATUS
 from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.sensitivity.charts import height_charts, sensitivity_charts
@@ -72,8 +72,8 @@ def sensitivity_lines(data: xr.Dataset) -> Iterator[str]:
     ]
     where = f", at {' and '.join(load)}" if load else ""
     yield (
-        f"Answer: 1 % more E'' at all frequencies gives {_range(loss)} % more friction, "
-        f"1 % less E' {_range(-storage)} %{where}"
+        f"Answer: 1 % more E'' at all frequencies gives {least_to_most(loss, digits(2))} % more "
+        f"friction, 1 % less E' {least_to_most(-storage, digits(2))} %{where}"
     )
     for text, each in points(data):
         if np.isfinite(each[LOSS].values).all():
@@ -86,15 +86,10 @@ def sensitivity_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield what E'' and E' at all frequencies are worth."""
     for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
         if name in data:
-            value = _range(data[name].sum("frequency"))
+            value = least_to_most(data[name].sum("frequency"), digits(2))
             yield Card(
                 f"1 % more {symbol}", on_page(f"{value} %"), "of friction, at all frequencies"
             )
-
-
-def _range(values: xr.DataArray) -> str:
-    low, high = (significant(float(end), 2) for end in (values.min(), values.max()))
-    return low if low == high else f"{low} to {high}"
 
 
 def _middle_half(point: xr.Dataset) -> tuple[float, float]:
@@ -193,8 +188,7 @@ def rule_lines(data: xr.Dataset) -> Iterator[str]:
         return
     for i, name in enumerate(data.rule.values):
         share, at = data.rule_share.isel(rule=i), float(data.rule_frequency[i])
-        low, high = (percent(float(end)) for end in (share.min(), share.max()))
-        shares = low if low == high else f"{low} to {high}"
+        shares = least_to_most(share, percent)
         yield (
             f"The rule of thumb for {name} takes tan δ at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
             f"shifted); {shares} of the effect of E'' lies within half a decade of it."

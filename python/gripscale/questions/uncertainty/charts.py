@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw
 from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
@@ -97,7 +96,7 @@ def parts_figure(data: xr.Dataset) -> Figure:
         Bars(0, 0, 0, 0, ORANGE, "from the model"),
     ]
     height = 1.2 + 0.3 * len(ranked)
-    return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
+    return Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}).on_paper()
 
 
 def distribution_figure(data: xr.Dataset) -> Figure:
@@ -128,9 +127,9 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         CrossLine(0.0, INK, "5 and 95 %", width=END),
         Series([], [], INK, AS_STATED, dash="", marker="v"),
     ]
-    return draw.on_paper(
-        Sheet(panels, height=1.2 + 1.8 * data.sizes["model"], legend_columns=4, keys=keys)
-    )
+    return Sheet(
+        panels, height=1.2 + 1.8 * data.sizes["model"], legend_columns=4, keys=keys
+    ).on_paper()
 
 
 def _distribution(
@@ -196,7 +195,7 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
     keys = [Bars(0, 0, 0, 0, colour, label) for label, colour in words.items()]
     height = 1.3 + 0.34 * len(ranked)
-    return draw.on_paper(Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}))
+    return Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}).on_paper()
 
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
@@ -223,4 +222,4 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
         ]
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
-    return draw.on_paper(Sheet(panels, keys=[case]))
+    return Sheet(panels, keys=[case]).on_paper()

@@ -2,8 +2,6 @@
 
 from gripscale.questions.registry import Form, FormField
 
-SPEEDS = FormField("--vary", "speeds", "0.003:30:log9", "speed=")
-
 KINDS = {
     "study": "question:Variation",
     "compounds": "side_by_side:Compounds",
@@ -15,7 +13,12 @@ COMMANDS = {
     "compare-surfaces": "command_side_by_side:compare_surfaces_command",
 }
 FORMS = (
-    Form("study", "Speed sweep", "Friction and contact area by speed.", (SPEEDS,)),
+    Form(
+        "study",
+        "Speed sweep",
+        "Friction and contact area by speed.",
+        (FormField("--vary", "speeds", "0.003:30:log9", "speed="),),
+    ),
     Form(
         "study",
         "Map of speed and temperature",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -293,6 +293,17 @@ def parse_vary(text: str, names: Iterable[str] = AXIS_UNITS) -> tuple[str, str]:
     if not separator or not values.strip():
         raise InputError(f'vary must be such as "speed=0.003:30:log9"; got {text!r}')
     return checks.one_of("vary", name.strip(), [*names]), values
+
+
+def parse_axes(texts: Sequence[str], names: Iterable[str] = AXIS_UNITS) -> dict[str, Any]:
+    """Return the values of inputs by name from texts such as `speed=0.1,1`.
+
+    Raises `InputError` if two texts name one input, or one is no such text.
+    """
+    pairs = [parse_vary(text, names) for text in texts]
+    if len(dict(pairs)) < len(pairs):
+        raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
+    return dict(pairs)
 
 
 def _axis(name: str, value: Any) -> Axis:

@@ -206,7 +206,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
     several = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
     several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
     legend = "above" if several else ""
-    return draw.on_paper(Sheet([area, friction], legend=legend, legend_columns=4, keys=keys))
+    return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
 
 
 def _at_rest(result: xr.Dataset) -> str:
@@ -263,7 +263,7 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     """
     assert axis in result.dims
     panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
-    return draw.on_paper(Sheet(panels, legend="beside"))
+    return Sheet(panels, legend="beside").on_paper()
 
 
 _HEIGHT = 3.4
@@ -310,7 +310,7 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
-    return draw.on_paper(Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength"))
+    return Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength").on_paper()
 
 
 def _waves_beyond(result: xr.Dataset, axis: str) -> RowFlags:
@@ -360,7 +360,7 @@ def decades_figure(result: xr.Dataset, axis: str) -> Figure:
     ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
     panel = Panel(abscissa, ordinate, [*marks[::-1], total])
     look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
-    return draw.on_paper(Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look))
+    return Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look).on_paper()
 
 
 def _relaxation_panel(data: xr.Dataset) -> Panel:
@@ -429,7 +429,7 @@ def map_figure(result: xr.Dataset) -> Figure:
         )
         for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES))
     ]
-    return draw.on_paper(Sheet(panels, height=3.3, layout={"sharey": True}))
+    return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
 
 
 _FINE = 120
@@ -464,7 +464,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     panels = [
         _reduced_panel(result, believed(result, quantity)) for quantity in reversed(AXIS_TITLES)
     ]
-    return draw.on_paper(Sheet(panels, height=3.3, colour_bar=bar))
+    return Sheet(panels, height=3.3, colour_bar=bar).on_paper()
 
 
 def _reduced_panel(data: xr.Dataset, name: str) -> Panel:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart, draw
+from gripscale.charts import chart
 from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import COLOURS, power_of_ten
@@ -96,7 +96,7 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
     )
     if "friction_by_decade_difference" in data:
         panels.append(replace(_decades_panel(data), title=chain))
-    return draw.on_paper(Sheet(panels, len(panels)))
+    return Sheet(panels, len(panels)).on_paper()
 
 
 def _ranking_panel(data: xr.Dataset) -> Panel:
@@ -187,7 +187,7 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
             spectrum,
         ),
     ]
-    return draw.on_paper(Sheet(panels, height=3.2))
+    return Sheet(panels, height=3.2).on_paper()
 
 
 def roads_friction_figure(data: xr.Dataset) -> Figure:
@@ -221,4 +221,4 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
         ))  # fmt: skip
     layout = {"sharey": True}
     panels = panels or [Panel(PlotAxis(), PlotAxis())]
-    return draw.on_paper(Sheet(panels, len(panels), height=3.2, layout=layout))
+    return Sheet(panels, len(panels), height=3.2, layout=layout).on_paper()

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from gripscale import terminal
-from gripscale.core.errors import InputError
 from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
 
 
@@ -46,19 +45,14 @@ def study_command(
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
     from gripscale.case_file import folder, read_case, read_case_file
     from gripscale.case_file.named_inputs import read_named_inputs
-    from gripscale.questions.vary import question
-    from gripscale.questions.vary.axis import parse_vary
+    from gripscale.questions.vary.axis import parse_axes
+    from gripscale.questions.vary.question import Variation
     from gripscale.questions.vary.study import Study
 
-    pairs = [parse_vary(text) for text in vary]
-    axes: dict[str, Any] = dict(pairs)
-    if len(axes) < len(pairs):
-        raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
+    axes = parse_axes(vary)
     file = read_case_file(case)
-    axes = dict(read_named_inputs(axes, file))
-    options: dict[str, Any] = {"static": static, "model": model, "tolerance": tolerance}
-    read = read_case(file)
-    planned = Study(read, axes, **options)
+    varied = read_named_inputs(axes, file)
+    planned = Study(read_case(file), varied, static=static, model=model, tolerance=tolerance)
     console, target = terminal.open_folder(file, output, "study")
     stored = planned.stored(target)
     opening = planned.description()
@@ -67,15 +61,15 @@ def study_command(
     for line in [*opening, ""]:
         terminal.print_wrapped(console, line)
     folder.save_case(file, target)
-    result = question.vary(
-        read,
-        **options,
-        **axes,
-        folder=target,
-        workers=workers,
-        client=cluster,
-        on_task=terminal.progress_printer(console),
-    )
+    progress = terminal.progress_printer(console)
+    data = planned.run(target, workers=workers, client=cluster, on_task=progress)
     terminal.finish(
-        console, target, result, file, "study.txt", "table and figures", opening=opening
+        console,
+        target,
+        Variation(data),
+        file,
+        "study.txt",
+        "table and figures",
+        opening=opening,
+        keep_figures=stored is not None,
     )

@@ -10,7 +10,7 @@ import xarray as xr
 
 from gripscale.core.arrays import Array
 from gripscale.core.units import display_unit_of
-from gripscale.io.table import significant
+from gripscale.io.table import least_to_most, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
 from gripscale.questions.answer.best_estimate import IsotropicSurface
 from gripscale.questions.answer.reliance import WORTH_NAMING
@@ -166,8 +166,7 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
         ranges = []
         for name in reversed(SYMBOLS):
             values = data[f"best_{name}_factor"].isel(factor=at).values
-            low, high = (significant(float(pick(values))) for pick in (np.nanmin, np.nanmax))
-            ranges.append(f"{SYMBOLS[name]} × {low if low == high else f'{low} to {high}'}")
+            ranges.append(f"{SYMBOLS[name]} × {least_to_most(values)}")
         error = data["best_friction_factor_uncertainty"].isel(factor=at)
         same = all(text.endswith(f"× {significant(1.0)}") for text in ranges)
         factor = f"1 ± {percent_text(float(error.max()))}" if same else ", ".join(ranges)

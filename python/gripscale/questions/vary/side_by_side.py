@@ -16,7 +16,6 @@ from gripscale.report.failures import explained, first_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.page_elements import Picture
     from gripscale.rubber import Rubber
 
 
@@ -25,8 +24,6 @@ class SideBySide(Result):
 
     dim: ClassVar[str]
     """Dimension of what stands side by side."""
-    heading: ClassVar[str]
-    """What a table calls one of them."""
     of: ClassVar[str]
     """What a failure counts."""
 
@@ -52,15 +49,6 @@ class SideBySide(Result):
         failed = page_side_by_side.failed_totals(self.data)
         return first_of(failed, self.data.prediction_status.size, self.of)
 
-    def pictures(self) -> Iterator[Picture]:
-        """Yield the figures with their captions."""
-        yield from ()
-
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield totals and differences, and what makes them."""
-        for picture in self.pictures():
-            yield picture.name, picture.figure
-
 
 class Roads(SideBySide):
     """Several roads under the rubber and the load of a case."""
@@ -68,7 +56,6 @@ class Roads(SideBySide):
     kind = "roads"
     file = "surfaces.nc"
     dim = "surface"
-    heading = "road"
     of = "predictions"
 
     def parts(self) -> Iterator[str | Table]:
@@ -81,11 +68,12 @@ class Roads(SideBySide):
         """Return the best estimates of the roads, or their totals."""
         return page_side_by_side.roads_tables(self.data)[0]
 
-    def pictures(self) -> Iterator[Picture]:
+    def figures(self) -> Iterator[tuple[str, Figure]]:
         """Yield friction and area of the roads, and their correlation and spectrum."""
         from gripscale.questions.vary.charts_side_by_side import road_pictures
 
-        yield from road_pictures(self.data)
+        for picture in road_pictures(self.data):
+            yield picture.name, picture.figure
 
     def page_content(self) -> Page:
         """Return ratios, totals and statistics of the roads."""
@@ -98,7 +86,6 @@ class Compounds(SideBySide):
     kind = "compounds"
     file = "compounds.nc"
     dim = "rubber"
-    heading = "compound"
     of = "compounds"
 
     @property
@@ -110,7 +97,7 @@ class Compounds(SideBySide):
 
     def parts(self) -> Iterator[str | Table]:
         """Yield best estimates, totals of the chain, and what makes the differences."""
-        best = page_side_by_side.believed_table(self.data, self.dim, self.heading)
+        best = page_side_by_side.believed_table(self.data, self.dim, "compound")
         yield from filter(None, [best])
         yield page_side_by_side.compounds_table(self.data)
         yield from page_side_by_side.compounds_sentences(self.data)
@@ -120,11 +107,12 @@ class Compounds(SideBySide):
         """Return the totals of the compounds."""
         return page_side_by_side.compounds_table(self.data)
 
-    def pictures(self) -> Iterator[Picture]:
+    def figures(self) -> Iterator[tuple[str, Figure]]:
         """Yield friction and area of the compounds, and their moduli."""
         from gripscale.questions.vary.charts_side_by_side import compound_pictures
 
-        yield from compound_pictures(self.data, self.rubbers)
+        for picture in compound_pictures(self.data, self.rubbers):
+            yield picture.name, picture.figure
 
     def page_content(self) -> Page:
         """Return ratios, totals, and what a study of the compounds has."""
