@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 
 INPUT_DOUBTS = "input_doubts"
-"""Attribute of an answer: why it is none of the road to be predicted, in sentences."""
+"""Attribute of an answer: findings that it may be of another road, rubber or load."""
 
 
 PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
@@ -42,8 +43,8 @@ class Doubtful(Protocol):
     """A surface or a rubber as prepared, with what is doubtful of it."""
 
     @property
-    def doubts(self) -> tuple[str, ...]:
-        """Why the answer may be that of another one, a sentence each."""
+    def doubts(self) -> tuple[Finding, ...]:
+        """Why the answer may be that of another one."""
         ...
 
 
@@ -55,38 +56,36 @@ def input_doubts(
     It is on surfaces and of a rubber, the `inputs`, and under loads, which are shown in the stated
     `units` of their quantities.
     """
-    of_inputs = [text for each in inputs for text in doubt_sentences(each)]
-    texts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
-    return {INPUT_DOUBTS: "\n".join(texts)} if texts else {}
+    of_inputs = [doubt for each in inputs for doubt in each.doubts]
+    doubts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
+    return {INPUT_DOUBTS: to_json(doubts)} if doubts else {}
 
 
-def input_doubts_of(data: xr.Dataset) -> list[str]:
-    """Return the sentences of the attribute `INPUT_DOUBTS` of an answer; none without it."""
-    return str(data.attrs.get(INPUT_DOUBTS, "")).splitlines()
+def input_doubts_of(data: xr.Dataset) -> Sequence[Finding]:
+    """Return the findings of the attribute `INPUT_DOUBTS` of an answer; none without it."""
+    return from_json(str(data.attrs.get(INPUT_DOUBTS, "")))
 
 
-def doubt_sentences(measured: Doubtful) -> list[str]:
-    """Return the doubts of a surface or a rubber as sentences."""
-    return [text if text.endswith("?") else f"{text}." for text in measured.doubts]
-
-
-def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[str]:
-    """Return which quantities of loads suggest a wrong unit, by the farthest of each, as sentences.
+def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[Finding]:
+    """Return which quantities of loads suggest a wrong unit, by the farthest of each.
 
     They are shown in the stated `units` of the quantities.
     """
-    texts, every = [], list(loads)
+    doubts, every = [], list(loads)
     for name, (least, most) in PLAUSIBLE.items():
         values = {float(getattr(load, name)) for load in every}
         far = [value for value in values if value != 0.0 and not least <= value <= most]
         if far:
             value = max(far, key=lambda value: max(least / value, value / most))
             value_text, *ends = (display_unit(name, units).text(v, 3) for v in (value, least, most))
-            texts.append(
-                f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}: is its "
-                "unit right?"
+            doubts.append(
+                doubt(
+                    f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}: is "
+                    "its unit right?",
+                    topic=Topic.LOAD,
+                )
             )
-    return texts
+    return doubts
 
 
 OCTAVE = 2.0

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 import textwrap
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
 from functools import wraps
 from pathlib import Path
@@ -17,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
 import typer
 
 from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
+from gripscale.core.wording import Words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -219,8 +218,8 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
-            if isinstance(error, GripscaleError) and error.key in kwargs:
-                error.args = (f"--{error.key.replace('_', '-')}{error.detail}",)
+            if isinstance(error, GripscaleError):
+                error.args = (with_options(error.words, kwargs),)
             message, exit_code = failure_of(error)
             print_error(message)
             raise typer.Exit(exit_code) from None
@@ -307,24 +306,11 @@ def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None and value is not False}
 
 
-def as_options(text: str, context: typer.Context) -> str:
-    """Return a text with keys of a case as options of a command, such as --z-unit for z_unit."""
-    for key in context.params:
-        name = f"--{key.replace('_', '-')}"
-        text = re.sub(rf'\b{key} = "(\w+)"', rf"{name} \1", text)
-        text = re.sub(rf"(\bgive |\bor ){key}(?=[,;:]|$)", rf"\1{name}", text)
-        text = re.sub(rf"(^|: ){key}(?= must\b)", rf"\1{name}", text)
-    return text
-
-
-@contextmanager
-def keys_as_options(context: typer.Context) -> Iterator[None]:
-    """Let errors name the options of a command in place of the keys of a case."""
-    try:
-        yield
-    except GripscaleError as error:
-        error.args = (as_options(str(error), context),)
-        raise
+def with_options(text: str, options: Container[str]) -> str:
+    """Return a text whose keys of a case are options of a command, where it has these."""
+    if not isinstance(text, Words):
+        return text
+    return text.with_keys(lambda key: key.option if key.name in options else str(key))
 
 
 def lengths_of(text: str) -> str | list[str]:

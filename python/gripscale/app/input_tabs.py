@@ -34,7 +34,6 @@ from gripscale.case_file import (
 from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.core.finding import Finding, Severity
-from gripscale.model import doubt_sentences
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
@@ -82,7 +81,7 @@ def surface_elements(file: CaseFile) -> list[AppElement]:
     any_rubber = validate(RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     case = _case_with(file, rubber=any_rubber)
     inputs = record.inputs(case)
-    notes = [*notice_elements([Finding(Severity.WARNING, note) for note in case.surface.notes])]
+    notes = [*notice_elements(case.surface.findings)]
     if case.surface.measured is None:
         return [*notes, Text("The case states the sine waves; no surface is measured.")]
     return [
@@ -101,8 +100,8 @@ def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[Ap
     case = _case_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
     inputs = record.inputs(case)
     findings = InputRecord(inputs).findings
-    texts = [*doubt_sentences(case.measured_rubber), *(f"{text}." for text in findings)]
-    elements = [*notice_elements([Finding(Severity.WARNING, text) for text in texts])]
+    doubtful = [Finding(Severity.WARNING, f"{text}.") for text in findings]
+    elements = [*notice_elements([*case.measured_rubber.doubts, *doubtful])]
     for part in shift_parts(case.measured_rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
     elements += superposition_elements(state, case.measured_rubber, redraw)

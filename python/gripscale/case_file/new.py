@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,10 +17,11 @@ from gripscale.case import Case
 from gripscale.case_file.keys import sections
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
+    BY_A_FACTOR,
+    TENS_OF_PERCENT,
     UNITS_OF_SURFACE,
-    Doubt,
     Proposal,
-    Weight,
+    assumption,
     conditions_proposal,
     holds_moduli,
     open_rubber,
@@ -28,8 +29,9 @@ from gripscale.case_file.proposals import (
     rubber_proposal,
     surface_proposal,
 )
-from gripscale.case_file.read import CaseFile, read_case_file
+from gripscale.case_file.read import read_case_file
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
+from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import temperature_in_kelvin
 from gripscale.io.folders import make_folder, write_text
 from gripscale.rubber import read_shift_table
@@ -57,8 +59,8 @@ class NewCase:
     """A case that was written, and what is doubtful about it."""
 
     path: Path
-    doubts: tuple[Doubt, ...]
-    """The weightiest first."""
+    findings: Sequence[Finding]
+    """What was taken for granted, the most important first."""
     skipped: tuple[Path, ...] = ()
     """Files of a folder that hold neither a surface nor moduli."""
 
@@ -114,12 +116,12 @@ def new_case(
     results = "results" if target.stem == "case" else f"results-{target.stem}"
     write_text(target, case_text(tables, results=results))
     try:
-        of_inputs = doubts_of_inputs(read_case_file(target))
+        of_inputs = [*findings_of_inputs(read_case(read_case_file(target)))]
     except GripscaleError:
         target.unlink()
         raise
     write_text(target, case_text(tables, of_inputs, results))
-    return NewCase(target, ranked_doubts(tables, of_inputs), skipped)
+    return NewCase(target, ranked_findings(tables, of_inputs), skipped)
 
 
 def propose(
@@ -152,9 +154,9 @@ def propose(
         "load": _load_proposal(load or {}),
     }
     if shift is None:
-        tables["rubber"].doubts += [
-            Doubt(
-                Weight.FACTOR,
+        tables["rubber"].findings += [
+            assumption(
+                BY_A_FACTOR,
                 f'{names[file]} holds shift factors and is not used: shift = "{names[file]}" in '
                 "[rubber] takes them",
             )
@@ -164,12 +166,11 @@ def propose(
     return tables, skipped
 
 
-def ranked_doubts(
-    tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()
-) -> tuple[Doubt, ...]:
-    """Return the doubts of proposals and further ones, the weightiest first."""
-    every = [doubt for table in tables.values() for doubt in table.doubts] + [*further]
-    return tuple(sorted(every, key=lambda doubt: -doubt.weight))
+def ranked_findings(
+    tables: Mapping[str, Proposal], further: Iterable[Finding] = ()
+) -> Sequence[Finding]:
+    """Return the findings of proposals and further ones, the most important first."""
+    return ranked([*(finding for t in tables.values() for finding in t.findings), *further])
 
 
 def _sorted(
@@ -249,24 +250,24 @@ def _load_proposal(load: Mapping[str, str]) -> Proposal:
         if load.get(key) is not None:
             proposal.add(key, load[key])
         else:
-            weight = Weight.SCATTER if key == "footprint" else Weight.FACTOR
-            proposal.add(key, default, f"not stated; --{key} states another", weight)
+            effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
+            proposal.add(key, default, f"not stated; --{key} states another", effect)
     return proposal
 
 
 def case_text(
-    tables: Mapping[str, Proposal], further: Sequence[Doubt] = (), results: str = "results"
+    tables: Mapping[str, Proposal], further: Iterable[Finding] = (), results: str = "results"
 ) -> str:
     """Return the text of a case: its doubts, and each key with why it has its value or its meaning.
 
-    The doubts are those of the proposals and `further` ones; `results` is the folder of results.
+    The findings are those of the proposals and `further` ones; `results` is the folder of results.
     """
     parts = [_HEAD]
-    doubts = ranked_doubts(tables, further)
-    if doubts:
+    findings = ranked_findings(tables, further)
+    if findings:
         parts += ["# Doubts, the most important first:"]
-        for number, doubt in enumerate(doubts, start=1):
-            parts += textwrap.wrap(f"{number}. {doubt.text}", _WIDTH, **_COMMENT)
+        for number, finding in enumerate(findings, start=1):
+            parts += textwrap.wrap(f"{number}. {finding}", _WIDTH, **_COMMENT)
         parts += [""]
     meanings = {
         (section.name, key.name): key.meaning for section in sections() for key in section.keys
@@ -292,29 +293,15 @@ def _toml(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def doubts_of_inputs(file: CaseFile) -> list[Doubt]:
-    """Return what reading and fitting the files of a case puts in doubt."""
-    case = read_case(file)
-    rubber, surface = case.measured_rubber, case.surface
-    findings = [*(rubber.fit.findings if rubber.fit else ())]
-    findings += [*(rubber.superposition.findings if rubber.superposition else ())]
-    by_weight = {
-        Weight.ANOTHER: [*case.doubts(), *case.load_notes()],
-        Weight.FACTOR: [*_beyond_the_band(case)],
-        Weight.SCATTER: [
-            *(note for note in surface.notes if note not in surface.doubts),
-            *(f"rubber: {finding}" for finding in findings),
-        ],
-    }
-    return [
-        Doubt(weight, text.rstrip(".")) for weight, texts in by_weight.items() for text in texts
-    ]
-
-
-def _beyond_the_band(case: Case) -> Iterator[str]:
-    """Yield which wave excites the rubber farthest beyond its measured frequencies."""
+def findings_of_inputs(case: Case) -> Iterator[Finding]:
+    """Yield what reading and fitting the files of a case puts in doubt."""
+    yield from case.findings()
+    yield from case.surface.extrapolated
+    joint = case.measured_rubber.superposition
+    for text in () if joint is None else joint.findings:
+        yield assumption(TENS_OF_PERCENT, f"Rubber: {text}.")
     try:
         wavelengths = case.surface.sines.wavelength
         require_measured(case.rubber_before, wavelengths, case.load.speed)
     except ExtrapolationError as error:
-        yield str(error)
+        yield assumption(BY_A_FACTOR, str(error))

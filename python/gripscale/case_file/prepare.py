@@ -22,6 +22,7 @@ from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.errors import FileError, InputError, about_file, about_keys
 from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.core.wording import CaseKey, Words
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.half_space.below_measurement import (
     FinerMeasurement,
@@ -263,8 +264,12 @@ def _superposed(
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
         raise InputError(
-            f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
-            f"{len(sweeps)} temperatures to be shifted to",
+            Words(
+                f"{path}: ",
+                CaseKey("reference_temperature"),
+                f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
+                "shifted to",
+            ),
             missing="reference_temperature",
         )
     master, report = superpose_report(
@@ -281,10 +286,14 @@ def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> Non
     if shift is None:
         low, high = (ramp.temperature[at] - ZERO_CELSIUS for at in (0, -1))
         raise InputError(
-            f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
-            f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
-            f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
-            "frequencies do",
+            Words(
+                f"{path}: ",
+                CaseKey("shift"),
+                ' must be given, such as shift = { kind = "wlf", c1 = 8.86, c2 = "101.6 K" }: a '
+                f"temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, {low:.0f} to "
+                f"{high:.0f} °C) makes no master curve without it, sweeps at several frequencies "
+                "do",
+            ),
             missing="shift",
         )
 
@@ -297,8 +306,12 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
     if rubber.reference_temperature is None:
         where = source.name or source.measured_files[0]
         raise InputError(
-            f"{where}: reference_temperature must be given with shift, such as "
-            '"20 C": the master curve does not state what it holds for',
+            Words(
+                f"{where}: ",
+                CaseKey("reference_temperature"),
+                ' must be given with shift, such as "20 C": the master curve does not state what '
+                "it holds for",
+            ),
             missing="reference_temperature",
         )
     return replace(rubber, shift=shift)

@@ -15,17 +15,16 @@ from gripscale.core.errors import about_keys
 from gripscale.terminal import (
     COLUMNS,
     argument,
-    as_options,
     column_of,
     columns_of,
     command,
-    keys_as_options,
     keys_of,
     lengths_of,
     option,
     print_parts,
     print_wrapped,
     screen,
+    with_options,
 )
 
 if TYPE_CHECKING:
@@ -171,7 +170,7 @@ def fit_surface(
         # whether two steps are right depends on what the file holds
         validate(SurfaceTable, values | {"step": None}, "options")
         read_by = {key: values[key] for key in ("x_unit", "z_unit", "z_axis") if key in values}
-        with keys_as_options(context), about_keys("surface"):
+        with about_keys("surface"):
             measured, _ = open_surface(Path(files[0]), values.get("step"), **read_by)
         raw = measured if isinstance(measured, HeightMap) else [measured]
     if isinstance(raw, HeightMap):
@@ -179,15 +178,13 @@ def fit_surface(
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
         require_writable(output)
-    with keys_as_options(context):
-        prepared = prepare_surface(surface, raw=raw)
+    prepared = prepare_surface(surface, raw=raw)
     console = screen()
     sines = prepared.sines
-    doubts = [as_options(doubt, context) for doubt in prepared.doubts]
     parts: list[str | Table] = [
-        *(f"doubt: {doubt}" for doubt in doubts),
+        *(f"doubt: {with_options(doubt.sentence, context.params)}" for doubt in prepared.doubts),
         *surface_lines(prepared),
-        *(f"note: {note}" for note in prepared.notes if note not in prepared.doubts),
+        *(f"note: {finding}" for finding in prepared.findings if finding not in prepared.doubts),
         waves_table(sines.wavelength, sines.amplitude),
         *_ambiguity(prepared),
     ]
@@ -269,8 +266,7 @@ def fit_rubber(
     if output is not None:
         require_writable(output)
     console = screen()
-    with keys_as_options(context):
-        prepared = prepare_rubber(source)
+    prepared = prepare_rubber(source)
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     findings = () if prepared.fit is None else prepared.fit.findings

@@ -90,11 +90,11 @@ def new(
     if case.skipped:
         names = ", ".join(path.name for path in case.skipped)
         print_wrapped(console, f"Neither a surface nor moduli: {names}")
-    if case.doubts:
+    if case.findings:
         console.print()
         print_wrapped(console, "Doubts, the most important first:")
-        for number, doubt in enumerate(case.doubts, start=1):
-            print_wrapped(console, f"  {number}. {doubt.text}")
+        for number, finding in enumerate(case.findings, start=1):
+            print_wrapped(console, f"  {number}. {finding}")
     console.print()
     print_wrapped(console, "Next:")
     print_wrapped(console, f"  {shlex.join(['gripscale', 'run', str(case.path)])}")

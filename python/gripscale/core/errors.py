@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from gripscale.core.wording import CaseKey, Words
+
 
 class GripscaleError(Exception):
     """Base of every error gripscale raises on purpose."""
@@ -14,13 +16,13 @@ class GripscaleError(Exception):
     """A chapter of the documentation or a command that explains it, or empty."""
 
     def __init__(self, message: str = "", *, missing: str = "", key: str = "") -> None:
-        super().__init__(f"{key}{message}")
+        self.words = Words(CaseKey(key), message) if key else Words(message)
+        """The message, which may name keys of a case."""
+        super().__init__(str(self.words))
         self.missing = missing
         """The key of a case, or argument of a reader, that was not stated and is needed."""
         self.key = key
         """Argument or key that the message is about, which then begins with it; or empty."""
-        self.detail = message
-        """The message without its key."""
 
 
 class InputError(GripscaleError, ValueError):
@@ -67,6 +69,6 @@ def about_file(
     try:
         yield
     except InputError as error:
-        located = kind(f"{path}: {error}", missing=error.missing)
+        located = kind(Words(f"{path}: ", error.words), missing=error.missing)
         located.see = error.see
         raise located from error

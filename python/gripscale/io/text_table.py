@@ -32,6 +32,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import MOST, short_repr, shortened, whole
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import spelled
+from gripscale.core.wording import CaseKey, Words
 
 Line = tuple[int, str]
 """A line with its number in the file, from 1."""
@@ -151,8 +152,12 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
         full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
         if len(full) > 1:
             raise InputError(
-                f"{path}: sheet must be given, because {len(full)} sheets hold rows of numbers "
-                f"({', '.join(full)})",
+                Words(
+                    f"{path}: ",
+                    CaseKey("sheet"),
+                    f" must be given, because {len(full)} sheets hold rows of numbers "
+                    f"({', '.join(full)})",
+                ),
                 missing="sheet",
             )
         return sheets[full[0]] if full else next(iter(sheets.values()))

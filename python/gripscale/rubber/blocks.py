@@ -18,6 +18,7 @@ from pathlib import Path
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
+from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import (
     ColumnTitle,
     Line,
@@ -148,8 +149,12 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
         chosen = unit if spelled(written, "temperature") is None else written
         if chosen is None:
             raise InputError(
-                f"{path}, line {number}: temperature_unit must be given ({listed('temperature')}), "
-                f"because the line states none with {value}",
+                Words(
+                    f"{path}, line {number}: ",
+                    CaseKey("temperature_unit"),
+                    f" must be given ({listed('temperature')}), because the line states none with "
+                    f"{value}",
+                ),
                 missing="temperature_unit",
             )
         degrees = float(value.replace(",", "."))

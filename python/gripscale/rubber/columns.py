@@ -38,6 +38,7 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import listed, quantity_in_si, spelled
+from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import (
     TextTable,
 )
@@ -269,8 +270,12 @@ class FileLayout(Checked):
         first = [row[hits[0]] for row in table.rows] if hits else []
         if any([row[at] for row in table.rows] != first for at in hits[1:]):
             raise InputError(
-                f"{table.path}: columns must say which is the {wanted}, because {len(hits)} titles "
-                f"mean it ({shortened(', '.join(table.columns[at].name for at in hits))})",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey("columns"),
+                    f" must say which is the {wanted}, because {len(hits)} titles mean it "
+                    f"({shortened(', '.join(table.columns[at].name for at in hits))})",
+                ),
                 missing="columns",
             )
         return hits[0] if hits else None
@@ -299,8 +304,11 @@ class FileLayout(Checked):
             what = "no unit" if header is None else checks.short_repr(header)
             title = shortened(table.columns[column].name) or f"column {column + 1}"
             raise InputError(
-                f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header "
-                f"states {what} of {title}",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey(f"{kind}_unit"),
+                    f" must be given ({listed(kind)}), because the header states {what} of {title}",
+                ),
                 missing=f"{kind}_unit",
             )
         return unit
@@ -313,8 +321,12 @@ class FileLayout(Checked):
             return self.modulus
         if title is None:
             raise InputError(
-                f"{table.path}: modulus must be given (E for Young's or G for shear), because the "
-                "header does not tell",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey("modulus"),
+                    " must be given (E for Young's or G for shear), because the header does not "
+                    "tell",
+                ),
                 missing="modulus",
             )
         return title
@@ -326,8 +338,12 @@ def position_of(table: TextTable, column: str | int) -> int:
         return checks.counted(f"{table.path}: a column", column, len(table.columns))
     if table.names.count(column) != 1:
         raise InputError(
-            f"{table.path}: columns must be among the header's names "
-            f"({table.titles or 'no names'}); got {checks.short_repr(column)}"
+            Words(
+                f"{table.path}: ",
+                CaseKey("columns"),
+                f" must be among the header's names ({table.titles or 'no names'}); got "
+                f"{checks.short_repr(column)}",
+            )
         )
     return table.names.index(column)
 
@@ -338,7 +354,8 @@ def missing(table: TextTable, what: str) -> InputError:
     header = f"the header has {names}" if names else "no header"
     if what == "frequency":
         header += "; where no column holds it, add one, such as Frequency [Hz] with 10 in every row"
-    return InputError(f"{table.path}: columns must give the {what}; {header}", missing="columns")
+    words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
+    return InputError(words, missing="columns")
 
 
 _ROUNDING = 0.05

@@ -15,7 +15,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from gripscale.core.arrays import Array
+from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.core.units import UNITS
+from gripscale.core.wording import CaseKey
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.maxwell_fit import Curve
 from gripscale.rubber.prony_report import SwappedModuli, misfit
@@ -30,22 +32,28 @@ _SOFTEST, _STIFFEST = 1e4, 2e10
 """Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa."""
 
 
-def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[str]:
-    """Yield why the moduli of a master curve may be those of no rubber, a sentence each.
+def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[Finding]:
+    """Yield why the moduli of a master curve may be those of no rubber.
 
     `swapped` is how well a linear solid has them, `scatter` that of E' about its neighbours [-].
     """
     stiffest = float(master.storage.max())
     if not _SOFTEST <= stiffest <= _STIFFEST:
-        yield (
+        yield doubt(
             f"The largest E', {stiffest / 1e6:.3g} MPa, is that of no rubber: is the unit of the "
-            "moduli right (modulus_unit)?"
+            "moduli right (",
+            CaseKey("modulus_unit"),
+            ")?",
+            topic=Topic.RUBBER,
         )
     if swapped.as_given > _NO_SOLID:
-        yield (
+        yield doubt(
             "E' and E'' do not belong to one rubber: the nearest linear solid misses them by a "
             f"factor of {math.exp(swapped.as_given):.2g}; {_cause(master, swapped, scatter)}; look "
-            "at the titles and units of the file, or name its columns (columns)"
+            "at the titles and units of the file, or name its columns (",
+            CaseKey("columns"),
+            ").",
+            topic=Topic.RUBBER,
         )
 
 

@@ -21,6 +21,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gripscale.core.arrays import Array
+from gripscale.core.finding import Finding
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
 from gripscale.rubber.maxwell_fit import (
@@ -246,8 +247,8 @@ class PronyFit:
     """How the series misses the five slowest rows; None within their scatter."""
     fast_end: Misfit | None = None
     """The same of the five fastest."""
-    doubts: tuple[str, ...] = ()
-    """Why the moduli may be those of no rubber, a sentence each."""
+    doubts: tuple[Finding, ...] = ()
+    """Why the moduli may be those of no rubber."""
     findings: tuple[str, ...] = ()
     """What is doubtful, a sentence each."""
 
@@ -268,7 +269,7 @@ class PronyFit:
         if self.outlier_frequency.size:
             left_out = ", ".join(f"{frequency:.3g}" for frequency in self.outlier_frequency)
             lines.append(f"left out as outliers [Hz]: {left_out}")
-        return "\n".join([*lines, *self.doubts, *(self.findings if findings else ())])
+        return "\n".join([*lines, *map(str, self.doubts), *(self.findings if findings else ())])
 
 
 def report_prony(

@@ -16,6 +16,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import (
@@ -171,8 +172,12 @@ def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | Non
         meanings = [word for word, pattern in patterns.items() if pattern.search(title)]
         if len(meanings) != 1:
             raise InputError(
-                f"{table.path}: amplitude must be given (single or peak-to-peak), because the "
-                f"title {title or 'of the strain'} does not tell",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey("amplitude"),
+                    " must be given (single or peak-to-peak), because the title "
+                    f"{title or 'of the strain'} does not tell",
+                ),
                 missing="amplitude",
             )
         amplitude = meanings[0]

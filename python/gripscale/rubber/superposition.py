@@ -343,8 +343,9 @@ def _fitted_shift(
             kelvin[end] = reference
     if not kelvin[0] <= reference <= kelvin[-1]:
         raise InputError(
-            f"reference_temperature must lie within the temperatures measured, {kelvin[0]:.2f} to "
-            f"{kelvin[-1]:.2f} K; got {reference:g}"
+            f" must lie within the temperatures measured, {kelvin[0]:.2f} to {kelvin[-1]:.2f} K; "
+            f"got {reference:g}",
+            key="reference_temperature",
         )
     if len(kelvin) == 1:
         return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}

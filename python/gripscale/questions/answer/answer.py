@@ -150,8 +150,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         If the direct contact cannot use the rubber or a profile, or the roughness below the
         measurement has no result.
     """
-    notes = friction_doubts(case.friction, case.load.speed)
-    inputs = record.inputs(case, friction_notes=notes)
+    inputs = record.inputs(case, further=friction_doubts(case.friction, case.load.speed))
     samples = solve_direct_contact(case)
     attrs = {"case_file": case.origin.name, **case.attributes, **provenance.version_attributes()}
     if samples is None:

@@ -106,7 +106,7 @@ def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding
     """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
     parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
     in_answer = set() if direct is None else set(model.input_doubts_of(direct))
-    inputs = [finding for finding in record.warnings() if finding.sentence not in in_answer]
+    inputs = [finding for finding in record.warnings() if finding not in in_answer]
     return ranked([*(finding for part in parts for finding in part), *inputs])
 
 

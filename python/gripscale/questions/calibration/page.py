@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts.draw import image
-from gripscale.core.finding import Finding, Severity
+from gripscale.core.finding import Finding, Severity, sentences
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
@@ -51,7 +51,7 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
-    doubts = " ".join(input_doubts_of(data))
+    doubts = sentences(input_doubts_of(data))
     lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
     yield f"Answer: {lead} with {', '.join(values)} ({level} % intervals)."
     if not bool(data["area_term"].notnull().any()):

@@ -18,7 +18,7 @@ from gripscale.case import Case
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
     MeasuredFriction,
@@ -162,11 +162,11 @@ def calibrate(
         case.attributes, case_file=case.origin.name, model=model, notes="\n".join(notes(fit))
     )
     if far := speed_doubts(friction, case.load.speed):
-        data.attrs[INPUT_DOUBTS] = "\n".join(far)
+        data.attrs[INPUT_DOUBTS] = to_json(far)
     # its speeds have a doubt of their own
     loads = [replace(case.load, pressure=float(p)) for p in predicted.pressure]
     doubts = friction_doubts(friction, case.load.speed)
-    result = Calibration(data, record.inputs(case, loads=loads, friction_notes=doubts))
+    result = Calibration(data, record.inputs(case, loads=loads, further=doubts))
     result.fit = fit
     return result
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -130,13 +130,8 @@ def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
 def notices(run: RunSource) -> list[Finding]:
     """Return errors first, then warnings by what they change."""
     of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
-    of_friction = friction_notices(friction_doubts(run.measured, run.predictions[0].speed))
+    of_friction = friction_doubts(run.measured, run.predictions[0].speed)
     return ranked([*run_failures(run), *of_friction, *of_case, *_of_predictions(run)])
-
-
-def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
-    """Yield a warning for each doubt of measured friction."""
-    yield from (Finding(Severity.DOUBT, text) for text in doubts)
 
 
 def run_failures(run: RunSource) -> Iterator[Finding]:

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core.finding import Finding, Severity, Topic, from_json
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
 from gripscale.model import (
@@ -24,7 +24,7 @@ from gripscale.questions.answer.findings import answer_notices, no_answer_notice
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, basis_lines
 from gripscale.questions.answer.reliance import has_answer, no_answer
-from gripscale.questions.chain.findings import comparison_notices, friction_notices
+from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS, PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
@@ -252,7 +252,7 @@ def comparison_page(compared: Compared) -> Page:
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
         [
-            *friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
+            *from_json(str(first.attrs.get(FRICTION_DOUBTS, ""))),
             *_of_ladder(compared.ladder),
             *(element for element in elements if isinstance(element, Finding)),
             *([Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)] if stale else []),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gripscale.case import Case
-from gripscale.core.finding import Finding, ranked
+from gripscale.core.finding import Finding, from_json, ranked, to_json
 from gripscale.experiment.measured_friction import (
     FRICTION_DOUBTS,
     MeasuredFriction,
@@ -25,7 +25,6 @@ from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.findings import answer_notices
 from gripscale.questions.answer.page import answer_lines
-from gripscale.questions.chain.findings import friction_notices
 from gripscale.questions.chain.view import SYMBOLS
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
@@ -73,7 +72,7 @@ class Comparison(Result):
     @property
     def findings(self) -> Sequence[Finding]:
         """Doubts of measured friction, and what may change the answer."""
-        doubts = friction_notices(str(self.data.attrs.get(FRICTION_DOUBTS, "")).splitlines())
+        doubts = from_json(str(self.data.attrs.get(FRICTION_DOUBTS, "")))
         return tuple(doubts if self.axis else ranked([*doubts, *answer_notices(self.data)]))
 
     @property
@@ -166,7 +165,7 @@ def compare(
         ladder = solved_ladder(case, vary, choice, bench)
     data = ladder.data
     if doubts := friction_doubts(ladder.measured, case.load.speed):
-        data = data.assign_attrs({FRICTION_DOUBTS: "\n".join(doubts)})
+        data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
     result = Comparison(data)
     result.ladder = ladder
     return result

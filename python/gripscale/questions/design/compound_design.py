@@ -26,6 +26,7 @@ from gripscale.case import Case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.core.finding import doubt
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
@@ -112,8 +113,8 @@ def solved_design(
         replace(case.load, speed=goal.speed, pressure=goal.pressure)
         for goal in problem.friction.goals
     ]
-    misread = [f"{name}: {text}." for name, each in prepared.items() for text in each.doubts]
-    of_compounds = [*reading_notes((rubbers or {}).values()), *misread]
+    of_compounds = [doubt(text) for text in reading_notes((rubbers or {}).values())]
+    of_compounds += [d.about(name) for name, each in prepared.items() for d in each.doubts]
     of_inputs = record.inputs(case, problem.roads.values(), goal_loads, of_compounds)
     points: list[xr.Dataset] = []
     rising = _order(wanted, problem)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case import Case, NamedFile
 from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import measured_variables
 from gripscale.model import Load
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
@@ -102,25 +103,21 @@ def inputs(
     case: Case,
     surfaces: Iterable[Surface] | None = None,
     loads: Iterable[Load] | None = None,
-    rubber_notes: Iterable[str] = (),
-    friction_notes: Iterable[str] = (),
+    further: Iterable[Finding] = (),
 ) -> xr.Dataset:
     """Return everything a report says about the inputs of a case: the group `inputs` of a result.
 
-    Its doubts are those of `surfaces` and `loads` where the answer is not of those of the case, and
-    `rubber_notes`, what is assumed of rubbers beside that of the case; `friction_notes`, what is
-    doubtful of measured friction, come first.
+    Its findings are those of `surfaces` and `loads` where the answer is not of those of the case,
+    and `further` ones, of measured friction and of rubbers beside that of the case.
     """
     surface = case.surface
     excitation = excited(case.load.speed, surface.sines)
     rubber = case.measured_rubber
     of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
-    notes = {
-        "conditions_notes": "\n".join(case.conditions_notes()) or None,
-        "load_notes": "\n".join(case.load_notes()) or None,
-        "doubts": "\n".join([*friction_notes, *case.doubts(surfaces, loads), *rubber_notes])
-        or None,
-    }
+    # what the measurement does not carry stands in `cut_off_beyond_measurement`
+    left_out = [finding.about("Surface") for finding in surface.extrapolated]
+    findings = [f for f in case.findings(surfaces, loads) if f not in left_out]
+    notes = {"findings": to_json([*further, *findings])}
     parts = [({}, _waves(surface)), (_files(case.origin.files), {}), of_rubber]
     parts.append(({}, notes | _excited_band(excitation)))
     if case.friction is not None:
@@ -161,8 +158,6 @@ def _files(files: Sequence[NamedFile]) -> Variables:
 def _waves(surface: Surface) -> Variables:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
-    # what the measurement does not carry stands in `cut_off_beyond_measurement`, plates in `doubts`
-    notes = [note for note in surface.notes if note not in surface.extrapolated + surface.doubts]
     return {
         "sines_s_wavelength": sines.s_wavelength,
         "sines_s_amplitude": sines.s_amplitude,
@@ -171,7 +166,6 @@ def _waves(surface: Surface) -> Variables:
         "sines_lag_max_m": high,
         "sines_cut_off_m": sines.cut_off,
         "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
-        "surface_notes": "\n".join(notes) or None,
     }
 
 

@@ -15,7 +15,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.result import RoughContact
@@ -210,6 +210,6 @@ def sensitivity(
         **provenance.version_attributes(),
     }
     loads = [point.task.load for point in study.points]
-    notes = reading_notes(study.measured_rubbers)
+    notes = [doubt(text, topic=Topic.RUBBER) for text in reading_notes(study.measured_rubbers)]
     inputs = record.inputs(case, study.surfaces, loads, notes)
     return Sensitivity(data.assign_attrs(case.attributes, **attrs), inputs)

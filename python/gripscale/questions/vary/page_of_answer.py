@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core.arrays import Array
+from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
@@ -53,7 +54,7 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
 def study_basis(data: xr.Dataset) -> Iterator[str]:
     """Yield what the numbers of a study are for, what they are made of and what they rest on."""
     if doubts := input_doubts_of(data):
-        yield f"not to be relied on: {' '.join(doubts)}"
+        yield f"not to be relied on: {sentences(doubts)}"
     status = data[STATUS]
     failed = int((status != "converged").sum())
     count = f"{status.size} predictions, {failed or 'none'} without a result"

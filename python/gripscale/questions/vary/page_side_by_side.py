@@ -12,7 +12,7 @@ import xarray as xr
 from gripscale.chain.chain import Chain
 from gripscale.charts.draw import image
 from gripscale.charts.style import power_of_ten
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
@@ -156,7 +156,7 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
         head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
     yield f"Answer: {head}{level}."
     if doubts := input_doubts_of(data):
-        yield f"  not to be relied on: {' '.join(doubts)}"
+        yield f"  not to be relied on: {sentences(doubts)}"
     if TEMPERATURE in data.attrs:
         pressure, speed = (
             display_unit_of(data.attrs, name).text(float(data.attrs[f"nominal_{name}"]))

@@ -414,7 +414,7 @@ class Study:
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
             "rubber_parameters": json.dumps(canonical_json(self.rubbers)),
             "notes": "\n".join(
-                dict.fromkeys(n for surface in self.surfaces for n in surface.notes)
+                dict.fromkeys(str(f) for surface in self.surfaces for f in surface.findings)
             ),
             "software": software(),
             "study_key": self.key,
