@@ -6,10 +6,10 @@ from .below_measurement import contact_by_cut_off as contact_by_cut_off
 from .continued import ContinuedContact as ContinuedContact
 from .grid_sequence import GridRecord as GridRecord
 from .location import contact_trace as contact_trace
-from .location import shares_by_slope as shares_by_slope
 from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
+from .result import shares_by_slope as shares_by_slope
 from .sensitivity import contact_sensitivity as contact_sensitivity
 from .solve import solve_rough_contact as solve_rough_contact
 from .windows import WindowContacts as WindowContacts

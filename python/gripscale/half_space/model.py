@@ -16,7 +16,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
-from gripscale.half_space.location import SHARES_BY_SLOPE, contact_trace, with_traces
+from gripscale.half_space.location import contact_trace, with_traces
+from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart

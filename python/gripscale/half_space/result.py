@@ -39,8 +39,6 @@ from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
-from gripscale.half_space.location import SHARES_BY_SLOPE as BY_SLOPE
-from gripscale.half_space.location import SLOPES, shares_by_slope
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import (
     CUT_OFF_EXPONENTS,
@@ -121,6 +119,48 @@ _NUMBERS = {
     "smallest_wavelength": ("m", "smallest wavelength of the surface as solved"),
     "full_contact": ("1", "1 where the contact is full"),
 }
+
+
+SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
+"""Lower ends of the classes of |dh/dx|; the last has no upper end."""
+SHARES_BY_SLOPE = {
+    "friction_by_slope": "share of the friction from contact on slopes of the class",
+    "load_by_slope": "share of the load carried on slopes of the class",
+    "contact_by_slope": "share of the contact area on slopes of the class",
+}
+
+
+def shares_by_slope(contact: RoughContact) -> xr.Dataset:
+    """Return the shares of friction, load and contact area by slope of the surface.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        The contact; the slope is dh/dx along the sliding direction, up or down.
+
+    Returns
+    -------
+    xarray.Dataset
+        `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the lower end
+        of the classes 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1; the friction is NaN
+        where there is none.
+    """
+    slope = contact.grid.slope(contact.height)
+    index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
+    force, total = contact.pressure * slope, float(np.sum(contact.pressure * slope))
+    moving = contact.speed > 0.0 and total > 0.0
+    amounts = (
+        force if moving else np.full(force.shape, math.nan),
+        contact.pressure,
+        contact.active,
+    )
+    data = {}
+    for (name, text), amount in zip(SHARES_BY_SLOPE.items(), amounts, strict=True):
+        sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
+        share = sums / amount.sum() if amount is not force else sums / total
+        data[name] = labelled("slope", share, "1", text, _SOURCE)
+    ends = labelled("slope", np.array(SLOPES), "1", "lower end of |dh/dx|", "input")
+    return xr.Dataset(data, {"slope": ends})
 
 
 @dataclass(frozen=True)
@@ -272,7 +312,7 @@ class RoughContact:
 
     @cached_property
     def shares_by_slope(self) -> xr.Dataset:
-        """Shares of friction, load and contact area by slope, see `half_space.location`."""
+        """Shares of friction, load and contact area by slope, as the function of this name."""
         return shares_by_slope(self)
 
     @property
@@ -374,7 +414,7 @@ class RoughContact:
         for name in (entry.name for entry in fields_of(GridRecord)):
             values = [float(getattr(grid, name)) for grid in self.grids]
             add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
-        data |= {name: self.shares_by_slope[name].variable for name in BY_SLOPE}
+        data |= {name: self.shares_by_slope[name].variable for name in SHARES_BY_SLOPE}
         pressures = self.pressure_quantiles(_SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]
