@@ -18,14 +18,14 @@ from typing import Any
 
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
+from gripscale.continuation.curve import DOWN_TO, ContinuedContact
+from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.provenance import COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
-from gripscale.half_space.below_measurement import HurstExponent, OwnFaces, Roughness
-from gripscale.half_space.continued import DOWN_TO, ContinuedContact
 from gripscale.model import Doubtful, Load, LoadTime, doubt_sentences, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber

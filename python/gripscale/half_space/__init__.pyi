@@ -1,9 +1,5 @@
-from .below_measurement import ContactByCutOff as ContactByCutOff
-from .below_measurement import FinerMeasurement as FinerMeasurement
-from .below_measurement import HurstExponent as HurstExponent
-from .below_measurement import OwnFaces as OwnFaces
-from .below_measurement import contact_by_cut_off as contact_by_cut_off
-from .continued import ContinuedContact as ContinuedContact
+import gripscale.continuation
+
 from .grid_sequence import GridRecord as GridRecord
 from .location import contact_trace as contact_trace
 from .model import BlockOnProfile as BlockOnProfile
@@ -19,3 +15,10 @@ from .windows import solve_windows as solve_windows
 from .windows import spread_windows as spread_windows
 from .windows import surface_of_sines as surface_of_sines
 from .windows import windows as windows
+
+ContactByCutOff = gripscale.continuation.ContactByCutOff
+ContinuedContact = gripscale.continuation.ContinuedContact
+FinerMeasurement = gripscale.continuation.FinerMeasurement
+HurstExponent = gripscale.continuation.HurstExponent
+OwnFaces = gripscale.continuation.OwnFaces
+contact_by_cut_off = gripscale.continuation.contact_by_cut_off
