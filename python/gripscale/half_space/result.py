@@ -232,6 +232,11 @@ class RoughContact:
         """Sum of hysteresis and area term [-]; NaN without an area term."""
         return self.friction + self.adhesive_friction
 
+    @cached_property
+    def body(self) -> HalfSpace:
+        """The rubber as it slides; it keeps its moduli on lines."""
+        return HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
+
     @property
     def converged(self) -> bool:
         """Whether the solution may be used."""
@@ -351,8 +356,7 @@ class RoughContact:
 
     @cached_property
     def _lost(self) -> Array:
-        body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
-        lost = lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
+        lost = lost_by_harmonic(self.body.compliance(self.grid), self.grid, self.pressure)
         lost.flags.writeable = False
         return lost
 

@@ -24,7 +24,6 @@ import scipy
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
 
 FEWEST_PIECES = 4
@@ -80,8 +79,7 @@ def _by_piece(field: Array, counts: Sequence[int]) -> Array:
 
 def _losses(contact: RoughContact) -> Array:
     """Return pressure times the slope [Pa] that the losses of the rubber make."""
-    body = HalfSpace(contact.rubber, contact.speed, by_scale=contact.by_scale)
-    slope = -contact.grid.along * body.compliance(contact.grid).imag
+    slope = -contact.grid.along * contact.body.compliance(contact.grid).imag
     waves = slope * scipy.fft.rfftn(contact.pressure)
     return np.asarray(contact.pressure * scipy.fft.irfftn(waves, s=contact.grid.shape))
 
