@@ -233,10 +233,7 @@ class GridSequence:
     """When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s]."""
 
     def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
-        """Return the contact on `level`, from its contact in `start` or the level before.
-
-        `tolerance` is the missing pressure at the end, over the pressure.
-        """
+        """Return the contact on `level`, from its contact in `start` or the level before."""
         self.last = self.start.get(level.key, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers, self.deadline)
@@ -281,10 +278,7 @@ class GridSequence:
     def _through_losses(
         self, response: Response, height: Array, start: Array, contact: GridContact
     ) -> GridContact:
-        """Return the contact, reached by raising the loss angle of the rubber step by step.
-
-        It counts the products and iterations of every step, and of `contact`, which did not settle.
-        """
+        """Return the contact, reached by raising the loss angle from that of `contact` in steps."""
         for loss in LOSSES:
             part = response
             if loss != 1.0:

@@ -183,10 +183,7 @@ PREFIX = "trace_"
 
 
 def with_traces(answer: xr.Dataset, traces: Sequence[xr.Dataset]) -> xr.Dataset:
-    """Return an answer with the trace of each of its profiles, over `profile`.
-
-    Names and dimensions begin with `trace_`; shorter traces end in NaN.
-    """
+    """Return an answer with the traces of its profiles over `profile`; shorter ones end in NaN."""
     sizes = {dim: max(trace.sizes[dim] for trace in traces) for dim in traces[0].dims}
     # traces of like profiles, from several answers, then have one length
     sizes["piece"] = -(-sizes["piece"] // ROUNDED) * ROUNDED

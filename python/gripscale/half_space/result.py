@@ -56,10 +56,7 @@ if TYPE_CHECKING:
 
 
 def patch_points(active: Mask) -> NDArray[np.int64]:
-    """Return the number of points of each patch, largest first.
-
-    Points belong together if they are neighbours along x or y, across the period too.
-    """
+    """Return the number of points of each patch of neighbours across the period, largest first."""
     labels, count = scipy.ndimage.label(active)
     first, second = [], []
     for axis in range(active.ndim):

@@ -303,10 +303,9 @@ class Plateau:
 
 
 def find_plateau(hdc: HeightDifference) -> Plateau | None:
-    """Return the plateau of a height difference correlation, or None if it is not reached.
+    """Return the plateau, or None if it is not reached.
 
-    The level is the median of C_z over the plateau's lags, weighted evenly in log lag: neither the
-    last of the rise nor a drift at the largest lags moves it much.
+    Its level is the median, evenly weighted in log lag: the last of the rise hardly moves it.
     """
     weight = log_weights(hdc.lag)
     tail_mean = np.cumsum((weight * hdc.value)[::-1])[::-1] / np.cumsum(weight[::-1])[::-1]

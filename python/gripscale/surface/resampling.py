@@ -143,7 +143,6 @@ def printed_grid(
     """Return the even grid of increasing `distances` printed in a column, some rows left out.
 
     `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
-    Raises `FileError` if the steps are not equal, or more than half the points are left out.
     """
     grid = even_grid(distances, table.resolution(column))
     if grid is not None and grid.left_out <= _MOST_LEFT_OUT * grid.size:
@@ -298,10 +297,7 @@ def one_period(
 
 
 def without_short_waves(line: Profile, smallest_wavelength: float) -> Profile:
-    """Return a periodic line without shorter waves [m], with four points in the smallest left.
-
-    Raises `InputError` if that is longer than the period.
-    """
+    """Return a periodic line without shorter waves [m], with four points in the smallest left."""
     cut = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
     period = len(line) * line.step
     # round-off must not drop a wave that is exactly the smallest

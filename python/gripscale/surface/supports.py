@@ -66,10 +66,7 @@ class Support:
 
 
 def support_plates(profile: Profile) -> tuple[Support, ...]:
-    """Return the plates and supports in a profile, in order; empty if there are none.
-
-    Raises `InputError` if `profile` is no profile.
-    """
+    """Return the plates and supports in a profile, in order; empty if there are none."""
     checks.instance("profile", profile, Profile)
     valid = np.flatnonzero(np.isfinite(profile.z))
     if valid.size < _PIECES * _FEWEST_HEIGHTS:
@@ -99,8 +96,7 @@ def support_plates(profile: Profile) -> tuple[Support, ...]:
 def road_between(profile: Profile) -> tuple[float, float] | None:
     """Return first and last distance of the longest part without plates [m]; None: all of it.
 
-    The part keeps a distance from the plates, and ends on whole hundredths of the decade of the
-    length of the profile: centimetres for a metre.
+    It ends on whole hundredths of the decade of the length of the profile: centimetres for a metre.
     """
     supports = support_plates(profile)
     if not supports:
