@@ -130,6 +130,9 @@ SHARES_BY_SLOPE = {
 def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     """Return the shares of friction, load and contact area by slope of the surface.
 
+    The friction from the contact traction, sum_i p_i h'_i / (N p_0), is a sum over the points of
+    the grid, so that a class of slopes has a share in it as in the load and in the contact area.
+
     Parameters
     ----------
     contact : RoughContact
@@ -144,18 +147,14 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     """
     slope = contact.grid.slope(contact.height)
     index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
-    force, total = contact.pressure * slope, float(np.sum(contact.pressure * slope))
-    moving = contact.speed > 0.0 and total > 0.0
-    amounts = (
-        force if moving else np.full(force.shape, math.nan),
-        contact.pressure,
-        contact.active,
-    )
+    force = contact.pressure * slope
+    if not (contact.speed > 0.0 and force.sum() > 0.0):
+        force = np.full(force.shape, math.nan)
     data = {}
+    amounts = (force, contact.pressure, contact.active)
     for (name, text), amount in zip(SHARES_BY_SLOPE.items(), amounts, strict=True):
         sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
-        share = sums / amount.sum() if amount is not force else sums / total
-        data[name] = labelled("slope", share, "1", text, _SOURCE)
+        data[name] = labelled("slope", sums / amount.sum(), "1", text, _SOURCE)
     ends = labelled("slope", np.array(SLOPES), "1", "lower end of |dh/dx|", "input")
     return xr.Dataset(data, {"slope": ends})
 
@@ -375,16 +374,12 @@ class RoughContact:
             index = round(float(octave.max() - np.log2(grid.cut_off / self.smallest_wavelength)))
             if grid.settled and 0 <= index < order.size:
                 fraction[index] = grid.contact_fraction
+        ends = self.smallest_wavelength * 2.0**order
         columns = {
             "friction": (friction, "1", "friction of the octave", _SOURCE),
             "running_friction": (np.cumsum(friction), "1", "friction down to the octave", _SOURCE),
             "contact_fraction": (fraction, "1", "contact fraction without shorter waves", _SOURCE),
-            "wavelength": (
-                self.smallest_wavelength * 2.0**order,
-                "m",
-                "lower end of octave",
-                "input",
-            ),
+            "wavelength": (ends, "m", "lower end of octave", "input"),
         }
         data = {name: labelled("wavelength", *column) for name, column in columns.items()}
         return xr.Dataset(data).set_coords("wavelength")

@@ -239,7 +239,7 @@ def _known_level(start: RoughContact, heights: PeriodicHeights) -> KnownLevels:
         raise InputError("start must be a contact of the same surface with the same cut-off")
     level = Level(start.grid, start.smallest_wavelength)
     contact = GridContact(start.pressure, start.gap, start.active, 0, settled=True)
-    return {level.key: LevelContact(level, start.height, contact, start.grids[-1])}
+    return {level: LevelContact(level, start.height, contact, start.grids[-1])}
 
 
 def _solve_sequence(

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -294,8 +294,7 @@ _SHORTEST_PLATEAU = 2.0
 """Ratio of the largest lag to the plateau's first lag below which it is not called a plateau."""
 
 
-@dataclass(frozen=True)
-class Plateau:
+class Plateau(NamedTuple):
     """The plateau of C_z: its first lag [m] and its level [m^2]."""
 
     lag: float
