@@ -215,10 +215,7 @@ FACTS = {
 
 
 def cut_off_at(slope: float, wavelength: Array, slopes: Array) -> float:
-    """Return the cut-off [m] at which the rms slope in contact reaches a value; NaN if none.
-
-    `slopes` are those at the cut-offs `wavelength` [m], which fall.
-    """
+    """Return the cut-off [m], from falling ones, at which `slopes` reach a value; NaN if none."""
     above = np.flatnonzero(slopes >= slope)
     if not above.size or above[0] == 0:
         return math.nan

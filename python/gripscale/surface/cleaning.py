@@ -70,8 +70,7 @@ class CleaningReport:
             lines.append(f"{line}  {s.note}".rstrip())
         return "\n".join(lines)
 
-    def __str__(self) -> str:
-        return self.table()
+    __str__ = table
 
 
 def clean(
