@@ -4,16 +4,21 @@ from importlib import import_module
 
 import lazy_loader
 
-_own_name, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_attribute, _, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 _CONTINUATION = {
     *("ContactByCutOff", "ContinuedContact", "contact_by_cut_off"),
     *("FinerMeasurement", "HurstExponent", "OwnFaces"),
 }
 """Names that `gripscale.continuation` holds; scripts may still import them from here."""
+__all__ = sorted([*__all__, *_CONTINUATION])
 
 
 def __getattr__(name: str) -> object:
     if name in _CONTINUATION:
         return getattr(import_module("gripscale.continuation"), name)
-    return _own_name(name)
+    return _attribute(name)
+
+
+def __dir__() -> list[str]:
+    return list(__all__)
