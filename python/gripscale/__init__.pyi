@@ -1,5 +1,6 @@
 from . import charts as charts
 from . import conditions as conditions
+from . import continuation as continuation
 from . import half_space as half_space
 from . import questions as questions
 from . import report as report

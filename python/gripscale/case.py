@@ -18,6 +18,8 @@ from typing import Any
 
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
+from gripscale.continuation.curve import DOWN_TO, ContinuedContact
+from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.finding import Finding, Severity, Topic, doubt
@@ -26,8 +28,6 @@ from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse
 from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
-from gripscale.half_space.below_measurement import HurstExponent, OwnFaces, Roughness
-from gripscale.half_space.continued import DOWN_TO, ContinuedContact
 from gripscale.model import Load, LoadTime, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber

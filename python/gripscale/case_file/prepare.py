@@ -20,18 +20,17 @@ from gripscale.case_file.schema import CaseTable
 from gripscale.case_file.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.errors import FileError, InputError, about_file, about_keys
-from gripscale.core.units import ZERO_CELSIUS, in_mm
-from gripscale.core.wording import CaseKey, Words
-from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
-from gripscale.half_space.below_measurement import (
+from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
+from gripscale.continuation.roughness import (
     FinerMeasurement,
     HurstExponent,
     OwnFaces,
     Roughness,
-    contact_by_cut_off,
-    cut_off_at,
 )
+from gripscale.core.errors import FileError, InputError, about_file, about_keys
+from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.core.wording import CaseKey, Words
+from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io.text_table import read_bytes
 from gripscale.rubber import (
     MasterCurve,

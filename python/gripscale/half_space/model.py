@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
+import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
@@ -16,20 +17,15 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
-from gripscale.half_space.location import SHARES_BY_SLOPE, contact_trace, with_traces
+from gripscale.half_space.location import contact_trace, with_traces
+from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
+from gripscale.model import Load, OnProgress
+from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
 from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import waves_to_dataset
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from gripscale.half_space.result import RoughContact
-    from gripscale.model import Load, OnProgress
-    from gripscale.rubber import Rubber
-
 
 JUDGED_TO = 0.05
 """Estimated relative error of the contact that every run judges its chain by."""
@@ -51,10 +47,7 @@ def smallest_wavelength(surface: Surface, measured: Profile | HeightMap) -> floa
 
 
 def resolved_wavelength(surface: Surface) -> float:
-    """Return the shortest wave [m] that counts in all measurements of a surface.
-
-    A cut-off that was stated may be shorter; without a measurement it is what counts.
-    """
+    """Return the shortest wave [m] in all measurements; without one, the stated cut-off."""
     measured = () if surface.measured is None else surface.measured.surfaces
     ends = [smallest_wavelength(surface, each) for each in measured]
     return max(ends, default=surface.cutoff_wavelength)
@@ -68,8 +61,6 @@ def _with_basis(
     The profiles are independent: their sampling errors, from pieces of a length [m], add up in
     squares.
     """
-    import xarray as xr
-
     errors = [sampling_error(contact, piece) for contact in contacts]
     area, friction = (
         np.multiply(lengths, [getattr(contact, name) for contact in contacts])
@@ -167,8 +158,6 @@ class DirectContact(Checked, model.Model):
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:
         """Return the answer of the contacts of all profiles."""
-        import xarray as xr
-
         # patches and grids differ in number from profile to profile: only the contacts have them
         parts = [c.to_dataset(fields=False).drop_dims(["patch", "grid"]) for c in contacts]
         lengths = [contact.grid.lengths[0] for contact in contacts]

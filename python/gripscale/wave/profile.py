@@ -1,6 +1,6 @@
 """The finite-strain block on one period of a measured profile: all its waves in one solution.
 
-The profile is made `gripscale.surface.periodic.one_period` and pressed into one block: no
+The profile is made `gripscale.surface.resampling.one_period` and pressed into one block: no
 separation of scales, no random phases, and no small strain.
 """
 
@@ -17,8 +17,7 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import Profile
-from gripscale.surface.periodic import one_period, without_short_waves
-from gripscale.surface.resampling import fill_gaps
+from gripscale.surface.resampling import fill_gaps, one_period, without_short_waves
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh, SampledProfile, WaveLoad, WaveProblem

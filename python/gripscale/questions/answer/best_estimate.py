@@ -20,8 +20,9 @@ import numpy as np
 import xarray as xr
 
 from gripscale.experiment.design import Index, stack, variable_attributes
-from gripscale.half_space import line_to_map, location
+from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
+from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import BASIS, STATUS
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
 from gripscale.questions.answer.samples import (
@@ -153,7 +154,7 @@ def best_estimate(
         data[f"best_{share}"] = unknown
         if direct is not None and share in direct:
             data[f"best_{share}"] = usable(direct, share).mean("sample")
-    for share in location.SHARES_BY_SLOPE:
+    for share in SHARES_BY_SLOPE:
         if direct is not None and share in direct:
             data[f"best_{share}"] = usable(direct, share).mean("sample")
     for name in ESTIMATED:

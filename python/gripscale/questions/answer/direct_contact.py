@@ -13,12 +13,12 @@ from pathlib import Path
 import xarray as xr
 
 from gripscale.case import Case
+from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
-from gripscale.half_space.continued import QUANTILE_90
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.location import PREFIX
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength

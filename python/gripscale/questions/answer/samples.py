@@ -22,7 +22,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, Mask
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.task import Task
-from gripscale.half_space import location
+from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,
@@ -64,7 +64,7 @@ def sample_numbers(
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
-    for share in location.SHARES_BY_SLOPE:
+    for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]
     if rest:

@@ -16,9 +16,9 @@ import numpy as np
 
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
+from gripscale.continuation.curve import ContinuedContact
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.half_space.continued import ContinuedContact
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model

@@ -9,12 +9,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
+from gripscale.continuation.curve import FACTS, cut_off_at
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
-from gripscale.half_space.below_measurement import FACTS, cut_off_at
 from gripscale.model import STATUS, Load
 from gripscale.surface import RmsSlope, Surface, find_cut_off
 

@@ -95,7 +95,7 @@ def cut_off(
     Returns
     -------
     CutOff
-        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off` with the prefix
+        Over `cut_off`: the curves of `gripscale.continuation.contact_by_cut_off` with the prefix
         `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
         The totals are those of the last cut-off.
 

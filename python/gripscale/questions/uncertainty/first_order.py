@@ -169,7 +169,7 @@ def _by_rubber(adjoint: FrictionAdjoint, rubber: Rubber) -> float:
 
 def _log_ratio(adjoint: FrictionAdjoint, rubber: Rubber) -> ComplexArray:
     """Return ln(M'/M) [-] of each wave of another rubber, at the temperature of the case."""
-    contact, body = adjoint.contact, adjoint.body
+    contact, body = adjoint.contact, adjoint.contact.body
     solid = (contact.conditions or Conditions()).before(rubber)
     scales = None if body.by_scale is None else replace(body.by_scale, rubber=solid)
     other = HalfSpace(solid, body.speed, by_scale=scales)
