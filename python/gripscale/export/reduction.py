@@ -51,10 +51,7 @@ class Reduction:
 
 
 def reduced(
-    rubber: Rubber,
-    *,
-    band: tuple[float, float] | None = None,
-    terms: int | None = None,
+    rubber: Rubber, *, band: tuple[float, float] | None = None, terms: int | None = None
 ) -> Reduction:
     """Return a rubber with fewer terms, for a band of frequencies.
 

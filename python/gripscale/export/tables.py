@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.core import checks
 from gripscale.io import netcdf
@@ -55,7 +54,12 @@ def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
     else:
         parts = {"": checks.instance("result", result, xr.Dataset)}
     tables = [table for group, data in parts.items() for table in _tables(group, data)]
-    rows = [row for group, data in parts.items() for row in _attributes(group, data)]
+    rows = []
+    for group, data in parts.items():
+        rows += [(group, str(key), _text(value)) for key, value in data.attrs.items()]
+        for name, variable in data.variables.items():
+            owner = f"{group}/{name}" if group else str(name)
+            rows += [(owner, str(key), _text(value)) for key, value in variable.attrs.items()]
     texts = np.array(rows, dtype=object).reshape(len(rows), 3).T
     names = ("of", "attribute", "value")
     columns = [Column(name, values) for name, values in zip(names, texts, strict=True)]
@@ -104,12 +108,14 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
     by_dimensions |= {(str(index),): [] for index in data.indexes if str(index) not in used}
     for dims in sorted(by_dimensions, key=len):
         places = [_place_column(data, dims, dim) for dim in dims]
-        columns = [
-            Column(name, np.asarray(variable.values).ravel(), unit=_unit(variable))
-            for name, variable in ((name, data.variables[name]) for name in by_dimensions[dims])
-        ]
+        columns = []
+        for name in by_dimensions[dims]:
+            variable = data.variables[name]
+            columns.append(Column(name, np.asarray(variable.values).ravel(), unit=_unit(variable)))
         if len(dims) > 1:
-            kept = ~np.all([_missing(column.values) for column in columns], axis=0)
+            kinds = [(c.values, c.values.dtype.kind) for c in columns]
+            missing = [np.isnan(v) if kind == "f" else np.zeros(len(v), bool) for v, kind in kinds]
+            kept = ~np.all(missing, axis=0)
             columns, places = (
                 [column.of(column.values[kept]) for column in part] for part in (columns, places)
             )
@@ -126,20 +132,8 @@ def _place_column(data: xr.Dataset, dims: tuple[str, ...], dim: str) -> Column:
     return Column(dim, full.ravel(), unit="1" if along is None else _unit(along))
 
 
-def _missing(values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Return whether each value is NaN."""
-    return np.isnan(values) if values.dtype.kind == "f" else np.zeros(len(values), dtype=bool)
-
-
 def _unit(variable: xr.Variable) -> str:
     return "" if variable.dtype.kind in "OUS" else str(variable.attrs.get("units", ""))
-
-
-def _attributes(group: str, data: xr.Dataset) -> Iterator[tuple[str, str, str]]:
-    yield from ((group, str(key), _text(value)) for key, value in data.attrs.items())
-    for name, variable in data.variables.items():
-        owner = f"{group}/{name}" if group else str(name)
-        yield from ((owner, str(key), _text(value)) for key, value in variable.attrs.items())
 
 
 def _text(value: Any) -> str:

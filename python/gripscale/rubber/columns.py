@@ -38,9 +38,7 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import listed, quantity_in_si, spelled
-from gripscale.io.text_table import (
-    TextTable,
-)
+from gripscale.io.text_table import TextTable
 
 _TITLES = {
     meaning: re.compile(pattern)

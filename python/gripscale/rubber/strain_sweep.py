@@ -18,12 +18,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
-from gripscale.rubber.columns import (
-    MODULI,
-    RATIOS,
-    FileLayout,
-    young_moduli,
-)
+from gripscale.rubber.columns import MODULI, RATIOS, FileLayout, young_moduli
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, row_temperatures
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}

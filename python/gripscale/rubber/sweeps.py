@@ -25,13 +25,7 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks
-from gripscale.rubber.columns import (
-    APART,
-    FileLayout,
-    check_rows,
-    spread_of_repeats,
-    young_moduli,
-)
+from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
 from gripscale.rubber.shift import WLF
 
 TEMPERATURE_TOLERANCE = 1.0

@@ -52,7 +52,6 @@ from gripscale.theory.elastic import (
     plane_strain_modulus,
     poisson,
 )
-from gripscale.wave.kernel import face_of
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
@@ -92,9 +91,9 @@ def nodes(points: int) -> Array:
 def solve_periodic_contact(
     compliance: Compliance, height: Callable[[Array], Array], points: int, most_iterations: int
 ) -> GridContact:
-    """Return the contact, solved on nested grids that each start from the active set before.
+    """Return the contact of compliance c(m), m = 1, 2, ..., and a rigid surface over angles [rad].
 
-    `compliance` gives c(m) for m = 1, 2, ...; `height` the rigid surface at angles [rad].
+    Nested grids each start from the active set before.
     """
     levels = [points]
     while levels[0] % 2 == 0 and levels[0] > _COARSEST:
@@ -171,11 +170,7 @@ def pressure_harmonics(pressure: Array) -> ComplexArray:
 
 
 def contact_edges(contact: GridContact) -> list[tuple[float, float]]:
-    """Return the contact patches as (start, end) angles [rad], interpolated between nodes.
-
-    Outside the edge of a smooth contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two
-    nearest open nodes is extrapolated to zero. A patch across +-pi has end > pi.
-    """
+    """Return the contact patches as (start, end) angles [rad]; one across +-pi has end > pi."""
     active, gap, points = contact.active, contact.gap, len(contact.gap)
     if active.all():
         return [(-np.pi, np.pi)]
@@ -193,7 +188,11 @@ def contact_edges(contact: GridContact) -> list[tuple[float, float]]:
 
 
 def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
-    """Return how far beyond the last active node the contact ends [elements, 0 to 1]."""
+    """Return how far beyond the last active node the contact ends [elements, 0 to 1].
+
+    Outside the edge of a smooth contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two
+    nearest open nodes is extrapolated to zero.
+    """
     points = len(gap)
     near, far = (node + side) % points, (node + 2 * side) % points
     if active[far] or gap[far] <= max(gap[near], 0.0):
@@ -312,7 +311,6 @@ class HalfPlane(Checked):
         )
 
 
-@face_of(HalfPlane)
 def solve_half_plane(
     rubber: Rubber,
     *,

@@ -22,7 +22,6 @@ from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.wave import kernel
-from gripscale.wave.kernel import face_of
 from gripscale.wave.problem import Mesh, Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
@@ -167,7 +166,6 @@ class FiniteStrainBlock(Checked):
         )
 
 
-@face_of(FiniteStrainBlock)
 def solve_scale(
     rubber: Rubber,
     *,

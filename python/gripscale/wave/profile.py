@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -48,14 +49,10 @@ def solve_profile(
     depth: float = Mesh.depth,
     columns: int | None = None,
     rows: int | None = None,
-    element_order: int = Mesh.element_order,
-    tolerance: float | None = None,
-    time_limit: float | None = None,
     workers: int | None = None,
     start: ScaleResult | None = None,
-    max_iterations: int | None = None,
-    residual_tolerance: float | None = None,
     settings: Mapping[str, float] | None = None,
+    **options: Any,
 ) -> ScaleResult:
     """Press a rubber block on one period of a profile, slide it, and find contact and friction.
 
@@ -73,7 +70,7 @@ def solve_profile(
         The viscoelastic solid.
     profile : Profile
         Heights of one period [m]; the rubber slides along its x.
-    pressure, speed, load_time, element_order, tolerance, time_limit, workers, max_iterations
+    pressure, speed, load_time, workers
         As in `gripscale.solve_scale`.
     smallest_wavelength : float, optional
         Shorter waves are left out [m]; by default none of a periodic profile, else those shorter
@@ -90,10 +87,11 @@ def solve_profile(
         frictions differ by more than the `friction_bound` of the result.
     start : ScaleResult, optional
         A result of the block to start from, of any profile, load and rubber.
-    residual_tolerance : float, optional
-        Largest residual force over the applied force, and gap over half the range of heights [-].
     settings : mapping, optional
         Further settings of the kernel by name, see `gripscale.wave.default_settings`.
+    **options
+        `element_order`, `tolerance`, `time_limit`, `max_iterations` and `residual_tolerance` as in
+        `gripscale.solve_scale`; the gap of the last over half the range of heights.
 
     Returns
     -------
@@ -123,16 +121,7 @@ def solve_profile(
         following = Mesh.rows * math.pow(count / Mesh.columns, growth)
         graded = math.log1p((ROW_GROWTH - 1.0) * depth * count) / math.log(ROW_GROWTH)
         rows = round(min(following, graded))
-    block = FiniteStrainBlock.of(
-        columns=columns,
-        rows=rows,
-        depth=depth,
-        element_order=element_order,
-        tolerance=tolerance,
-        time_limit=time_limit,
-        max_iterations=max_iterations,
-        residual_tolerance=residual_tolerance,
-    )
+    block = FiniteStrainBlock.of(columns=columns, rows=rows, depth=depth, **options)
     thorough = {"rescue_columns": _COLUMNS[-1]}
     block = replace(block, settings={**block.settings, **thorough, **(settings or {})})
     problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
