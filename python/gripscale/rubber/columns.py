@@ -77,7 +77,7 @@ _STATED = re.compile(
 
 def quantity(name: str) -> str | None:
     """Return the quantity a column `name` clearly means, else None."""
-    text = _SHIFTED.sub("", plain_title(name))
+    text = _SHIFTED.sub("", name.strip().translate(_PRIMES))
     if logarithm := _RAISED.fullmatch(text):
         return quantity(logarithm[2])
     if _PHASE.fullmatch(text):
@@ -94,18 +94,13 @@ def quantity(name: str) -> str | None:
 
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
-    text = plain_title(name)
+    text = name.strip()
     kinds = set()
     for kind, words in (("E", "young|tensile"), ("G", "shear|schub")):
         letter = re.search(rf"(?<![A-Za-z]){kind}(?![A-Za-z])", text.replace("_", " "))
         if letter or re.search(words, text, re.IGNORECASE):
             kinds.add(kind)
     return kinds.pop() if len(kinds) == 1 else None
-
-
-def plain_title(name: str) -> str:
-    """Return the name with one kind of prime, so that E'' can be told from E'."""
-    return name.strip().translate(_PRIMES)
 
 
 def with_primes(line: str) -> str:
@@ -148,10 +143,7 @@ def raised(table: TextTable) -> TextTable:
 
 
 def stated_temperature(line: str) -> tuple[str, str | None] | None:
-    """Return number and unit of the temperature a line above the rows states, such as T = 20 °C.
-
-    The unit is None where the line has none. None if the line states no temperature.
-    """
+    """Return number and unit, if any, of the temperature a line states, such as T = 20 °C."""
     match = _STATED.search(line.strip())
     return None if match is None else (match["number"], match["before"] or match["after"])
 
@@ -243,10 +235,9 @@ class FileLayout(Checked):
 
     def for_table(self, table: TextTable) -> FileLayout:
         """Return the layout of one table: without columns where its titles count and suffice."""
-        if not (self.titles_first and self.columns):
-            return self
         titles = replace(self, columns=None)
-        return titles if titles.suffices(table) else self
+        count = self.titles_first and self.columns and titles.suffices(table)
+        return titles if count else self
 
     def suffices(self, table: TextTable) -> bool:
         """Return whether frequency and modulus are in a table; `InputError` as `column`."""
@@ -346,11 +337,7 @@ _ROUNDING = 0.05
 def young_moduli(
     table: TextTable, layout: FileLayout, numbers: ReadColumn | None = None
 ) -> tuple[Array, Array]:
-    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing.
-
-    Raises `InputError` if columns, units or the kind of modulus are not known, or the loss factor
-    beside E' and E'' is E'/E''.
-    """
+    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing."""
     read = numbers or above_zero
     positions = {name: layout.column(table, name) for name in MODULI}
     at = {name: position for name, position in positions.items() if position is not None}
@@ -423,10 +410,7 @@ _OFTEN = 3
 
 
 def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:
-    """Return by which factor moduli of one frequency and temperature differ, in the median.
-
-    Of E' and E'' the larger counts. One where fewer than a third of the conditions come again.
-    """
+    """Return by which factor E' or E'' of one frequency and temperature differ, in the median."""
     conditions = np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE
     _, row, count = np.unique(np.round(conditions), axis=1, return_inverse=True, return_counts=True)
     again = count > 1

@@ -186,11 +186,7 @@ def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Ar
 
 
 def uniaxial_network_stresses(relaxation_times: Array, time: Array, stretch: Array) -> Array:
-    """Return s A_11 - s^-2 A_22, each temporary network's nominal stress over its shear modulus.
-
-    `relaxation_times` [s] has shape (terms,), `time` [s] and `stretch` [-] have shape (samples,);
-    the result [-] has shape (samples, terms).
-    """
+    """Return s A_11 - s^-2 A_22: nominal stress over shear modulus [-], shape (samples, terms)."""
     inverse = np.column_stack([stretch**-2, stretch])
     states = network_states(relaxation_times, time, inverse, rest=(1.0, 1.0))
     return np.asarray(
@@ -201,11 +197,9 @@ def uniaxial_network_stresses(relaxation_times: Array, time: Array, stretch: Arr
 def network_states(
     relaxation_times: Array, time: Array, inverse: Array, rest: tuple[float, ...]
 ) -> Array:
-    """Return the states A_i of the temporary networks along a history, by the recurrence above.
+    """Return the states A_i of the networks, (samples, terms, components), by the recurrence above.
 
-    `relaxation_times` [s] has shape (terms,), `time` [s], not falling, (samples,) and `inverse`,
-    components of C^-1 [-], (samples, components); `rest` are those of the unit tensor: the state at
-    the first time. The result has shape (samples, terms, components).
+    `inverse` are components of C^-1, (samples, components), `rest` those of the unit tensor.
     """
     step = np.diff(time)[:, None] / relaxation_times
     kept = np.exp(-step)
@@ -246,18 +240,12 @@ _FASTEST = 0.01
 
 @dataclass(frozen=True)
 class FiniteStrainFit:
-    """The rubber found, and how well it carries each test.
-
-    Attributes
-    ----------
-    rubber : Rubber
-        Elements whose fitted modulus is zero are left out.
-    tests : tuple of UniaxialTest
-        What it was fitted to.
-    """
+    """The rubber found, and how well it carries each test."""
 
     rubber: Rubber
+    """Elements whose fitted modulus is zero are left out."""
     tests: tuple[UniaxialTest, ...]
+    """What it was fitted to."""
 
     @property
     def rms_errors(self) -> Array:

@@ -75,10 +75,7 @@ class Smooth:
 def smooth(
     functions: Array, penalty: Array, values: Array, trust: Array, weight: float | None = None
 ) -> Smooth:
-    """Return the curve through `values` of shape (rows,), each counted `trust` times.
-
-    `weight` is that of the penalty, the best one if not given.
-    """
+    """Return the curve through `values`, each counted `trust` times; the best `weight` if None."""
     normal = functions.T @ (trust[:, None] * functions)
     right = functions.T @ (trust * values)
     best, least = None, np.inf
@@ -185,6 +182,10 @@ class Joint:
 def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     """Return the best shifts near a start against the middle sweep; log_b only if `lifted`."""
     held = rows.sweeps // 2
+    # limits of log_a of the colder less that of the warmer: neither may begin where the other ends
+    ends = np.array([rows.of(sweep)[0][[0, -1]] for sweep in range(rows.sweeps)])
+    least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
+    low, high = ends[1:, 0] - ends[:-1, 1] + least, ends[1:, 1] - ends[:-1, 0] - least
     shifts = np.concatenate([log_a - log_a[held], log_b - log_b[held]])
     others = np.delete(np.arange(rows.sweeps, dtype=np.intp), held)
     free = np.concatenate([others, others + rows.sweeps]) if lifted else others
@@ -195,7 +196,10 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
         last = _gauss_newton_step(rows, shifts, free, trust / scatter**2, weights)
         largest = float(np.abs(last.step).max(initial=0.0))
         shifts[free] += last.step * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
-        shifts[: rows.sweeps] = _overlapping(rows, shifts[: rows.sweeps], held)
+        # no neighbours farther apart than where they hardly overlap
+        steps = np.clip(-np.diff(shifts[: rows.sweeps]), low, high)
+        total = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
+        shifts[: rows.sweeps] = total - total[held]
         scatter, trust = _scatter(rows, last, trust)
         if iteration >= _FREE_PENALTY:
             weights = last.weights
@@ -211,13 +215,12 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     covariance = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
     covariance[np.ix_(free, free)] = last.covariance * (1.0 + r) / (1.0 - r)
     log_a = shifts[: rows.sweeps]
-    low, high = _step_limits(rows)
     for colder in np.flatnonzero((-np.diff(log_a) <= low + _AT) | (-np.diff(log_a) >= high - _AT)):
         # all sweeps beyond the step, seen from the middle one
         beyond = others[(others <= colder) if colder < held else (others > colder)]
         covariance[np.ix_(beyond, beyond)] += _BOUND_ERROR**2
     middle = np.median(scatter, axis=1)
-    return Joint(shifts[: rows.sweeps], shifts[rows.sweeps :], covariance, middle, r)
+    return Joint(log_a, shifts[rows.sweeps :], covariance, middle, r)
 
 
 @dataclass(frozen=True)
@@ -271,23 +274,6 @@ def _gauss_newton_step(
     freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
     weight = tuple(curve.weight for curve in curves)
     return _Step(inverse @ right, inverse, np.array(residuals), freedoms, weight)
-
-
-def _step_limits(rows: Rows) -> tuple[Array, Array]:
-    """Return the limits of log_a of the colder less that of the warmer, by pair of neighbours.
-
-    Neither may begin where the other ends.
-    """
-    ends = np.array([rows.of(sweep)[0][[0, -1]] for sweep in range(rows.sweeps)])
-    least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
-    return ends[1:, 0] - ends[:-1, 1] + least, ends[1:, 1] - ends[:-1, 0] - least
-
-
-def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
-    """Return the shifts, no neighbours farther apart than where they hardly overlap."""
-    low, high = _step_limits(rows)
-    total = np.append(np.cumsum(np.clip(-np.diff(log_a), low, high)[::-1])[::-1], 0.0)
-    return np.asarray(total - total[held])
 
 
 def _scatter(rows: Rows, last: _Step, trust: Array) -> tuple[Array, Array]:

@@ -188,10 +188,7 @@ def read_master_curve(
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:
-    """Raise `FileError` for sweeps at several temperatures; a shifted curve may have them, too.
-
-    Its frequencies do not repeat from one to the next, and the caller has stated the columns.
-    """
+    """Raise `FileError` for sweeps; frequencies of a shifted curve with columns do not repeat."""
     for column, title in enumerate(table.columns):
         if quantity(title.name) != "temperature":
             continue

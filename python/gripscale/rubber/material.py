@@ -40,7 +40,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
-from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -65,10 +65,7 @@ def loss_shape(phase: Array) -> Array:
 
 
 def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
-    """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa] at `omega` [rad/s], same shape.
-
-    `times` [s] and `moduli` [Pa] have shape (terms,). In blocks that stay in the processor's cache.
-    """
+    """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa], in blocks that fit the processor's cache."""
     flat = np.abs(omega).reshape(-1)
     total = np.empty(flat.size, dtype=np.complex128)
     for first in range(0, flat.size, _BLOCK):
@@ -189,10 +186,7 @@ def least_bulk_modulus(modulus: float) -> float:
 
 
 def too_compressible(bulk: float, modulus: float, where: str) -> str:
-    """Return a sentence if Poisson's ratio at K and |E*| [Pa] is below 0.3, else nothing.
-
-    `where` is the frequency in words.
-    """
+    """Return a sentence if Poisson's ratio at K and |E*| [Pa] is below 0.3, else nothing."""
     ratio = float(poisson_ratio(bulk, modulus))
     if ratio >= LEAST_POISSON_RATIO:
         return ""
@@ -329,7 +323,9 @@ class Rubber(Checked, eq=False):
             raise InputError(f"values must have the keys {', '.join(names)}; got {list(values)}")
         others, shift = values.get("admissible"), values.get("shift")
         parts = {
-            "strain_energy": strain_energy_from_dict(values["strain_energy"]),
+            "strain_energy": checks.of_kind(
+                STRAIN_ENERGIES, "strain_energy", values["strain_energy"]
+            ),
             "admissible": None if others is None else AdmissibleSeries.from_dict(others),
             "shift": None if shift is None else shift_from_dict(shift),
         }
@@ -503,15 +499,12 @@ class End:
 
 
 def slow_end(rubber: Rubber) -> End:
-    """Return the relaxed modulus, or what was measured last on the way to it.
-
-    A rubber without a measured band is what its series says it is.
-    """
+    """Return the relaxed modulus, or what was measured last on the way to it."""
     return _end(rubber, rubber.equilibrium_modulus, 0)
 
 
 def fast_end(rubber: Rubber) -> End:
-    """Return the glassy modulus, or what was measured last on the way to it, likewise."""
+    """Return the glassy modulus, or what was measured last on the way to it."""
     return _end(rubber, rubber.glassy_modulus, 1)
 
 
@@ -536,8 +529,7 @@ MOST_PRESSURE = 10.0
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
     """Raise `InputError` unless E(t) after `load_time` [s], infinite at rest, carries the pressure.
 
-    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact; no
-    sliding rubber is stiffer than E(0).
+    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact.
     """
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))

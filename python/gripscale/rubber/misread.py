@@ -14,7 +14,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gripscale.core.arrays import Array
 from gripscale.core.units import UNITS
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.maxwell_fit import Curve
@@ -67,23 +66,17 @@ def _cause(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> str:
 
 def likely_reading(master: MasterCurve, swapped: SwappedModuli) -> str:
     """Return what E'' looks like, if a linear solid has it so; empty if it looks exchanged."""
-    omega, storage = master.angular_frequency, master.storage
-    best, words = min(
-        (misfit(Curve(omega, storage, loss)), words) for words, loss in _readings(master)
-    )
-    return words if best < min(_SOLID, _BETTER * swapped.swapped) else ""
-
-
-def _readings(master: MasterCurve) -> Iterator[tuple[str, Array]]:
-    """Yield what the numbers of E'' may be, in words, and the E'' [Pa] that they state then."""
+    omega, storage, loss = master.angular_frequency, master.storage, master.loss
+    readings = [("like one of a loss factor in %", 0.01 * loss)]
     units = sorted(set(UNITS["modulus"].values()))
     for unit in [*units, *(3.0 * unit for unit in units)]:  # a shear modulus was taken three times
-        yield "like the loss factor (tan delta)", master.storage * master.loss / unit
-    yield "like one of a loss factor in %", 0.01 * master.loss
+        readings.append(("like the loss factor (tan delta)", storage * loss / unit))
     degrees = master.loss_factor
     if degrees.max() < 90.0:
         words = "like one of a phase angle in degrees, taken for the loss factor"
-        yield words, master.storage * np.tan(np.radians(degrees))
+        readings.append((words, storage * np.tan(np.radians(degrees))))
     for ratio in (1e3, 1e6, 1e9):
-        yield f"{ratio:g} times too large", master.loss / ratio
-        yield f"{ratio:g} times too small", master.loss * ratio
+        readings.append((f"{ratio:g} times too large", loss / ratio))
+        readings.append((f"{ratio:g} times too small", loss * ratio))
+    best, words = min((misfit(Curve(omega, storage, read)), words) for words, read in readings)
+    return words if best < min(_SOLID, _BETTER * swapped.swapped) else ""

@@ -14,10 +14,6 @@ from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.prony import fit_prony
 
-_REFERENCE_FREQUENCY = 2.0 * np.pi * 6.94e7
-_RUBBERY = 1.76e6, 2.3 / 90.0
-_TRANSITION = 1.12e9, 55.0 / 90.0
-_GLASSY = 1.12e9, 2.0 / 90.0
 _ORIGIN = (
     "springpot parameters published for an unfilled SBR at 20 C; the publication is not stated in "
     "the source they were taken from"
@@ -57,10 +53,10 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
             f"omega must be greater than zero, at least {checks.LEAST:g} [rad/s]; "
             f"got {checks.short_repr(omega)}"
         )
-    scaled = 1j * frequency / _REFERENCE_FREQUENCY
-    rubbery, transition, glassy = (
-        modulus * scaled**exponent for modulus, exponent in (_RUBBERY, _TRANSITION, _GLASSY)
-    )
+    scaled = 1j * frequency / (2.0 * np.pi * 6.94e7)
+    rubbery = 1.76e6 * scaled ** (2.3 / 90.0)
+    transition = 1.12e9 * scaled ** (55.0 / 90.0)
+    glassy = 1.12e9 * scaled ** (2.0 / 90.0)
     return np.asarray(rubbery + 1.0 / (1.0 / transition + 1.0 / glassy))
 
 

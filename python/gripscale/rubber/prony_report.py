@@ -15,7 +15,7 @@ while E'' rises, or E'' exceed E' many times on a plateau, which no such series 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -59,13 +59,9 @@ class Misfit:
         )
 
 
-Misfits = tuple[Misfit, ...]
-Ends = tuple[Misfit | None, Misfit | None]
-
-
 def local_misfits(
     curve: Curve, errors: tuple[Array, Array], scatter: tuple[float, float]
-) -> Misfits:
+) -> tuple[Misfit, ...]:
     """Return where the local mean of the `errors` of E' and E'' [-] exceeds their scatter [-]."""
     size = min(_WINDOW, len(curve.omega))
     # The mean of each row and its neighbours, of as many near the ends.
@@ -83,18 +79,6 @@ def local_misfits(
         largest = (float(part[np.argmax(np.abs(part))]) for part in parts)
         misfits.append(Misfit(float(curve.omega[first]), float(curve.omega[last]), *largest))
     return tuple(misfits)
-
-
-def end_misfits(curve: Curve, errors: tuple[Array, Array], scatter: tuple[float, float]) -> Ends:
-    """Return the mean `errors` of the first and of the last five rows, None within the scatter."""
-    ends: list[Misfit | None] = []
-    for rows in (slice(None, END_ROWS), slice(-END_ROWS, None)):
-        omega = curve.omega[rows]
-        storage, loss = (float(error[rows].mean()) for error in errors)
-        missed = abs(storage) > scatter[0] or abs(loss) > scatter[1]
-        misfit = Misfit(float(omega[0]), float(omega[-1]), storage, loss)
-        ends.append(misfit if missed else None)
-    return ends[0], ends[1]
 
 
 _CERTAIN, _CERTAIN_RATIO = 0.5, 3.0
@@ -160,7 +144,9 @@ def misfit(curve: Curve) -> float:
         return root_mean_square(np.clip(np.log(spectrum.ratios(curve)), -_WORST, _WORST))
 
 
-def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterator[str]:
+def fit_warnings(
+    rubber: Rubber, inconsistencies: Sequence[Misfit], ends: Sequence[Misfit | None]
+) -> Iterator[str]:
     """Yield what a reader must know before the rubber is used, a sentence each."""
     if inconsistencies:
         yield (
@@ -181,20 +167,20 @@ def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterat
     here, twice = (complex(rubber.complex_modulus(factor * low)) for factor in (1.0, 2.0))
     if here.imag > here.real and twice.real > 2.0 * here.real:
         yield (
-            f"no equilibrium modulus: E' is {_mega(slow.modulus)} MPa at the slow end and still "
-            f"falls, to {_mega(rubber.equilibrium_modulus)} MPa; the data are those of a melt, "
+            f"no equilibrium modulus: E' is {slow.modulus / 1e6:.4g} MPa at the slow end and "
+            f"still falls, to {rubber.equilibrium_modulus / 1e6:.4g} MPa; the data are those of a melt, "
             "which carries no load at rest"
         )
     elif not slow.plateau:
         yield (
             "no plateau at the slow end: the equilibrium modulus, "
-            f"{_mega(rubber.equilibrium_modulus)} MPa, is an extrapolation; two decades slower E' "
+            f"{rubber.equilibrium_modulus / 1e6:.4g} MPa, is an extrapolation; two decades slower E' "
             f"may be {_span(rubber, low / BEYOND)} MPa"
         )
     if not fast.plateau:
         yield (
-            f"no plateau at the fast end: E' is still {_mega(fast.modulus)} MPa there; two decades "
-            f"faster it may be {_span(rubber, high * BEYOND)} MPa"
+            f"no plateau at the fast end: E' is still {fast.modulus / 1e6:.4g} MPa there; two "
+            f"decades faster it may be {_span(rubber, high * BEYOND)} MPa"
         )
     modulus = abs(complex(rubber.complex_modulus(high)))
     warning = too_compressible(rubber.bulk_modulus, modulus, f"at {high:.3g} rad/s")
@@ -205,11 +191,7 @@ def fit_warnings(rubber: Rubber, inconsistencies: Misfits, ends: Ends) -> Iterat
 def _span(rubber: Rubber, omega: float) -> str:
     """Return how low and how high E' may be at `omega` [rad/s], in MPa."""
     low, high = rubber.complex_modulus_band(omega)
-    return f"{_mega(float(low.real))} to {_mega(float(high.real))}"
-
-
-def _mega(modulus: float) -> str:
-    return f"{modulus / 1e6:.4g}"
+    return f"{low.real / 1e6:.4g} to {high.real / 1e6:.4g}"
 
 
 @dataclass(frozen=True)
@@ -287,7 +269,13 @@ def report_prony(
     best = rubber.admissible.complex_moduli(rows.omega)[0]
     of_best = best.real / rows.storage - 1.0, best.imag / rows.loss - 1.0
     inconsistencies = local_misfits(rows, of_best, scatter)
-    slow, fast = end_misfits(rows, errors, scatter)
+    ends: list[Misfit | None] = []  # of the first and the last rows, None within the scatter
+    for part in (slice(None, END_ROWS), slice(-END_ROWS, None)):
+        omega = rows.omega[part]
+        storage, loss = (float(error[part].mean()) for error in errors)
+        missed = abs(storage) > scatter[0] or abs(loss) > scatter[1]
+        misfit = Misfit(float(omega[0]), float(omega[-1]), storage, loss)
+        ends.append(misfit if missed else None)
     return PronyFit(
         terms=len(rubber.moduli),
         candidates=candidates,
@@ -302,9 +290,9 @@ def report_prony(
         loss_scatter=screening.loss_scatter,
         measured_band=(float(rows.omega[0]), float(rows.omega[-1])),
         inconsistencies=inconsistencies,
-        slow_end=slow,
-        fast_end=fast,
-        findings=tuple(fit_warnings(rubber, inconsistencies, (slow, fast))),
+        slow_end=ends[0],
+        fast_end=ends[1],
+        findings=tuple(fit_warnings(rubber, inconsistencies, ends)),
     )
 
 

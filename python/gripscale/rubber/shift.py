@@ -74,14 +74,24 @@ class Shift(Checked, ABC, eq=False):
         return np.zeros_like(temperature)
 
     @property
-    @abstractmethod
+    def reference_temperature(self) -> float | None:
+        """Temperature its constants hold for [K], if they hold for one."""
+        return None
+
+    @property
+    def valid_range(self) -> tuple[float, float] | None:
+        """Temperatures between which it was found [K], if they are known."""
+        return None
+
+    @property
     def limits(self) -> tuple[float, float]:
         """Temperatures between which the law has values [K]; beyond them it refuses."""
+        return _COLDEST, _HOTTEST
 
     @property
     def range(self) -> tuple[float, float]:
         """Temperatures between which the numbers rest on a measurement or a statement [K]."""
-        return self.limits
+        return self.valid_range or self.limits
 
     def within(self, temperature: float) -> bool:
         """Return whether a temperature [K] lies within `range`."""
@@ -89,9 +99,10 @@ class Shift(Checked, ABC, eq=False):
         return low - EDGE <= temperature <= high + EDGE
 
     def bound(self, reference_temperature: float) -> Self:
-        """Return the law with constants that hold for `reference_temperature` [K], if unbound."""
-        del reference_temperature
-        return self
+        """Return the law with `reference_temperature` [K], if it needs one and has none."""
+        reference = {"reference_temperature": reference_temperature}
+        needed = reference.keys() <= {item.name for item in fields(self)}
+        return replace(self, **reference) if needed and not self.reference_temperature else self
 
     def log_a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
         """Return log10 a_T [-] at `temperature` [K], same shape; above zero below the reference.
@@ -143,42 +154,6 @@ class Shift(Checked, ABC, eq=False):
             )
         return np.asarray(np.clip(kelvin, low, high))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the kind and all settings, arrays and ranges as lists."""
-        values = {item.name: getattr(self, item.name) for item in fields(self)}
-        several = (name for name, v in values.items() if isinstance(v, np.ndarray | tuple))
-        return {"kind": self.kind, **values, **{n: list(map(float, values[n])) for n in several}}
-
-
-class Formula(Shift, eq=False):
-    """A law with constants; those of WLF hold for a reference temperature."""
-
-    @property
-    def reference_temperature(self) -> float | None:
-        """Temperature its constants hold for [K], if they hold for one."""
-        return None
-
-    @property
-    def valid_range(self) -> tuple[float, float] | None:
-        """Temperatures between which it was found [K], if they are known."""
-        return None
-
-    @property
-    def range(self) -> tuple[float, float]:
-        """`valid_range`, or where the law has values [K]."""
-        return self.valid_range or self.limits
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """Above absolute zero [K]."""
-        return _COLDEST, _HOTTEST
-
-    def bound(self, reference_temperature: float) -> Self:
-        """Return the law with `reference_temperature` [K], if it needs one and has none."""
-        reference = {"reference_temperature": reference_temperature}
-        needed = reference.keys() <= {item.name for item in fields(self)}
-        return replace(self, **reference) if needed and not self.reference_temperature else self
-
     @property
     def _reference(self) -> float:
         if self.reference_temperature is None:
@@ -187,8 +162,14 @@ class Formula(Shift, eq=False):
             )
         return self.reference_temperature
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the kind and all settings, arrays and ranges as lists."""
+        values = {item.name: getattr(self, item.name) for item in fields(self)}
+        several = (name for name, v in values.items() if isinstance(v, np.ndarray | tuple))
+        return {"kind": self.kind, **values, **{n: list(map(float, values[n])) for n in several}}
 
-class WLF(Formula, eq=False):
+
+class WLF(Shift, eq=False):
     """WLF, at the reference temperature of the rubber unless it states its own.
 
     Raises `InputError` if a value is not a number above zero.
@@ -223,7 +204,7 @@ class WLF(Formula, eq=False):
         return max(self._reference - self.c2 * (1.0 - _FROM_POLE), _COLDEST), _HOTTEST
 
 
-class Arrhenius(Formula, eq=False):
+class Arrhenius(Shift, eq=False):
     """Arrhenius' law: one activation energy.
 
     Raises `InputError` if a value is not a number above zero.
@@ -240,7 +221,7 @@ class Arrhenius(Formula, eq=False):
         return arrhenius(self.activation_energy, temperature)
 
 
-class WLFArrhenius(Formula, eq=False):
+class WLFArrhenius(Shift, eq=False):
     """WLF above the glass transition, Arrhenius below; continuous.
 
     Raises `InputError` if a value is not a number above zero, or the glass transition lies at or
@@ -363,6 +344,10 @@ class ShiftTable(Shift, eq=False):
         """
         return np.interp(self._in_limits(temperature), self.temperature, self.horizontal_error)
 
+    def bound(self, reference_temperature: float) -> Self:
+        """Return the table as it is: its factors need no reference temperature."""
+        return self
+
     def _log_a(self, temperature: Array) -> Array:
         return self._between(self.horizontal, temperature)
 
@@ -392,10 +377,7 @@ def shift_from_dict(values: Mapping[str, Any]) -> Shift:
 
 
 def shift_at(shift: Shift | None, reference_temperature: float | None) -> Shift | None:
-    """Return the shift of something that holds for a reference temperature [K].
-
-    Raises `InputError` if it is no shift, or the temperature is not known or beyond its limits.
-    """
+    """Return the shift bound to a reference temperature [K]; `InputError` where it cannot be."""
     if shift is None:
         return None
     if not isinstance(shift, Shift):

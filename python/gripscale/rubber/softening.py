@@ -313,12 +313,7 @@ class SofteningTable(Checked):
 
 
 def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) -> SofteningTable:
-    """Return the softening that strain sweeps at one or several temperatures show.
-
-    `measured_at` is the strain amplitude at which the master curve was measured [-], in the
-    deformation of the sweeps. Raises `InputError` if sweeps are of different deformations, several
-    are without or at one temperature, or `measured_at` lies outside a sweep.
-    """
+    """Return the softening that strain sweeps show; `measured_at` is that of the master curve [-]."""
     sweeps = checks.instances("sweeps", sweeps, StrainSweep)
     kinds = sorted({sweep.deformation for sweep in sweeps})
     if len(kinds) != 1:

@@ -171,8 +171,8 @@ def _groups(values: Array, tolerance: float) -> NDArray[np.intp]:
 def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
     """Return whether `read_sweeps` is the reader of a file, and not `read_master_curve`.
 
-    It is for RepTate's files, for several tables that state a temperature each, and for a column of
-    temperatures over which the same frequencies come again, as in no master curve.
+    It is for tables that state a temperature, and for a column of temperatures over which the same
+    frequencies come again, as in no master curve.
     """
     layout = (layout and FileLayout(layout.columns, layout.sheet, layout.header)) or FileLayout()
     try:
@@ -188,10 +188,7 @@ def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
 
 
 def states_temperature(path: str | Path) -> bool:
-    """Return whether a file states the temperature of its moduli, above a table or in a column.
-
-    Raises `FileError` and `InputError` as `read_sweeps`.
-    """
+    """Return whether a file states the temperature of its moduli, above a table or in a column."""
     layout = FileLayout()
     blocks = read_blocks(file_path(path), layout, temperature_unit="C")
     return all(
@@ -201,10 +198,7 @@ def states_temperature(path: str | Path) -> bool:
 
 
 def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | None:
-    """Return the shift that a file of RepTate (.tts) states among its parameters, or None.
-
-    The `layout` has the fields of `FileLayout`. Raises as `read_sweeps`.
-    """
+    """Return the shift that a file of RepTate (.tts) states among its parameters, or None."""
     file = file_path(path)
     if is_excel(file):
         return None
@@ -385,20 +379,15 @@ def read_sweeps(
 _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)(?![A-Za-z\d])")
 
 
-def named_temperature(path: Path) -> float | None:
-    """Return the temperature that stands with its unit in the name of a file [K], if just one."""
-    temperatures = _NAMED.findall(path.stem.replace("_", " "))
-    if len(temperatures) != 1:
-        return None
-    ((number, unit),) = temperatures
-    return float(quantity_in_si(float(number.replace(",", ".")), unit, "temperature"))
-
-
 def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
     """Return a block with the temperature in the name of its file, if it states none itself."""
-    if block.temperature is not None or layout.column(block.table, "temperature") is not None:
+    named = _NAMED.findall(block.table.path.stem.replace("_", " "))
+    stated = block.temperature is not None or layout.column(block.table, "temperature") is not None
+    if stated or len(named) != 1:
         return block
-    return replace(block, temperature=named_temperature(block.table.path))
+    ((number, unit),) = named
+    kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
+    return replace(block, temperature=float(kelvin))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:
