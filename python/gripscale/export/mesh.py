@@ -41,7 +41,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_bytes
 from gripscale.io.text_table import file_path
 from gripscale.wave import ScaleResult
 from gripscale.wave.result import waves_from_dataset
@@ -188,22 +188,10 @@ class BlockStress:
 
 
 def block_stress(result: ScaleResult) -> BlockStress:
-    """Return the stress in the block of a wave.
+    """Return the stress in the block of a wave, by the material law in its deformed mesh.
 
-    Parameters
-    ----------
-    result : ScaleResult
-        Of the finite-strain block, solved or read from a file, with its mesh and its rubber.
-
-    Returns
-    -------
-    BlockStress
-        Stress of the material law in the deformed mesh, as in the solver.
-
-    Raises
-    ------
-    InputError
-        If the wave has no mesh or no rubber, or is not in equilibrium.
+    The `result` is of the finite-strain block, solved or read from a file. Raises `InputError` if
+    it has no mesh or no rubber, or is not in equilibrium.
     """
     checks.instance("result", result, ScaleResult)
     block, rubber = ReferenceBlock.of(result), result.rubber
@@ -282,7 +270,7 @@ def write_vtu(
     _array(part, "types", np.full(count, CELL_TYPES[corners], dtype=np.uint8))
     ET.indent(root)
     text = ET.tostring(root, xml_declaration=True, encoding="utf-8")
-    return write_whole(path, lambda part: part.write_bytes(text))
+    return write_bytes(path, text)
 
 
 def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: str) -> None:
@@ -298,7 +286,7 @@ def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: s
 
 
 def write_mesh(result: ScaleResult, path: str | Path) -> Path:
-    """Write the deformed block of a wave as VTU; return the path.
+    """Write the deformed block of a wave as VTU to `path`; return the path.
 
     Coordinates are those of gripscale, in m: x along the sliding, z up, y = 0. Points are the
     deformed nodes, with
@@ -314,20 +302,9 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
     - `pressure` [Pa], less a third of its trace,
     - `volume_ratio` [-], J.
 
-    Parameters
-    ----------
-    result : ScaleResult
-        Of the finite-strain block, solved or read from a file. If it is not in equilibrium (its
-        status is neither converged nor that of a missed accuracy), cells have no data.
-    path : str or Path
-        The file.
-
-    Raises
-    ------
-    InputError
-        If the wave has no mesh.
-    FileError
-        If the file cannot be written.
+    The `result` is of the finite-strain block, solved or read from a file. If it is not in
+    equilibrium (its status is neither converged nor that of a missed accuracy), cells have no data.
+    Raises `InputError` if it has no mesh, `FileError` if the file cannot be written.
     """
     checks.instance("result", result, ScaleResult)
     block = ReferenceBlock.of(result)

@@ -64,6 +64,9 @@ def abaqus_rubber(
 ) -> ProgramFile:
     """Return a rubber as an Abaqus material, to be included in an input file.
 
+    Numbers have 15 digits, as many as fit into the 20 characters that Abaqus reads of each. Raises
+    `InputError` if a unit or the name cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
+
     Parameters
     ----------
     rubber : Rubber
@@ -75,16 +78,6 @@ def abaqus_rubber(
         Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
     temperature_unit : str
         K or C, for the reference temperature of the shift.
-
-    Returns
-    -------
-    ProgramFile
-        Numbers have 15 digits, as many as fit into the 20 characters that Abaqus reads of each.
-
-    Raises
-    ------
-    InputError
-        If a unit or the name cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
     """
     checks.instance("rubber", rubber, Rubber)
     units = Units(modulus_unit, temperature_unit)
@@ -125,6 +118,9 @@ def ansys_rubber(
 ) -> ProgramFile:
     """Return a rubber as commands for Ansys MAPDL, to be read with /INPUT in PREP7.
 
+    Raises `InputError` if a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf +
+    sum E_i.
+
     Parameters
     ----------
     rubber : Rubber
@@ -134,16 +130,6 @@ def ansys_rubber(
         Number of the material, 1 to 99999.
     modulus_unit, temperature_unit : str
         As for `abaqus_rubber`.
-
-    Returns
-    -------
-    ProgramFile
-        The commands.
-
-    Raises
-    ------
-    InputError
-        If a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
     """
     checks.instance("rubber", rubber, Rubber)
     number = checks.whole("material", material, least=1, most=99999)
@@ -192,6 +178,9 @@ def febio_rubber(
 ) -> ProgramFile:
     """Return a rubber as the Material section of an FEBio file.
 
+    The file, of version 4.0, has this section only, to be copied or included. Raises `InputError`
+    if a unit, the name or the id cannot be used, or FEBio has no material with the strain energy.
+
     Parameters
     ----------
     rubber : Rubber
@@ -203,17 +192,6 @@ def febio_rubber(
         Id of the material, 1 to 99999.
     modulus_unit : str
         As for `abaqus_rubber`.
-
-    Returns
-    -------
-    ProgramFile
-        A file of version 4.0 with the Material section only, to be copied or included.
-
-    Raises
-    ------
-    InputError
-        If a unit, the name or the id cannot be used, or FEBio has no material with the strain
-        energy.
     """
     checks.instance("rubber", rubber, Rubber)
     number = checks.whole("material", material, least=1, most=99999)
@@ -298,25 +276,12 @@ PROGRAMS: dict[str, Callable[..., ProgramFile]] = {
 
 
 def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -> ProgramFile:
-    """Write a rubber for a finite element program; return the file.
+    """Write a rubber for a finite element program to the file `path`; return its contents.
 
-    Parameters
-    ----------
-    rubber : Rubber
-        The rubber, at the temperature of the analysis (`Rubber.at`).
-    path : str or Path
-        The file.
-    to : str
-        abaqus, ansys or febio.
-    options
-        Options of `abaqus_rubber`, `ansys_rubber` or `febio_rubber`.
-
-    Raises
-    ------
-    InputError
-        If the program is unknown, does not take an option, or has no such material.
-    FileError
-        If the file cannot be written.
+    The rubber is that at the temperature of the analysis (`Rubber.at`). `to` is abaqus, ansys or
+    febio, and `options` are those of `abaqus_rubber`, `ansys_rubber` or `febio_rubber`. Raises
+    `InputError` if the program is unknown, does not take an option, or has no such material,
+    `FileError` if the file cannot be written.
     """
     program = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
     allowed = [name for name in signature(program).parameters if name != "rubber"]

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.optimize import nnls
@@ -55,6 +56,8 @@ def reduced(
 ) -> Reduction:
     """Return a rubber with fewer terms, for a band of frequencies.
 
+    Raises `InputError` if an argument is out of range, or the rubber is elastic.
+
     Parameters
     ----------
     rubber : Rubber
@@ -63,11 +66,6 @@ def reduced(
         Lowest and highest frequency [Hz]; by default what the numbers rest on, or all terms.
     terms : int, optional
         Number of Maxwell elements, 1 to 200; by default as many as the rubber has in the band.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range, or the rubber is elastic.
     """
     checks.instance("rubber", rubber, Rubber)
     if not len(rubber.moduli):
@@ -94,24 +92,17 @@ def reduced(
             f"terms must be enough for E' at the slow end of the band; {count} leave no "
             "equilibrium modulus"
         )
+    series: dict[str, Any] = {
+        "equilibrium_modulus": float(solution[0]),
+        "moduli": solution[1:][kept],
+    }
+    series |= {"relaxation_times": times[kept], "valid_band": (low, high), "admissible": None}
     with warnings.catch_warnings():  # of a bulk modulus that the rubber has already
         warnings.simplefilter("ignore", RubberWarning)
-        series = replace(
-            rubber,
-            equilibrium_modulus=float(solution[0]),
-            moduli=solution[1:][kept],
-            relaxation_times=times[kept],
-            valid_band=(low, high),
-            admissible=None,
-        )
-    modulus = series.complex_modulus(omega)
-    errors = (
-        modulus.real / exact.real - 1.0,
-        modulus.imag / exact.imag - 1.0,
-        (modulus.imag / modulus.real) / (exact.imag / exact.real) - 1.0,
-    )
-    reduction = Reduction(series, *(float(np.abs(error).max()) for error in errors))
-    source = f"{rubber.source}; {reduction}" if rubber.source else str(reduction)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RubberWarning)
-        return replace(reduction, rubber=replace(series, source=source))
+        fewer = replace(rubber, **series)
+        modulus = fewer.complex_modulus(omega)
+        factor = (modulus.imag / modulus.real) / (exact.imag / exact.real)
+        ratios = modulus.real / exact.real, modulus.imag / exact.imag, factor
+        reduction = Reduction(fewer, *(float(np.abs(ratio - 1.0).max()) for ratio in ratios))
+        source = f"{rubber.source}; {reduction}" if rubber.source else str(reduction)
+        return replace(reduction, rubber=replace(fewer, source=source))

@@ -19,7 +19,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path
 from gripscale.rubber import WLF, Rubber, ShiftTable, WLFArrhenius, fit_wlf
 from gripscale.rubber.strain_energy import Isihara, MooneyRivlin, NeoHookean, Yeoh
@@ -42,8 +42,7 @@ class ProgramFile:
 
         Raises `FileError` if it cannot be written.
         """
-        file = file_path(path)
-        return write_whole(file, lambda part: part.write_text(self.text, encoding="utf-8"))
+        return write_text(file_path(path), self.text)
 
 
 @dataclass(frozen=True)

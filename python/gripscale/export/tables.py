@@ -28,23 +28,10 @@ SINGLE, ATTRIBUTES = "single_values", "attributes"
 
 
 def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
-    """Return a result as tables.
+    """Return a result as tables: a Dataset, such as a prediction, or all groups of a tree.
 
-    Parameters
-    ----------
-    result : Dataset or DataTree
-        A prediction, a study, a comparison or any other Dataset; of a tree all groups.
-
-    Returns
-    -------
-    list of Table
-        One for each set of dimensions, named by them, that of numbers without any first; then all
-        attributes. Those of a group begin with its name.
-
-    Raises
-    ------
-    InputError
-        If it is neither.
+    There is one for each set of dimensions, named by them, that of numbers without any first; then
+    all attributes. Those of a group begin with its name. Raises `InputError` for anything else.
     """
     if isinstance(result, xr.DataTree):
         parts = {
@@ -71,6 +58,9 @@ def write_tables(
 ) -> list[Path]:
     """Write a result as tables into a folder; return the files.
 
+    Raises `InputError` if the result or the format cannot be used, or a table has more rows than a
+    sheet. Raises `FileError` if a file cannot be read or written.
+
     Parameters
     ----------
     result : Dataset, DataTree, str or Path
@@ -79,13 +69,6 @@ def write_tables(
         Made if it does not exist; files of the same names are replaced.
     format : str
         csv, a file for each table, or xlsx, one workbook `tables.xlsx` with a sheet for each.
-
-    Raises
-    ------
-    InputError
-        If the result or the format cannot be used, or a table has more rows than a sheet.
-    FileError
-        If a file cannot be read or written.
     """
     checks.one_of("format", format, ["csv", "xlsx"])
     read = netcdf.load_tree(result) if isinstance(result, str | Path) else result

@@ -25,7 +25,6 @@ from gripscale.rubber.columns import FileLayout, quantity, stated_temperature
 from gripscale.rubber.shift import WLF
 
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
-"""Kinds of quantities whose units titles may hold."""
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _STEP = re.compile(r"\[\w+\]")
 """Begins a step of a file of TRIOS: [step]."""

@@ -162,12 +162,10 @@ PAIRS = (
 )
 """Two that state the modulus, the first choice first."""
 _QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
-"""What a column of a file of moduli may hold."""
 THREE = ("frequency", "storage", "loss")
 """What three columns without names hold, in this order."""
 
 _Columns = Mapping[str, str | int] | Sequence[str | int]
-"""Columns by quantity, or three of them; each by its title or its number from 1."""
 
 
 def unit_name(name: str, value: object) -> str:
@@ -177,7 +175,6 @@ def unit_name(name: str, value: object) -> str:
 
 
 ReadColumn = Callable[[TextTable, int, str], Array]
-"""Reads the column of a quantity, such as `above_zero`."""
 
 
 class FileLayout(Checked):

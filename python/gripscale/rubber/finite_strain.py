@@ -47,6 +47,8 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 class UniaxialTest(Checked, eq=False):
     """A measured history of stretch with its nominal stress.
 
+    Raises `InputError` if the lengths differ or a value is out of range.
+
     Parameters
     ----------
     name : str
@@ -57,11 +59,6 @@ class UniaxialTest(Checked, eq=False):
         Deformed over undeformed length [-], above zero; 1 at rest before the first sample.
     stress : array_like, shape (samples,)
         Nominal stress [Pa], somewhere above zero.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ or a value is out of range.
     """
 
     name: str = checked(checks.text)
@@ -93,19 +90,9 @@ class UniaxialTest(Checked, eq=False):
 def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> UniaxialTest:
     """Read a test from the first sheet of an Excel file: time [s], stretch [-], nominal stress.
 
-    Parameters
-    ----------
-    path : str or Path
-        An xlsx file whose first three columns hold numbers in every row; no header.
-    stress_unit : str
-        Unit of the third column, e.g. "kPa".
-
-    Raises
-    ------
-    FileError
-        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file is not as expected.
-    InputError
-        If the unit is unknown.
+    These are the first three columns, with numbers in every row and no header; `stress_unit` is the
+    unit of the third, such as kPa. Raises `FileError` if openpyxl is missing (`pip install
+    'gripscale[export]'`) or the file is not as expected, `InputError` if the unit is unknown.
     """
     pascal = quantity_in_si(1.0, stress_unit, "modulus", "stress_unit")
     path = file_path(path)
@@ -124,27 +111,20 @@ _SMALL_STEP = 1e-3
 
 
 def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Array:
-    """Return the nominal stress [Pa] of a bar in uniaxial tension or compression.
+    """Return the nominal stress [Pa] of a bar in uniaxial tension or compression, shape (samples,).
+
+    The bulk modulus is taken as infinite. Raises `InputError` if a time falls, a stretch is not
+    positive, or the lengths differ.
 
     Parameters
     ----------
     rubber : Rubber
-        Its bulk modulus is taken as infinite.
+        The viscoelastic solid.
     time : array_like, shape (samples,)
         Times of the samples [s], not falling; two equal times make a step.
     stretch : array_like, shape (samples,)
         Deformed over undeformed length [-], above zero. Before the first sample the bar is at rest
         and undeformed: a first stretch other than 1 is a step.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-        Force over the undeformed cross-section.
-
-    Raises
-    ------
-    InputError
-        If a time falls, a stretch is not positive, or the lengths differ.
     """
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive_vector("stretch", stretch)
@@ -156,25 +136,11 @@ def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Arra
 
 
 def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Array:
-    """Return the shear stress [Pa] of a block in simple shear; nominal and true stress agree.
+    """Return the shear stress [Pa] of a block in simple shear, nominal and true, shape (samples,).
 
-    Parameters
-    ----------
-    rubber : Rubber
-        Volume does not change, so its bulk modulus does not matter.
-    time : array_like, shape (samples,)
-        Times of the samples [s], not falling; two equal times make a step.
-    shear : array_like, shape (samples,)
-        Displacement over height [-]. Before the first sample the block is at rest and undeformed.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-
-    Raises
-    ------
-    InputError
-        If a time falls, a value is not finite, or the lengths differ.
+    `shear` is displacement over height [-], shape (samples,). Volume does not change, so the bulk
+    modulus does not matter; `time` and the rest before it are as in `uniaxial_stress`. Raises
+    `InputError` if a time falls, a value is not finite, or the lengths differ.
     """
     checks.instance("rubber", rubber, Rubber)
     amount = checks.vector("shear", shear)
@@ -291,6 +257,8 @@ def fit_finite_strain(
 ) -> FiniteStrainFit:
     """Fit one rubber to all `tests` together.
 
+    Raises `InputError` if there is no test, or an argument is out of range.
+
     Parameters
     ----------
     tests : sequence of UniaxialTest
@@ -302,15 +270,6 @@ def fit_finite_strain(
     band : tuple of two floats, optional
         Shortest and longest relaxation time [s]. Default: a hundredth of the shortest test to the
         longest test. Beyond the longest test nothing tells a slow network from a permanent one.
-
-    Returns
-    -------
-    FiniteStrainFit
-
-    Raises
-    ------
-    InputError
-        If there is no test, or an argument is out of range.
     """
     tests = checks.instances("tests", tests, UniaxialTest)
     law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]

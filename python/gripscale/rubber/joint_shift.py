@@ -28,46 +28,38 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array
 from gripscale.rubber.sweeps import Sweeps
 
-_DEGREE = 3
+_DEGREE, _SPACING = 3, 0.5
+"""Of the splines, and of their knots [decades]."""
 _PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
 """Tried, over the mean trust of a row."""
 _RIDGE = 1e-9
 """Penalty of the coefficients themselves, over the same: one row determines no straight line."""
 
 
-@dataclass(frozen=True)
-class Basis:
-    """B-splines on evenly spaced knots that reach from below `low` to above `high`."""
+def splines(x: Array) -> tuple[Array, Array, Array]:
+    """Return values and slopes of B-splines at `x`, and second differences of their coefficients.
 
-    knots: Array
+    The knots are at multiples of `_SPACING` and reach beyond `x`. Shapes: (rows, functions) twice,
+    and (functions - 2, functions).
+    """
+    from scipy.interpolate import BSpline
 
-    @classmethod
-    def over(cls, low: float, high: float, spacing: float) -> Basis:
-        """Return the basis over an interval, its knots at multiples of `spacing`."""
-        first, last = np.floor(low / spacing), np.ceil(high / spacing)
-        if last - first < 1.0:
-            last = first + 1.0
-        return cls(spacing * np.arange(first - _DEGREE, last + _DEGREE + 1.0))
-
-    def at(self, x: Array, derivative: bool = False) -> Array:
-        """Return the value, or the slope, of each function at `x`, shape (rows, functions)."""
-        from scipy.interpolate import BSpline
-
-        splines = BSpline(self.knots, np.eye(len(self.knots) - _DEGREE - 1), _DEGREE)
-        return np.asarray(splines(x, nu=int(derivative), extrapolate=True))
-
-    def penalty(self) -> Array:
-        """Return second differences of the coefficients, shape (functions - 2, functions)."""
-        return np.diff(np.eye(len(self.knots) - _DEGREE - 1), n=2, axis=0)
+    first, last = np.floor(x.min() / _SPACING), np.ceil(x.max() / _SPACING)
+    if last - first < 1.0:
+        last = first + 1.0
+    knots = _SPACING * np.arange(first - _DEGREE, last + _DEGREE + 1.0)
+    each = np.eye(len(knots) - _DEGREE - 1)
+    curves = BSpline(knots, each, _DEGREE)
+    values, slopes = (np.asarray(curves(x, nu=order, extrapolate=True)) for order in (0, 1))
+    return values, slopes, np.diff(each, n=2, axis=0)
 
 
 @dataclass(frozen=True)
 class Smooth:
-    """Coefficients of a fitted curve, its penalty weight and its effective number of freedoms."""
+    """A fitted curve: coefficients, normal equations, penalty weight and effective freedoms."""
 
     coefficients: Array
     matrix: Array
-    """Of the normal equations, with the penalty."""
     weight: float
     freedoms: float
 
@@ -140,8 +132,6 @@ def sweep_rows(sweeps: Sweeps, moduli: str) -> Rows:
 
 _AT = 1e-9
 """Distance from a limit that is rounding [decades]."""
-_SPACING = 0.5
-"""Of the knots [decades]."""
 _MOST_ITERATIONS = 60
 _FREE_PENALTY = 8
 """Iterations after which the weight of the penalty stays as it is."""
@@ -245,9 +235,7 @@ def _gauss_newton_step(
 ) -> _Step:
     """Return the step of the free shifts; the splines are eliminated."""
     s, v = np.split(shifts, 2)
-    x = rows.x + s[rows.sweep]
-    basis = Basis.over(float(x.min()), float(x.max()), _SPACING)
-    functions, slopes, penalty = basis.at(x), basis.at(x, derivative=True), basis.penalty()
+    functions, slopes, penalty = splines(rows.x + s[rows.sweep])
     # Neighbours are expected to have nearly the same log_b.
     apart = np.diff(np.eye(rows.sweeps), axis=0) / _LIFT
     expected = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))

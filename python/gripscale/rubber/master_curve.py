@@ -12,7 +12,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import (
@@ -29,6 +29,9 @@ from gripscale.rubber.shift import Shift, shift_at
 class MasterCurve(Checked, eq=False):
     """Storage and loss modulus in uniaxial deformation, sorted by ascending frequency.
 
+    Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
+    lengths differ or there are fewer than 2 rows.
+
     Parameters
     ----------
     frequency : array_like, shape (rows,)
@@ -42,12 +45,6 @@ class MasterCurve(Checked, eq=False):
     shift : Shift, optional
         What the curve becomes at other temperatures; a law without a reference temperature of its
         own takes that of the curve.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, not positive or beyond 1e-100 to 1e100, the lengths differ or
-        there are fewer than 2 rows.
     """
 
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
@@ -89,7 +86,6 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     """Write a master curve as CSV in Hz and Pa; return the path.
 
     The reference temperature stands in a comment, for people: whoever reads the file states it.
-
     Raises `FileError` if the file cannot be written.
     """
     checks.instance("master", master, MasterCurve)
@@ -99,8 +95,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     lines.append("frequency (Hz),storage modulus E' (Pa),loss modulus E'' (Pa)")
     rows = zip(master.frequency, master.storage, master.loss, strict=True)
     lines += [",".join(repr(float(value)) for value in row) for row in rows]
-    text = "\n".join(lines) + "\n"
-    return write_whole(file_path(path), lambda part: part.write_bytes(text.encode("utf-8")))
+    return write_text(file_path(path), "\n".join([*lines, ""]))
 
 
 _ONE_TEMPERATURE = 2.0
@@ -119,7 +114,10 @@ def read_master_curve(
 
     Titles are read in English and German; two of storage modulus, loss modulus, loss factor and
     |E*| state both moduli. The rules of `gripscale.io.text_table` hold. What the file states need
-    not be given; what is given goes before it. Nothing is guessed.
+    not be given; what is given goes before it. Nothing is guessed. Raises `FileError` if the file
+    cannot be read or holds something else, such as sweeps at several temperatures; the message
+    names path and line. Raises `InputError` if a unit, the kind of modulus or the columns are
+    neither stated nor given, or storage and loss are exchanged.
 
     Parameters
     ----------
@@ -134,19 +132,6 @@ def read_master_curve(
         `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
         `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`. Without `columns`
         three columns without titles are frequency, storage and loss.
-
-    Returns
-    -------
-    MasterCurve
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or holds something else, such as sweeps at several temperatures;
-        the message names path and line.
-    InputError
-        If a unit, the kind of modulus or the columns are neither stated nor given, or storage and
-        loss are exchanged.
     """
     file, layout = file_path(path), FileLayout(**options)
     unit = layout.temperature_unit

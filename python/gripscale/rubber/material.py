@@ -88,6 +88,8 @@ _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
 class AdmissibleSeries(Checked, eq=False):
     """Prony series on common relaxation times, one a row.
 
+    Raises `InputError` if a value is not finite or out of its range, or the shapes do not match.
+
     Parameters
     ----------
     relaxation_times : array_like, shape (terms,)
@@ -99,11 +101,6 @@ class AdmissibleSeries(Checked, eq=False):
     belongs_to : str
         Fingerprint of the rubber's own series, which the first rubber they are given to leaves: the
         others tell nothing of another one.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite or out of its range, or the shapes do not match.
     """
 
     relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
@@ -218,6 +215,9 @@ def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
 class Rubber(Checked, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
+    Raises `InputError` if a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the
+    lengths differ, or `admissible` belongs to other moduli or times.
+
     Parameters
     ----------
     equilibrium_modulus : float
@@ -243,12 +243,6 @@ class Rubber(Checked, eq=False):
     shift : Shift, optional
         What they become at other temperatures (`at`); a law without a reference temperature of its
         own takes that of the rubber.
-
-    Raises
-    ------
-    InputError
-        If a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the lengths
-        differ, or `admissible` belongs to other moduli or times.
 
     Warns
     -----
@@ -364,12 +358,8 @@ class Rubber(Checked, eq=False):
 
         The envelope of this series and the admissible ones: E' lies between the real parts, E''
         between the imaginary parts. Stated within the measured band and two decades beyond its
-        ends; further out the series have no relaxation times.
-
-        Raises
-        ------
-        InputError
-            If `omega` is not finite, or the rubber has no admissible series.
+        ends; further out the series have no relaxation times. Raises `InputError` if `omega` is not
+        finite, or the rubber has no admissible series.
         """
         modulus = self.complex_modulus(omega)
         if self.admissible is None:
@@ -410,12 +400,8 @@ class Rubber(Checked, eq=False):
         `valid_band` divided by it, and all Young's moduli, E_inf as well as E_i, divided by b_T.
         The bulk modulus, which does not relax, and the strain energy's parameters, which have no
         dimension, stay. The shift is kept, so that `at` goes on from any temperature to any other.
-
-        Raises
-        ------
-        InputError
-            If the rubber has no shift, the shift no value at `temperature`, or the moduli there do
-            not go with the bulk modulus.
+        Raises `InputError` if the rubber has no shift, the shift no value at `temperature`, or the
+        moduli there do not go with the bulk modulus.
         """
         kelvin = checks.positive("temperature", temperature, unit="K")
         if self.shift is None or self.reference_temperature is None:
@@ -555,16 +541,8 @@ _SAME = 0.5
 def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
     """Return what is doubtful about comparing rubbers, a sentence each; empty if nothing is.
 
-    Parameters
-    ----------
-    rubbers
-        The rubbers by what they are called.
-
-    Returns
-    -------
-    tuple of str
-        That they hold for different temperatures, that some have none stated beside others that
-        do, or that a temperature lies beyond those its shift rests on.
+    `rubbers` are named by their keys. They may hold for different temperatures, some without one
+    beside others that state it, or for one beyond those that their shift rests on.
     """
     kelvins = {
         name: rubber.reference_temperature

@@ -218,7 +218,7 @@ class Candidate:
 
 
 def choose_terms(
-    curve: Curve, fit: Callable[[Mask, int], Spectrum]
+    curve: Curve, fit: Callable[[Curve, int], Spectrum]
 ) -> tuple[int, tuple[Candidate, ...]]:
     """Return the number of terms and all candidates, from a `fit` to rows with so many terms."""
     decades = float(np.log10(curve.omega.max() / curve.omega.min()))
@@ -232,7 +232,7 @@ def choose_terms(
         squares = np.empty(len(fold))
         for held_out in range(_FOLDS):
             out = fold == held_out
-            storage, loss = fit(~out, terms).ratios(curve.rows(out))
+            storage, loss = fit(curve.rows(~out), terms).ratios(curve.rows(out))
             squares[out] = 0.5 * (storage - 1.0) ** 2
             squares[out] += 0.5 * (loss - 1.0) ** 2
         error = float(np.sqrt(squares.mean()))
@@ -275,13 +275,13 @@ class Screening:
         return max(self.storage_scatter, LEAST_SCATTER), max(self.loss_scatter, LEAST_SCATTER)
 
 
-def screen_outliers(curve: Curve, fit: Callable[[Mask], Spectrum], threshold: float) -> Screening:
-    """Return which rows belong to `curve`; `fit` is the Maxwell fit to a choice of rows."""
+def screen_outliers(curve: Curve, times: Array, prior: Prior, threshold: float) -> Screening:
+    """Return which rows belong to `curve`, beside Maxwell fits on the given `times` [s]."""
     kept = np.ones(len(curve.omega), dtype=bool)
     position = np.log(curve.omega)
     measured = np.log([curve.storage, curve.loss])
     for _ in range(_PASSES):
-        spectrum = fit(kept)
+        spectrum = fit_spectrum(curve.rows(kept), times, prior)
         # A fit may have no loss at all where it is far off.
         fitted = [spectrum.storage(curve.omega), spectrum.loss(curve.omega)]
         relative = measured - np.log(np.maximum(fitted, checks.LEAST))

@@ -40,28 +40,25 @@ def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -
             f"The largest E', {stiffest / 1e6:.3g} MPa, is that of no rubber: is the unit of the "
             "moduli right (modulus_unit)?"
         )
-    if swapped.as_given > _NO_SOLID:
-        yield (
-            "E' and E'' do not belong to one rubber: the nearest linear solid misses them by a "
-            f"factor of {math.exp(swapped.as_given):.2g}; {_cause(master, swapped, scatter)}; look "
-            "at the titles and units of the file, or name its columns (columns)"
-        )
-
-
-def _cause(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> str:
+    if swapped.as_given <= _NO_SOLID:
+        return
+    cause = "E'' may be another quantity, or in another unit"
     if scatter > _SCATTER:
-        return (
+        cause = (
             f"rows of nearly one frequency differ by {scatter:.0%}, as of sweeps at several "
             "temperatures in one table"
         )
-    reading = likely_reading(master, swapped)
-    if reading:
-        return f"E'' looks {reading}"
-    if swapped.likely:
-        return "storage and loss modulus look exchanged"
-    if np.mean(master.loss > master.storage) > 0.5:
-        return "E'' is larger than E' in most rows"
-    return "E'' may be another quantity, or in another unit"
+    elif reading := likely_reading(master, swapped):
+        cause = f"E'' looks {reading}"
+    elif swapped.likely:
+        cause = "storage and loss modulus look exchanged"
+    elif np.mean(master.loss > master.storage) > 0.5:
+        cause = "E'' is larger than E' in most rows"
+    yield (
+        "E' and E'' do not belong to one rubber: the nearest linear solid misses them by a "
+        f"factor of {math.exp(swapped.as_given):.2g}; {cause}; look at the titles and units of "
+        "the file, or name its columns (columns)"
+    )
 
 
 def likely_reading(master: MasterCurve, swapped: SwappedModuli) -> str:

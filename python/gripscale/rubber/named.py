@@ -21,7 +21,7 @@ _ORIGIN = (
 
 
 def springpot_modulus(omega: ArrayLike) -> ComplexArray:
-    """Return E*(w) of an unfilled styrene-butadiene rubber at 20 C from springpots.
+    """Return E*(w) [Pa] of an unfilled styrene-butadiene rubber at 20 C, of the shape of `omega`.
 
     One springpot in parallel with two in series, s = i w / w_r, w_r = 2 pi 6.94e7 rad/s:
 
@@ -30,22 +30,8 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
 
     The exponents are the limiting loss angles over 90 degrees. The parameters are published for an
     unfilled SBR at 20 C; the publication, the compound and the strain amplitude are not stated in
-    the source they were taken from.
-
-    Parameters
-    ----------
-    omega : array_like
-        Angular frequency [rad/s], above zero.
-
-    Returns
-    -------
-    ndarray of complex
-        Complex Young's modulus [Pa], shape of `omega`.
-
-    Raises
-    ------
-    InputError
-        If a frequency is not finite or not above zero.
+    the source they were taken from. Raises `InputError` if an angular frequency `omega` [rad/s] is
+    not finite or not above zero.
     """
     frequency = checks.real("omega", omega, unit="rad/s")
     if not (frequency >= checks.LEAST).all():
@@ -71,24 +57,15 @@ def styrene_butadiene(
     property of the rubber.
 
     What is known: unfilled SBR, 20 C, the parameters. Not known: publication, compound, laboratory,
-    strain amplitude, and how far into the glassy region they were measured.
+    strain amplitude, and how far into the glassy region they were measured. Raises `InputError` if
+    the band or the bulk modulus cannot be used.
 
     Parameters
     ----------
     band : tuple of two floats
-        Lowest and highest angular frequency [rad/s], at least two decades apart.
+        Lowest and highest angular frequency [rad/s], at least two decades apart; the `valid_band`.
     bulk_modulus : float
         Bulk modulus [Pa]; assumed, not published with the parameters.
-
-    Returns
-    -------
-    Rubber
-        With `valid_band` equal to `band`.
-
-    Raises
-    ------
-    InputError
-        If the band or the bulk modulus cannot be used.
     """
     ends = checks.positive_vector("band", band, unit="rad/s")
     if len(ends) != 2 or ends[1] < 100.0 * ends[0]:

@@ -21,13 +21,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
@@ -80,9 +79,9 @@ def extremes(
         loss = np.concatenate([[0.0], loss_shape(phase) * problem.scale, [0.0]])
         for row, offset in ((storage, problem.floor), (loss, 0.0)):
             solutions += [_furthest(reduced, best, row, offset, s, least) for s in (1.0, -1.0)]
-    spectra = [problem.spectrum(solution) for solution in solutions]
-    moduli = np.array([spectrum.moduli for spectrum in spectra])
-    equilibrium = np.array([spectrum.equilibrium for spectrum in spectra])
+    every = np.array(solutions)
+    moduli = every[:, 1:-1] * problem.scale
+    equilibrium = problem.floor + problem.unit * every[:, 0]
     # Elements of no weight count as zero.
     moduli[moduli <= 1e-9 * (moduli.sum(axis=1, keepdims=True) + equilibrium[:, None])] = 0.0
     return AdmissibleSeries(problem.times, _rounded(equilibrium), _rounded(moduli))
@@ -172,6 +171,9 @@ def fit_prony_report(
 ) -> tuple[Rubber, PronyFit]:
     """Return the Prony series of a master curve and the report on it.
 
+    Raises `InputError` if an argument is out of range, `bulk_modulus` is too small for the moduli
+    measured, or storage and loss modulus are exchanged (see `gripscale.rubber.prony_report`).
+
     Parameters
     ----------
     master : MasterCurve
@@ -200,12 +202,6 @@ def fit_prony_report(
         `admissible`, and the reference temperature and the shift of the curve.
     report : PronyFit
         How it came about and how well it fits.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range, `bulk_modulus` is too small for the moduli measured, or
-        storage and loss modulus are exchanged (see `gripscale.rubber.prony_report`).
     """
     checks.instance("master", master, MasterCurve)
     if len(master) < _FEWEST_ROWS or master.decades == 0.0:
@@ -227,24 +223,20 @@ def fit_prony_report(
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
     plain = Prior(_SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
     coarse = max(4, min(round(2.0 * master.decades), 60))
-    screening = maxwell_fit.screen_outliers(
-        curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold
-    )
-    kept, rows = screening.kept, curve.rows(screening.kept)
+    times = maxwell_fit.relaxation_times(curve.omega, coarse, 0.0)
+    screening = maxwell_fit.screen_outliers(curve, times, plain, outlier_threshold)
+    rows = curve.rows(screening.kept)
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
-    fit = partial(_fit, curve, beyond, prior)
+
+    def fit(part: Curve, terms: int) -> Spectrum:
+        times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
+        return maxwell_fit.fit_spectrum(part, times, prior)
+
     candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
-        positions = np.flatnonzero(kept)
-
-        def fit_among_kept(chosen: Mask, terms: int) -> Spectrum:
-            among_all = np.zeros_like(kept)
-            among_all[positions[chosen]] = True
-            return fit(among_all, terms)
-
-        terms, candidates = maxwell_fit.choose_terms(rows, fit_among_kept)
-    spectrum = fit(kept, terms)
+        terms, candidates = maxwell_fit.choose_terms(rows, fit)
+    spectrum = fit(rows, terms)
     # The scatter about the fit: what any series has to live with.
     storage_scatter, loss_scatter = (
         max(least, root_mean_square(ratio - 1.0))
@@ -287,8 +279,3 @@ def largest_modulus(measured: float, bulk: float) -> float:
             "(or is the unit of the moduli another?)"
         )
     return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
-
-
-def _fit(curve: Curve, beyond: float, prior: Prior, rows: Mask, terms: int) -> Spectrum:
-    times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
-    return maxwell_fit.fit_spectrum(curve.rows(rows), times, prior)

@@ -168,14 +168,14 @@ def fit_warnings(
     if here.imag > here.real and twice.real > 2.0 * here.real:
         yield (
             f"no equilibrium modulus: E' is {slow.modulus / 1e6:.4g} MPa at the slow end and "
-            f"still falls, to {rubber.equilibrium_modulus / 1e6:.4g} MPa; the data are those of a melt, "
-            "which carries no load at rest"
+            f"still falls, to {rubber.equilibrium_modulus / 1e6:.4g} MPa; the data are those of a "
+            "melt, which carries no load at rest"
         )
     elif not slow.plateau:
         yield (
             "no plateau at the slow end: the equilibrium modulus, "
-            f"{rubber.equilibrium_modulus / 1e6:.4g} MPa, is an extrapolation; two decades slower E' "
-            f"may be {_span(rubber, low / BEYOND)} MPa"
+            f"{rubber.equilibrium_modulus / 1e6:.4g} MPa, is an extrapolation; two decades slower "
+            f"E' may be {_span(rubber, low / BEYOND)} MPa"
         )
     if not fast.plateau:
         yield (

@@ -275,6 +275,9 @@ def standard_errors(name: str, value: ArrayLike) -> Array:
 class ShiftTable(Shift, eq=False):
     """Shift factors found at some temperatures: monotone cubics between, nothing beyond.
 
+    Raises `InputError` if values are missing, not finite, out of range or of unlike length, or
+    there is none.
+
     Parameters
     ----------
     temperature : array_like, shape (rows,)
@@ -289,11 +292,6 @@ class ShiftTable(Shift, eq=False):
         Standard errors of `vertical` [-], as for `horizontal_error`; zero without `vertical`.
     reference_temperature : float, optional
         The temperature the errors are relative to [K].
-
-    Raises
-    ------
-    InputError
-        If values are missing, not finite, out of range or of unlike length, or there is none.
     """
 
     temperature: Vector = checked(checks.in_limits, unit="K", repr=False)

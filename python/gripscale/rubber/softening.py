@@ -91,6 +91,8 @@ class SoftenedSeries:
 def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> SoftenedSeries:
     """Return `rubber` with E' times `storage` and E'' times `loss` at frequencies `omega`.
 
+    Raises `InputError` if a factor is not above zero or a frequency is not.
+
     Parameters
     ----------
     rubber : Rubber
@@ -99,11 +101,6 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
         f and g [-], above zero.
     omega : array_like, shape (frequencies,)
         Where the factors must hold [rad/s]; none: all moduli times f (relaxed rubber).
-
-    Raises
-    ------
-    InputError
-        If a factor is not above zero or a frequency is not.
     """
     f, g = checks.positive("storage", storage), checks.positive("loss", loss)
     at = checks.positive_vector("omega", omega, unit="rad/s") if np.size(omega) else np.empty(0)
@@ -211,7 +208,8 @@ class SofteningTable(Checked):
     """Moduli of strain sweeps, interpolated in the logarithms of strain and modulus.
 
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
-    factors are interpolated linearly, beyond them those of the nearest are held and flagged.
+    factors are interpolated linearly, beyond them those of the nearest are held and flagged. Raises
+    `InputError` if a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
 
     Parameters
     ----------
@@ -225,11 +223,6 @@ class SofteningTable(Checked):
         Kind of the strains.
     temperature : sequence of floats, optional
         Of each sweep [K], rising; needed if there are several.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
     """
 
     kind: ClassVar[str] = "table"
@@ -313,7 +306,7 @@ class SofteningTable(Checked):
 
 
 def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) -> SofteningTable:
-    """Return the softening that strain sweeps show; `measured_at` is that of the master curve [-]."""
+    """Return the softening of strain sweeps; `measured_at` is that of the master curve [-]."""
     sweeps = checks.instances("sweeps", sweeps, StrainSweep)
     kinds = sorted({sweep.deformation for sweep in sweeps})
     if len(kinds) != 1:
@@ -334,7 +327,6 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
 
 
 SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}
-"""Every law by its kind."""
 
 
 def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:

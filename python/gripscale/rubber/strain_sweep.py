@@ -22,7 +22,6 @@ from gripscale.rubber.columns import MODULI, RATIOS, FileLayout, young_moduli
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, row_temperatures
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
-"""What an amplitude may be, and what makes it a single one."""
 _DOUBLE = re.compile(
     r"peak[\s-]*(to[\s-]*)?peak|p\s?-\s?p\b|pk-pk|double|dsa\b|doppel|spitze", re.I
 )
@@ -33,6 +32,9 @@ _ONE_FREQUENCY = 0.02
 
 class StrainSweep(Checked, eq=False):
     """Storage and loss modulus against strain, in order of rising strain.
+
+    Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, or the
+    lengths differ.
 
     Parameters
     ----------
@@ -48,11 +50,6 @@ class StrainSweep(Checked, eq=False):
         Frequency [Hz].
     name, source : str
         What was measured and where the numbers come from.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, not positive or beyond 1e-100 to 1e100, or the lengths differ.
     """
 
     strain: Vector = checked(checks.in_limits, repr=False)
@@ -92,7 +89,10 @@ def read_strain_sweep(
 ) -> StrainSweep:
     """Read one strain sweep from a text, CSV or Excel file.
 
-    Titles are those `read_sweeps` knows; what the file states need not be given.
+    Temperature and frequency are None if neither stated nor given. Titles are those `read_sweeps`
+    knows; what the file states need not be given. Raises `FileError` if the file cannot be read or
+    holds more than one temperature or frequency. Raises `InputError` if a unit, the kind of modulus
+    or of amplitude, or a column is neither stated nor given.
 
     Parameters
     ----------
@@ -111,18 +111,6 @@ def read_strain_sweep(
         `columns`, `sheet`, `header`, `strain_unit`, `modulus_unit`, `temperature_unit`,
         `frequency_unit` and `modulus`, as fields of `gripscale.rubber.FileLayout`. Shear moduli (G)
         come with shear strain, Young's with that of length.
-
-    Returns
-    -------
-    StrainSweep
-        Temperature and frequency are None if neither stated nor given.
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or holds more than one temperature or frequency.
-    InputError
-        If a unit, the kind of modulus or of amplitude, or a column is neither stated nor given.
     """
     file, layout = file_path(path), FileLayout(**options)
     blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)

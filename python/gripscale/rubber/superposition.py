@@ -251,6 +251,9 @@ def superpose_report(
 ) -> tuple[MasterCurve, Superposition]:
     """Return the master curve of sweeps, and the report on how they meet.
 
+    Raises `InputError` if an argument is out of range, neighbouring sweeps have nothing in common,
+    or a given shift has no value at a temperature.
+
     Parameters
     ----------
     sweeps : Sweeps
@@ -272,12 +275,6 @@ def superpose_report(
         All rows, shifted. Its `shift` is a `ShiftTable` with standard errors, or the one given.
     report : Superposition
         How the sweeps meet.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range, neighbouring sweeps have nothing in common, or a given shift
-        has no value at a temperature.
     """
     checks.instance("sweeps", sweeps, Sweeps)
     reference = checks.positive("reference_temperature", reference_temperature, unit="K")

@@ -33,7 +33,6 @@ TEMPERATURE_TOLERANCE = 1.0
 _WIDEST = 3.0
 """Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
 _ROW = ("temperature", "frequency", "storage", "loss")
-"""The columns of measured rows."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +56,8 @@ class Sweeps(Checked, eq=False):
     """Frequency sweeps at several temperatures, from rows in any order.
 
     Rows whose temperatures follow each other within `tolerance` are one sweep, at their mean.
+    Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
+    lengths differ, there is no row, or temperatures run on without a gap, as on a ramp.
 
     Parameters
     ----------
@@ -70,12 +71,6 @@ class Sweeps(Checked, eq=False):
         Largest step between neighbouring temperatures of one sweep [K].
     name, source : str
         What was measured and where the numbers come from.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, not positive or beyond 1e-100 to 1e100, the lengths differ, there
-        is no row, or temperatures run on without a gap, as on a ramp.
     """
 
     temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
@@ -246,6 +241,9 @@ def sweeps_from_ramps(
 ) -> Sweeps:
     """Return sweeps at nominal temperatures from rows measured while the temperature ran.
 
+    Raises `InputError` as `Sweeps` does; if `step` is not above zero, or no frequency was measured
+    at two temperatures with a nominal one in between.
+
     Parameters
     ----------
     temperature, frequency, storage, loss : array_like, shape (rows,)
@@ -255,12 +253,6 @@ def sweeps_from_ramps(
         smaller than the steps of the ramp, or rows are used twice.
     name, source : str
         Carried along.
-
-    Raises
-    ------
-    InputError
-        As `Sweeps` does; if `step` is not above zero, or no frequency was measured at two
-        temperatures with a nominal one in between.
     """
     units = ("K", "Hz", "Pa", "Pa")
     columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)
@@ -313,9 +305,12 @@ def read_sweeps(
 ) -> Sweeps:
     """Read frequency sweeps at several temperatures from text, CSV, Excel or RepTate files.
 
-    Titles are read in English and German. The rules of `gripscale.io.text_table` hold; several
-    tables in one file, each with its temperature above it or in a column, are taken together.
-    What the file states need not be given; what is given goes before it. Nothing is guessed.
+    Rows with a missing value in a column that is needed are left out. Titles are read in English
+    and German. The rules of `gripscale.io.text_table` hold; several tables in one file, each with
+    its temperature above it or in a column, are taken together. What the file states need not be
+    given; what is given goes before it. Nothing is guessed. Raises `FileError` if a file cannot be
+    read or a value in it cannot be; the message names path and line. Raises `InputError` if a unit,
+    the kind of modulus, a column or a temperature is neither stated nor given.
 
     Parameters
     ----------
@@ -334,18 +329,6 @@ def read_sweeps(
     **options
         `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
         `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`.
-
-    Returns
-    -------
-    Sweeps
-        Rows with a missing value in a column that is needed are left out.
-
-    Raises
-    ------
-    FileError
-        If a file cannot be read or a value in it cannot be; the message names path and line.
-    InputError
-        If a unit, the kind of modulus, a column or a temperature is neither stated nor given.
     """
     paths, layout = file_paths(path), FileLayout(**options)
     if temperature is not None:
