@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from scipy.optimize import nnls
@@ -92,14 +91,16 @@ def reduced(
             f"terms must be enough for E' at the slow end of the band; {count} leave no "
             "equilibrium modulus"
         )
-    series: dict[str, Any] = {
-        "equilibrium_modulus": float(solution[0]),
-        "moduli": solution[1:][kept],
-    }
-    series |= {"relaxation_times": times[kept], "valid_band": (low, high), "admissible": None}
     with warnings.catch_warnings():  # of a bulk modulus that the rubber has already
         warnings.simplefilter("ignore", RubberWarning)
-        fewer = replace(rubber, **series)
+        fewer = replace(
+            rubber,
+            equilibrium_modulus=float(solution[0]),
+            moduli=solution[1:][kept],
+            relaxation_times=times[kept],
+            valid_band=(low, high),
+            admissible=None,
+        )
         modulus = fewer.complex_modulus(omega)
         factor = (modulus.imag / modulus.real) / (exact.imag / exact.real)
         ratios = modulus.real / exact.real, modulus.imag / exact.imag, factor

@@ -48,23 +48,16 @@ class UniaxialTest(Checked, eq=False):
     """A measured history of stretch with its nominal stress.
 
     Raises `InputError` if the lengths differ or a value is out of range.
-
-    Parameters
-    ----------
-    name : str
-        What the test is called in messages and figures.
-    time : array_like, shape (samples,)
-        Rising [s], at least two samples.
-    stretch : array_like, shape (samples,)
-        Deformed over undeformed length [-], above zero; 1 at rest before the first sample.
-    stress : array_like, shape (samples,)
-        Nominal stress [Pa], somewhere above zero.
     """
 
     name: str = checked(checks.text)
+    """What the test is called in messages and figures."""
     time: Vector = checked(checks.vector, unit="s", repr=False)
+    """Rising [s], shape (samples,), at least two samples."""
     stretch: Vector = checked(checks.positive_vector, repr=False)
+    """Deformed over undeformed length [-], shape (samples,), above zero; 1 at rest, at first."""
     stress: Vector = checked(checks.vector, unit="Pa", repr=False)
+    """Nominal stress [Pa], shape (samples,), somewhere above zero."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

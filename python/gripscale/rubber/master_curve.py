@@ -31,29 +31,20 @@ class MasterCurve(Checked, eq=False):
 
     Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
     lengths differ or there are fewer than 2 rows.
-
-    Parameters
-    ----------
-    frequency : array_like, shape (rows,)
-        Frequency [Hz], above zero, in any order; equal frequencies may occur (overlapping sets).
-    storage, loss : array_like, shape (rows,)
-        E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], above zero.
-    reference_temperature : float, optional
-        Temperature the curve holds for [K].
-    name, source : str
-        What was measured and where the numbers come from.
-    shift : Shift, optional
-        What the curve becomes at other temperatures; a law without a reference temperature of its
-        own takes that of the curve.
     """
 
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    """Frequency [Hz], shape (rows,), in any order; it may repeat where sets overlap."""
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """Temperature the curve holds for [K]."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What was measured, and where the numbers come from."""
     shift: Shift | None = field(default=None, repr=False)
+    """What the curve becomes at other temperatures; a law may take its temperature."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -89,24 +89,16 @@ class AdmissibleSeries(Checked, eq=False):
     """Prony series on common relaxation times, one a row.
 
     Raises `InputError` if a value is not finite or out of its range, or the shapes do not match.
-
-    Parameters
-    ----------
-    relaxation_times : array_like, shape (terms,)
-        Relaxation times [s], above zero.
-    equilibrium_moduli : array_like, shape (series,)
-        E_inf of each series [Pa], above zero.
-    moduli : array_like, shape (series, terms)
-        Moduli of their Maxwell elements [Pa], not negative.
-    belongs_to : str
-        Fingerprint of the rubber's own series, which the first rubber they are given to leaves: the
-        others tell nothing of another one.
     """
 
     relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
+    """Relaxation times [s], shape (terms,), above zero."""
     equilibrium_moduli: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E_inf of each series [Pa], shape (series,), above zero."""
     moduli: Vector = field(repr=False)
+    """Moduli of their Maxwell elements [Pa], shape (series, terms), not negative."""
     belongs_to: str = field(default="", repr=False, compare=False)
+    """Fingerprint of the rubber's own series, set by the first rubber that gets these."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -216,54 +208,35 @@ class Rubber(Checked, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
     Raises `InputError` if a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the
-    lengths differ, or `admissible` belongs to other moduli or times.
-
-    Parameters
-    ----------
-    equilibrium_modulus : float
-        Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero.
-    moduli : array_like, shape (terms,)
-        Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], above zero. Empty: elastic.
-    relaxation_times : array_like, shape (terms,)
-        Their relaxation times [s], above zero.
-    bulk_modulus : float
-        Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio stays positive
-        at every frequency.
-    name, source : str
-        What the rubber is and where its numbers come from.
-    valid_band : tuple of two floats, optional
-        Lowest and highest angular frequency the numbers rest on [rad/s].
-    strain_energy : StrainEnergy
-        Strain energy of the permanent network at finite strain.
-    admissible : AdmissibleSeries, optional
-        Other series that fit the same measurement: what it leaves open. It is of this series only,
-        and refused with others: whoever changes moduli or times leaves it out, or states another.
-    reference_temperature : float, optional
-        Temperature the numbers hold for [K].
-    shift : Shift, optional
-        What they become at other temperatures (`at`); a law without a reference temperature of its
-        own takes that of the rubber.
-
-    Warns
-    -----
-    RubberWarning
-        Once, if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any frequency
-        without one. Of a rubber with `admissible` the report on its fit says so.
+    lengths differ, or `admissible` belongs to other moduli or times. Warns once
+    (`RubberWarning`) if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any
+    frequency without one; of a rubber with `admissible` the report on its fit says so.
     """
 
     equilibrium_modulus: float = checked(check_modulus)
+    """Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero."""
     moduli: Vector = checked(checks.in_limits, unit="Pa", default=(), repr=False)
+    """Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], shape (terms,). Empty: elastic."""
     relaxation_times: Vector = checked(checks.in_limits, unit="s", default=(), repr=False)
+    """Their relaxation times [s], shape (terms,), above zero."""
     bulk_modulus: float = checked(check_modulus, default=BULK_MODULUS)
+    """Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio is positive."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What the rubber is and where its numbers come from."""
     valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)
+    """Lowest and highest angular frequency the numbers rest on [rad/s]."""
     strain_energy: StrainEnergy = checked(check_strain_energy, default=NeoHookean())
+    """Strain energy of the permanent network at finite strain."""
     admissible: AdmissibleSeries | None = checked(
         checks.instance, kind=AdmissibleSeries, default=None, repr=False
     )
+    """Other series that fit the same measurement: what it leaves open. It is refused with
+    other moduli or times."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """Temperature the numbers hold for [K]."""
     shift: Shift | None = field(default=None, repr=False)
+    """What they become at other temperatures (`at`); a law may take the rubber's temperature."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

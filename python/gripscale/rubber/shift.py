@@ -277,29 +277,20 @@ class ShiftTable(Shift, eq=False):
 
     Raises `InputError` if values are missing, not finite, out of range or of unlike length, or
     there is none.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (rows,)
-        In any order [K], no two alike.
-    horizontal : array_like, shape (rows,)
-        log10 a_T [-]; what counts is the difference of two.
-    horizontal_error : array_like, shape (rows,), optional
-        Standard errors of `horizontal` [-], not negative, NaN where unknown.
-    vertical : array_like, shape (rows,), optional
-        log10 b_T [-]; zero if not given.
-    vertical_error : array_like, shape (rows,), optional
-        Standard errors of `vertical` [-], as for `horizontal_error`; zero without `vertical`.
-    reference_temperature : float, optional
-        The temperature the errors are relative to [K].
     """
 
     temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    """In any order [K], shape (rows,), no two alike."""
     horizontal: Vector = checked(checks.vector, repr=False)
+    """log10 a_T [-], shape (rows,); what counts is the difference of two."""
     horizontal_error: Vector = checked(standard_errors, default=None, repr=False)
+    """Standard errors of `horizontal` [-], shape (rows,), not negative, NaN where unknown."""
     vertical: Vector = checked(checks.vector, default=None, repr=False)
+    """log10 b_T [-], shape (rows,); zero if not given."""
     vertical_error: Vector = checked(standard_errors, default=None, repr=False)
+    """Standard errors of `vertical` [-], shape (rows,); zero without `vertical`."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """The temperature the errors are relative to [K]."""
 
     kind: ClassVar[str] = "table"
     cure: ClassVar[str] = (

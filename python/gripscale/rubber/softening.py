@@ -210,29 +210,21 @@ class SofteningTable(Checked):
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
     factors are interpolated linearly, beyond them those of the nearest are held and flagged. Raises
     `InputError` if a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
-
-    Parameters
-    ----------
-    strain : sequence of sequences of floats
-        Amplitudes of each sweep [-], rising.
-    storage, loss : sequence of sequences of floats
-        Moduli of each sweep, in any unit: only ratios count.
-    measured_at : float
-        Strain amplitude at which the master curve was measured [-]: both factors are one there.
-    deformation : "tension" or "shear"
-        Kind of the strains.
-    temperature : sequence of floats, optional
-        Of each sweep [K], rising; needed if there are several.
     """
 
     kind: ClassVar[str] = "table"
 
     strain: Sequence[Sequence[float]] = checked(rows_of_sweeps)
+    """Amplitudes of each sweep [-], rising."""
     storage: Sequence[Sequence[float]] = checked(rows_of_sweeps)
     loss: Sequence[Sequence[float]] = checked(rows_of_sweeps)
+    """Moduli of each sweep, in any unit: only ratios count."""
     measured_at: float = checked(checks.positive)
+    """Strain amplitude at which the master curve was measured [-]: both factors are one there."""
     deformation: Deformation = checked(checks.one_of, choices=DEFORMATIONS)
+    """Kind of the strains."""
     temperature: Sequence[float] | None = checked(checks.positive_vector, unit="K", default=None)
+    """Of each sweep [K], rising; needed if there are several."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

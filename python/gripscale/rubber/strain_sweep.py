@@ -35,31 +35,20 @@ class StrainSweep(Checked, eq=False):
 
     Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, or the
     lengths differ.
-
-    Parameters
-    ----------
-    strain : array_like, shape (rows,)
-        Single amplitude of strain [-], above zero.
-    storage, loss : array_like, shape (rows,)
-        E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa].
-    deformation : {"uniaxial", "shear"}
-        What the strain is: of length, or shear.
-    temperature : float, optional
-        Temperature [K].
-    frequency : float, optional
-        Frequency [Hz].
-    name, source : str
-        What was measured and where the numbers come from.
     """
 
     strain: Vector = checked(checks.in_limits, repr=False)
+    """Single amplitude of strain [-], shape (rows,), above zero."""
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     deformation: str = checked(checks.one_of, choices=("uniaxial", "shear"))
+    """What the strain is: of length (uniaxial), or shear."""
     temperature: float | None = checked(checks.positive, unit="K", default=None)
     frequency: float | None = checked(checks.positive, unit="Hz", default=None)
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What was measured, and where the numbers come from."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -58,28 +58,20 @@ class Sweeps(Checked, eq=False):
     Rows whose temperatures follow each other within `tolerance` are one sweep, at their mean.
     Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
     lengths differ, there is no row, or temperatures run on without a gap, as on a ramp.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (rows,)
-        Temperature as measured [K].
-    frequency : array_like, shape (rows,)
-        Frequency [Hz].
-    storage, loss : array_like, shape (rows,)
-        E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa].
-    tolerance : float
-        Largest step between neighbouring temperatures of one sweep [K].
-    name, source : str
-        What was measured and where the numbers come from.
     """
 
     temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    """Temperature as measured [K], shape (rows,)."""
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    """Frequency [Hz], shape (rows,)."""
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     tolerance: float = checked(checks.not_negative, unit="K", default=TEMPERATURE_TOLERANCE)
+    """Largest step between neighbouring temperatures of one sweep [K]."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What was measured, and where the numbers come from."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

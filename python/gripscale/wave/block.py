@@ -44,19 +44,11 @@ def _settings(name: str, value: Mapping[str, float]) -> Mapping[str, float]:
 class FiniteStrainBlock(Checked):
     """Solver of one wave at finite strain.
 
-    Raises `InputError` if tolerance or time limit is not above zero, or a setting is unknown or no
-    number above zero.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        The mesh; with a tolerance, a mesh of the same proportions. Its columns are doubled, to 256
-        at most, as long as the two frictions differ by more than the `friction_bound` of the
-        result, or contacts of fewer than 4 nodes carry half of the load.
-    tolerance, time_limit : float, optional
-        As in `gripscale.solve_scale`.
-    settings : mapping
-        Values that differ from `gripscale.wave.default_settings()`.
+    The columns of the `mesh` are doubled, to 256 at most, as long as the two frictions differ by
+    more than the `friction_bound` of the result, or contacts of fewer than 4 nodes carry half of
+    the load; with a `tolerance` the mesh has its proportions. `tolerance` and `time_limit` [s] are
+    as in `gripscale.solve_scale`. Raises `InputError` if one of them is not above zero, or a
+    setting is unknown or no number above zero.
     """
 
     name: ClassVar[str] = "finite_strain"
@@ -66,6 +58,7 @@ class FiniteStrainBlock(Checked):
     )
     tolerance: float | None = checked(checks.positive, default=None)
     settings: Mapping[str, float] = field(default_factory=dict, metadata={"check": _settings})
+    """Values that differ from `gripscale.wave.default_settings()`."""
     time_limit: float | None = checked(checks.positive, unit="s", default=None)
 
     @classmethod
