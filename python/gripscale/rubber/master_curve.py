@@ -14,15 +14,9 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
+from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
-from gripscale.rubber.columns import (
-    APART,
-    THREE,
-    FileLayout,
-    quantity,
-    spread_of_repeats,
-    young_moduli,
-)
+from gripscale.rubber.columns import APART, THREE, FileLayout
 from gripscale.rubber.shift import Shift, shift_at
 
 
@@ -148,8 +142,9 @@ def read_master_curve(
     layout = layout.for_table(table)
     column = layout.needed_column(table, "frequency")
     _refuse_sweeps(table, column, with_columns=bool(layout.columns))
-    columns = layout.read(table, "frequency", _positive), *young_moduli(table, layout, _positive)
-    spread = spread_of_repeats(*columns, np.zeros(len(table.rows)))
+    hertz = layout.read(table, "frequency", _positive)
+    rows = hertz, *columns.young_moduli(table, layout, _positive)
+    spread = columns.spread_of_repeats(*rows, np.zeros(len(table.rows)))
     if spread > APART:
         raise FileError(
             f"{file}: expected one master curve; got the same frequencies again with moduli "
@@ -160,13 +155,13 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    return MasterCurve(*columns, reference_temperature, name, source)
+    return MasterCurve(*rows, reference_temperature, name, source)
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:
     """Raise `FileError` for sweeps; frequencies of a shifted curve with columns do not repeat."""
     for column, title in enumerate(table.columns):
-        if quantity(title.name) != "temperature":
+        if columns.quantity(title.name) != "temperature":
             continue
         kelvin = table.numbers(column, "a temperature", missing=True)
         kelvin = kelvin[np.isfinite(kelvin)]

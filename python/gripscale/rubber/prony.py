@@ -29,17 +29,11 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import material, maxwell_fit
+from gripscale.rubber import prony_report as report
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.material import (
-    BULK_MODULUS,
-    AdmissibleSeries,
-    Rubber,
-    loss_shape,
-    storage_shape,
-)
+from gripscale.rubber.material import BULK_MODULUS, AdmissibleSeries, Rubber
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
-from gripscale.rubber.misread import likely_reading, moduli_doubts
-from gripscale.rubber.prony_report import PronyFit, report_prony, root_mean_square, swapped_moduli
+from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
 
 _RISE = 9.0
 """Allowed rise of the sum of squares in units of the scatter."""
@@ -75,8 +69,9 @@ def extremes(
     outside = 10.0 ** (beyond * np.array([0.5, 1.0])) if beyond > 0.0 else np.zeros(0)
     for omega in np.concatenate([low / outside, inside, high * outside]):
         phase = omega * problem.times
-        storage = np.concatenate([[problem.unit], storage_shape(phase) * problem.scale, [0.0]])
-        loss = np.concatenate([[0.0], loss_shape(phase) * problem.scale, [0.0]])
+        shapes = material.storage_shape(phase), material.loss_shape(phase)
+        storage = np.concatenate([[problem.unit], shapes[0] * problem.scale, [0.0]])
+        loss = np.concatenate([[0.0], shapes[1] * problem.scale, [0.0]])
         for row, offset in ((storage, problem.floor), (loss, 0.0)):
             solutions += [_furthest(reduced, best, row, offset, s, least) for s in (1.0, -1.0)]
     every = np.array(solutions)
@@ -216,7 +211,7 @@ def fit_prony_report(
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
     bulk = material.check_modulus("bulk_modulus", bulk_modulus)
-    swapped = swapped_moduli(master)
+    swapped = report.swapped_moduli(master)
     if swapped.certain and not likely_reading(master, swapped):
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
@@ -255,8 +250,8 @@ def fit_prony_report(
         reference_temperature=master.reference_temperature,
         shift=master.shift,
     )
-    fit_report = report_prony(master, rows, screening, candidates, rubber)
-    doubts = tuple(moduli_doubts(master, swapped, screening.storage_scatter))
+    fit_report = report.report_prony(master, rows, screening, candidates, rubber)
+    doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))
     if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
     return rubber, replace(fit_report, doubts=doubts)

@@ -46,12 +46,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
-from gripscale.theory.elastic import (
-    full_contact_friction,
-    full_contact_pressure,
-    plane_strain_modulus,
-    poisson,
-)
+from gripscale.theory import elastic
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
@@ -211,7 +206,7 @@ class HalfPlane(Checked):
 
     points: int = checked(checks.whole, least=16, most=8192, default=1024)
     """Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest."""
-    poisson_ratio: float | None = checked(lambda _, value: poisson(value), default=None)
+    poisson_ratio: float | None = checked(lambda _, value: elastic.poisson(value), default=None)
     """Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at constant
     bulk modulus and Poisson's ratio follows the frequency."""
     most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
@@ -249,19 +244,19 @@ class HalfPlane(Checked):
             omega = number * frequency
             if self.poisson_ratio is None:
                 return problem.rubber.plane_strain_modulus(omega)
-            return problem.rubber.complex_modulus(omega) * plane_strain_modulus(
-                1.0, self.poisson_ratio
-            )
+            confined = elastic.plane_strain_modulus(1.0, self.poisson_ratio)
+            return problem.rubber.complex_modulus(omega) * confined
 
         first = complex(modulus(np.ones(1))[0])
         sizes = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}
-        swing = full_contact_pressure(first, **sizes)
+        swing = elastic.full_contact_pressure(first, **sizes)
         full = load.pressure >= swing
         status, iterations, residual = Status.CONVERGED, 0, 0.0
         if full:
             # one harmonic of pressure, ahead of the wave by the loss angle
             edges, in_contact = [(-np.pi, np.pi)], self.points
-            friction = dissipated = full_contact_friction(first, pressure=load.pressure, **sizes)
+            sizes["pressure"] = load.pressure
+            friction = dissipated = elastic.full_contact_friction(first, **sizes)
             pressure = load.pressure + swing * np.cos(k * x + float(np.angle(first)))
         else:
             slope = k * wave.amplitude

@@ -35,12 +35,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
-from gripscale.surface.height_difference import (
-    HeightDifference,
-    SelfAffineFit,
-    fit_self_affine,
-    height_difference,
-)
+from gripscale.surface import HeightDifference, SelfAffineFit, fit_self_affine, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.persson import (

@@ -36,14 +36,8 @@ from gripscale.core.status import Status
 from gripscale.model import NOT_CONVERGED, Load, Model, OnProgress, of_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
-from gripscale.surface.profile import Profile
-from gripscale.surface.spectrum import (
-    ArealSpectrum,
-    ProfileSpectrum,
-    areal_spectrum,
-    last_wavenumber,
-    profile_spectrum,
-)
+from gripscale.surface import Profile, areal_spectrum, profile_spectrum
+from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
 from gripscale.surface.surface import Surface, SurfacePart
 
 if TYPE_CHECKING:
