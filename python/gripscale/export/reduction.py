@@ -55,16 +55,9 @@ def reduced(
 ) -> Reduction:
     """Return a rubber with fewer terms, for a band of frequencies.
 
-    Raises `InputError` if an argument is out of range, or the rubber is elastic.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        With at least one Maxwell element.
-    band : (float, float), optional
-        Lowest and highest frequency [Hz]; by default what the numbers rest on, or all terms.
-    terms : int, optional
-        Number of Maxwell elements, 1 to 200; by default as many as the rubber has in the band.
+    The `band` [Hz] is by default what the numbers rest on, or all terms; the number of Maxwell
+    elements, `terms`, 1 to 200, is by default that of the rubber in the band. Raises `InputError`
+    if an argument is out of range, or the rubber is elastic.
     """
     checks.instance("rubber", rubber, Rubber)
     if not len(rubber.moduli):

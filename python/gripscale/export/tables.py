@@ -56,19 +56,12 @@ def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
 def write_tables(
     result: xr.Dataset | xr.DataTree | str | Path, folder: str | Path, *, format: str = "csv"
 ) -> list[Path]:
-    """Write a result as tables into a folder; return the files.
+    """Write a result, or that of a .nc file, as tables into a folder; return the files.
 
-    Raises `InputError` if the result or the format cannot be used, or a table has more rows than a
-    sheet. Raises `FileError` if a file cannot be read or written.
-
-    Parameters
-    ----------
-    result : Dataset, DataTree, str or Path
-        A result, or the .nc file of one.
-    folder : str or Path
-        Made if it does not exist; files of the same names are replaced.
-    format : str
-        csv, a file for each table, or xlsx, one workbook `tables.xlsx` with a sheet for each.
+    The folder is made if it does not exist; files of the same names are replaced. `format` is csv,
+    a file for each table, or xlsx, one workbook `tables.xlsx` with a sheet for each. Raises
+    `InputError` if the result or the format cannot be used, or a table has more rows than a sheet,
+    `FileError` if a file cannot be read or written.
     """
     checks.one_of("format", format, ["csv", "xlsx"])
     read = netcdf.load_tree(result) if isinstance(result, str | Path) else result

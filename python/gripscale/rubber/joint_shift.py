@@ -39,8 +39,7 @@ _RIDGE = 1e-9
 def splines(x: Array) -> tuple[Array, Array, Array]:
     """Return values and slopes of B-splines at `x`, and second differences of their coefficients.
 
-    The knots are at multiples of `_SPACING` and reach beyond `x`. Shapes: (rows, functions) twice,
-    and (functions - 2, functions).
+    The knots are at multiples of `_SPACING` and reach beyond `x`.
     """
     from scipy.interpolate import BSpline
 

@@ -482,14 +482,12 @@ def _end(rubber: Rubber, limit: float, side: int) -> End:
 
 
 MOST_PRESSURE = 10.0
-"""Mean pressure over relaxation modulus that is let through; at slopes near one, three is full."""
+"""Mean pressure over relaxation modulus that is let through: far beyond, no contact is partial; at
+slopes near one, three is full."""
 
 
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
-    """Raise `InputError` unless E(t) after `load_time` [s], infinite at rest, carries the pressure.
-
-    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact.
-    """
+    """Raise `InputError` unless E(t) after `load_time` [s] carries a pressure; infinity is rest."""
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
     if pressure <= MOST_PRESSURE * modulus:

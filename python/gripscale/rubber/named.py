@@ -51,21 +51,14 @@ def styrene_butadiene(
 ) -> Rubber:
     """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
 
-    The springpots of `springpot_modulus`, fitted over `band` with two elements per decade, two
-    decades beyond its ends as well. A springpot has no equilibrium modulus: the one given here is
-    what is left below the slow end of the band, so static results depend on the band and are not a
-    property of the rubber.
+    The springpots of `springpot_modulus`, fitted over the angular frequencies of `band` [rad/s],
+    at least two decades apart, with two elements per decade, two decades beyond its ends as well. A
+    springpot has no equilibrium modulus: the one given here is what is left below the slow end of
+    the band, so static results depend on the band and are not a property of the rubber.
 
     What is known: unfilled SBR, 20 C, the parameters. Not known: publication, compound, laboratory,
-    strain amplitude, and how far into the glassy region they were measured. Raises `InputError` if
-    the band or the bulk modulus cannot be used.
-
-    Parameters
-    ----------
-    band : tuple of two floats
-        Lowest and highest angular frequency [rad/s], at least two decades apart; the `valid_band`.
-    bulk_modulus : float
-        Bulk modulus [Pa]; assumed, not published with the parameters.
+    strain amplitude, how far into the glassy region they were measured, and the bulk modulus [Pa],
+    which is assumed. Raises `InputError` if the band or the bulk modulus cannot be used.
     """
     ends = checks.positive_vector("band", band, unit="rad/s")
     if len(ends) != 2 or ends[1] < 100.0 * ends[0]:

@@ -75,20 +75,12 @@ class ShiftFit:
 def fit_wlf(
     table: ShiftTable, *, reference_temperature: float | None = None, lowest: float | None = None
 ) -> ShiftFit:
-    """Return the WLF law of a shift table.
+    """Return the WLF law of a shift table, valid between the temperatures that count.
 
-    The law is at T_0, valid between the temperatures that count. Raises `InputError` if T_0 is
-    missing or outside the table, too few rows count, or they do not follow the law: log10 a_T must
+    `reference_temperature` is T_0 [K], within the table; its own by default. Rows colder than
+    `lowest` [K], such as those of the glass, do not count. Raises `InputError` if T_0 is missing or
+    outside the table, fewer than three rows count, or they do not follow the law: log10 a_T must
     fall ever more slowly.
-
-    Parameters
-    ----------
-    table : ShiftTable
-        At least three rows that count.
-    reference_temperature : float, optional
-        T_0 [K], within the table; its own by default.
-    lowest : float, optional
-        Rows colder than this [K], such as those of the glass, do not count.
     """
     reference, kelvin, log_a, error = _rows(table, reference_temperature, 3, lowest)
 
@@ -131,20 +123,13 @@ def fit_arrhenius(
     lowest: float | None = None,
     highest: float | None = None,
 ) -> ShiftFit:
-    """Return the Arrhenius law of a shift table.
+    """Return the Arrhenius law of a shift table, valid between the temperatures that count.
 
-    The law is valid between the temperatures that count. Raises `InputError` if T_0 is missing or
-    outside the table, too few rows count, or log10 a_T does not fall with temperature.
-
-    Parameters
-    ----------
-    table : ShiftTable
-        At least two rows that count.
-    reference_temperature : float, optional
-        T_0 [K], within the table; its own by default. A constant between rows that count and T_0 is
-        found as well if T_0 is not among them, so that the rows of the glass can be fitted alone.
-    lowest, highest : float, optional
-        Only rows between these [K] count.
+    `reference_temperature` is T_0 [K], within the table; its own by default. Only rows from
+    `lowest` to `highest` [K] count. If T_0 is not among them, a constant between them and T_0 is
+    found as well, so that the rows of the glass can be fitted alone. Raises `InputError` if T_0 is
+    missing or outside the table, fewer than two rows count, or log10 a_T does not fall with
+    temperature.
     """
     reference, kelvin, log_a, error = _rows(table, reference_temperature, 2, lowest, highest)
     matrix = 1.0 / (GAS_CONSTANT * math.log(10.0)) * (1.0 / kelvin - 1.0 / reference)[:, None]

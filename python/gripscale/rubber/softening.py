@@ -89,18 +89,11 @@ class SoftenedSeries:
 
 
 def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> SoftenedSeries:
-    """Return `rubber` with E' times `storage` and E'' times `loss` at frequencies `omega`.
+    """Return `rubber` with E' times `storage` and E'' times `loss` [-] at `omega` [rad/s].
 
-    Raises `InputError` if a factor is not above zero or a frequency is not.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        As measured, at small strain.
-    storage, loss : float
-        f and g [-], above zero.
-    omega : array_like, shape (frequencies,)
-        Where the factors must hold [rad/s]; none: all moduli times f (relaxed rubber).
+    The factors f and g hold at these frequencies, shape (frequencies,); without any all moduli are
+    multiplied by f (relaxed rubber). Raises `InputError` if a factor or a frequency is not above
+    zero.
     """
     f, g = checks.positive("storage", storage), checks.positive("loss", loss)
     at = checks.positive_vector("omega", omega, unit="rad/s") if np.size(omega) else np.empty(0)
@@ -322,9 +315,6 @@ SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTabl
 
 
 def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
-    """Return the law of `to_dict`.
-
-    Raises `InputError` if the kind is unknown or a value cannot be used.
-    """
+    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
     law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
     return law

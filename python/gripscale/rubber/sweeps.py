@@ -233,18 +233,10 @@ def sweeps_from_ramps(
 ) -> Sweeps:
     """Return sweeps at nominal temperatures from rows measured while the temperature ran.
 
-    Raises `InputError` as `Sweeps` does; if `step` is not above zero, or no frequency was measured
-    at two temperatures with a nominal one in between.
-
-    Parameters
-    ----------
-    temperature, frequency, storage, loss : array_like, shape (rows,)
-        As for `Sweeps`: [K], [Hz], [Pa], [Pa].
-    step : float
-        Distance of the nominal temperatures [K], which are its multiples in degrees Celsius. No
-        smaller than the steps of the ramp, or rows are used twice.
-    name, source : str
-        Carried along.
+    Rows, `name` and `source` are as for `Sweeps`: [K], [Hz], [Pa], [Pa], shape (rows,). Nominal
+    temperatures are the multiples of `step` [K] in degrees Celsius; if they are closer than the
+    steps of the ramp, rows are used twice. Raises `InputError` as `Sweeps` does, if `step` is not
+    above zero, or no frequency was measured at two temperatures with a nominal one in between.
     """
     units = ("K", "Hz", "Pa", "Pa")
     columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)

@@ -153,10 +153,7 @@ def influence_column(compliance: Compliance, points: int) -> Array:
 
 
 def pressure_harmonics(pressure: Array) -> ComplexArray:
-    """Return the Fourier coefficients m = 1, 2, ... of the piecewise linear pressure, to 16 N.
-
-    p(theta) = mean + sum_m 2 Re[ p_m exp(i m theta) ].
-    """
+    """Return the Fourier coefficients m = 1, 2, ... of the piecewise linear pressure, to 16 N."""
     points = len(pressure)
     number = np.arange(1, _ALIASES * points + 1)
     at_nodes = np.fft.fft(pressure) / points
