@@ -177,10 +177,7 @@ class BlockStress:
         return np.asarray(np.linalg.det(self.gradient))
 
     def element_mean(self, values: Array) -> Array:
-        """Return the mean of values at the points over each deformed element.
-
-        Shape (rows, columns, ...).
-        """
+        """Return the mean of values at the points over each deformed element, (rows, columns)."""
         volume = self.block.weights * self.jacobian
         extra = (None,) * (values.ndim - 4)
         total = (volume[(..., *extra)] * values).sum(axis=(2, 3))

@@ -38,10 +38,7 @@ class ProgramFile:
     """Comments of the file: units, limits of validity, properties that are not exported."""
 
     def write(self, path: str | Path) -> Path:
-        """Write the file, completely or not at all; return its path.
-
-        Raises `FileError` if it cannot be written.
-        """
+        """Write the file, completely or not at all, or raise `FileError`; return its path."""
         return write_text(file_path(path), self.text)
 
 

@@ -206,10 +206,7 @@ class FileLayout(Checked):
 
     @property
     def by_quantity(self) -> Mapping[str, str | int]:
-        """Title or number of the column of each quantity that is stated.
-
-        Raises `InputError` if `columns` are neither three columns nor a mapping of quantities.
-        """
+        """Title or number of the column of each quantity; `InputError` for other `columns`."""
         columns = self.columns
         if columns is None:
             return {}
@@ -242,10 +239,7 @@ class FileLayout(Checked):
         return "frequency" in quantities and any(quantities.issuperset(pair) for pair in PAIRS)
 
     def column(self, table: TextTable, wanted: str) -> int | None:
-        """Return the column of a quantity; None if no title means it and none is stated.
-
-        Raises `InputError` if several titles mean it, or there is no such column.
-        """
+        """Return the column of a quantity, or None; `InputError` if several titles mean it."""
         columns = self.by_quantity
         if wanted in columns:
             return position_of(table, columns[wanted])

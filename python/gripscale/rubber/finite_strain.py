@@ -45,10 +45,7 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 
 
 class UniaxialTest(Checked, eq=False):
-    """A measured history of stretch with its nominal stress.
-
-    Raises `InputError` if the lengths differ or a value is out of range.
-    """
+    """A history of stretch with its nominal stress; `InputError` for values out of range."""
 
     name: str = checked(checks.text)
     """What the test is called in messages and figures."""

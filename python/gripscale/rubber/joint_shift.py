@@ -164,8 +164,6 @@ class Joint:
     """Of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held."""
     scatter: Array
     """Of each modulus about the curve, in the median sweep [decades], shape (moduli,)."""
-    correlation: float
-    """Of neighbouring residuals of one sweep."""
 
 
 def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
@@ -208,8 +206,7 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
         # all sweeps beyond the step, seen from the middle one
         beyond = others[(others <= colder) if colder < held else (others > colder)]
         covariance[np.ix_(beyond, beyond)] += _BOUND_ERROR**2
-    middle = np.median(scatter, axis=1)
-    return Joint(log_a, shifts[rows.sweeps :], covariance, middle, r)
+    return Joint(log_a, shifts[rows.sweeps :], covariance, np.median(scatter, axis=1))
 
 
 @dataclass(frozen=True)

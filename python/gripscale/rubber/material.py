@@ -86,10 +86,7 @@ _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
 
 
 class AdmissibleSeries(Checked, eq=False):
-    """Prony series on common relaxation times, one a row.
-
-    Raises `InputError` if a value is not finite or out of its range, or the shapes do not match.
-    """
+    """Prony series on common relaxation times, one a row; `InputError` for other shapes."""
 
     relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
     """Relaxation times [s], shape (terms,), above zero."""
@@ -300,10 +297,7 @@ class Rubber(Checked, eq=False):
 
     @property
     def glassy_modulus(self) -> float:
-        """Young's modulus of the series at once after a step, E_inf + sum E_i [Pa].
-
-        The modulus of the glass only where the data reach it.
-        """
+        """Modulus at once after a step, E_inf + sum E_i [Pa]; of the glass if the data reach it."""
         return float(self.equilibrium_modulus + self.moduli.sum())
 
     @property

@@ -53,10 +53,7 @@ _DIGITS = 6
 def extremes(
     curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
 ) -> AdmissibleSeries:
-    """Return the extreme series for a curve whose E' and E'' scatter by so much [-].
-
-    `beyond` is how far relaxation times reach past both ends [decades].
-    """
+    """Return the extreme series for a scatter [-] of E' and E''; `beyond` is in decades."""
     problem = open_equations(curve, scatter, beyond, largest_modulus)
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     orthogonal, triangle = np.linalg.qr(problem.matrix)

@@ -156,10 +156,7 @@ _SOFTEST, _STIFFEST = 1e4, 2e10
 
 
 def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[str]:
-    """Yield why the moduli of a master curve may be those of no rubber, a sentence each.
-
-    `swapped` is how well a linear solid has them, `scatter` that of E' about its neighbours [-].
-    """
+    """Yield why moduli may be those of no rubber; `scatter` is that of E' about its neighbours."""
     stiffest = float(master.storage.max())
     if not _SOFTEST <= stiffest <= _STIFFEST:
         yield (

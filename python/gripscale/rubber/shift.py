@@ -105,10 +105,7 @@ class Shift(Checked, ABC, eq=False):
         return replace(self, **reference) if needed and not self.reference_temperature else self
 
     def log_a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
-        """Return log10 a_T [-] at `temperature` [K], same shape; above zero below the reference.
-
-        Raises `InputError` if a temperature is beyond `limits`.
-        """
+        """Return log10 a_T [-] at `temperature` [K], same shape; `InputError` beyond `limits`."""
         law = self.bound(reference_temperature)
         here, there = map(law._in_limits, (temperature, reference_temperature))
         return np.asarray(law._log_a(here) - law._log_a(there))
@@ -120,10 +117,7 @@ class Shift(Checked, ABC, eq=False):
         return np.asarray(law._log_b(here) - law._log_b(there))
 
     def a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
-        """Return a_T [-] at `temperature` [K], same shape.
-
-        Raises `InputError` as `log_a`, and where a_T is beyond 1e-100 to 1e100.
-        """
+        """Return a_T [-] at `temperature` [K], same shape; errors as `log_a`, and beyond 1e100."""
         log_a = self.log_a(temperature, reference_temperature)
         if (np.abs(log_a) > _MOST).any():
             raise InputError(
@@ -187,10 +181,7 @@ class WLF(Shift, eq=False):
     kind: ClassVar[str] = "wlf"
 
     def referred_to(self, reference_temperature: float) -> WLF:
-        """Return the same law with the constants that hold for another temperature [K].
-
-        Raises `InputError` if that is at or below the pole.
-        """
+        """Return the law with constants of another temperature [K]; `InputError` up to the pole."""
         second = self.c2 + float(self._in_limits(reference_temperature)) - self._reference
         return WLF(self.c1 * self.c2 / second, second, reference_temperature, self.valid_range)
 

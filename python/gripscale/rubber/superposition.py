@@ -233,10 +233,7 @@ _NOMINAL = 0.5
 
 
 def superpose(sweeps: Sweeps, *, reference_temperature: float, **options: Any) -> MasterCurve:
-    """Return the master curve of sweeps at several temperatures, with its shift.
-
-    Options and errors are those of `superpose_report`.
-    """
+    """Return the master curve of sweeps; options and errors are those of `superpose_report`."""
     master, _ = superpose_report(sweeps, reference_temperature=reference_temperature, **options)
     return master
 

@@ -84,10 +84,7 @@ from gripscale.rubber import Rubber
 
 
 def crest_radius(*, wavelength: float, amplitude: float) -> float:
-    """Return the radius of curvature of a wave's crest [m] from wavelength and amplitude [m].
-
-    Raises `InputError` unless both are positive and finite.
-    """
+    """Return the radius of a crest [m]; `InputError` unless both lengths [m] are above zero."""
     length = checks.positive("wavelength", wavelength, unit="m")
     height = checks.positive("amplitude", amplitude, unit="m")
     return float(length**2 / (4.0 * np.pi**2 * height))
@@ -110,10 +107,7 @@ def contact_half_width(
 def largest_pressure(
     *, load_per_length: float, radius: float, plane_strain_modulus: float
 ) -> float:
-    """Return the pressure in the middle of the contact [Pa].
-
-    Arguments and errors are those of `contact_half_width`.
-    """
+    """Return the pressure in the middle of the contact [Pa], as `contact_half_width`."""
     half_width = contact_half_width(
         load_per_length=load_per_length, radius=radius, plane_strain_modulus=plane_strain_modulus
     )

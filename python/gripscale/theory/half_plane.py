@@ -86,10 +86,7 @@ def nodes(points: int) -> Array:
 def solve_periodic_contact(
     compliance: Compliance, height: Callable[[Array], Array], points: int, most_iterations: int
 ) -> GridContact:
-    """Return the contact of compliance c(m), m = 1, 2, ..., and a rigid surface over angles [rad].
-
-    Nested grids each start from the active set before.
-    """
+    """Return the contact of compliances c(m) and a surface over angles [rad], on nested grids."""
     levels = [points]
     while levels[0] % 2 == 0 and levels[0] > _COARSEST:
         levels.insert(0, levels[0] // 2)
@@ -194,10 +191,7 @@ def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
 
 
 class HalfPlane(Checked):
-    """Solver of one wave at small strain.
-
-    Raises `InputError` if an argument is out of its range.
-    """
+    """Solver of one wave at small strain; `InputError` if an argument is out of its range."""
 
     name: ClassVar[str] = "half_plane"
 
