@@ -39,7 +39,7 @@ from gripscale.wave.result import ScaleResult
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
-FACES = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
+SOLVE_FUNCTIONS = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
 """Functions that may stand for a solver of one wave."""
 
 WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
@@ -53,7 +53,7 @@ def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolve
     if isinstance(solver, str):
         kind = WAVE_SOLVERS[checks.one_of("solver", solver, WAVE_SOLVERS)]
     else:
-        kind = next((kind for face, kind in FACES if face is solver), None)
+        kind = next((kind for face, kind in SOLVE_FUNCTIONS if face is solver), None)
     if kind is not None:
         out: WaveSolver = kind.of(**options)
         return out

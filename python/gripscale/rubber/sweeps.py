@@ -348,11 +348,12 @@ _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)
 
 def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
     """Return a block with the temperature in the name of its file, if it states none itself."""
-    named = _NAMED.findall(block.table.path.stem.replace("_", " "))
-    stated = block.temperature is not None or layout.column(block.table, "temperature") is not None
-    if stated or len(named) != 1:
+    if block.temperature is not None or layout.column(block.table, "temperature") is not None:
         return block
-    ((number, unit),) = named
+    temperatures = _NAMED.findall(block.table.path.stem.replace("_", " "))
+    if len(temperatures) != 1:
+        return block
+    ((number, unit),) = temperatures
     kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
     return replace(block, temperature=float(kelvin))
 
