@@ -20,7 +20,7 @@ from gripscale.half_space.location import SHARES_BY_SLOPE, contact_trace, with_t
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
-from gripscale.wave.profile import solve_profile
+from gripscale.wave.block import solve_profile
 from gripscale.wave.result import waves_to_dataset
 
 if TYPE_CHECKING:
