@@ -41,7 +41,6 @@ class Reduction:
     """Largest relative error of E''/E'."""
 
     def __str__(self) -> str:
-        """Return the terms, the band and the misfit as a sentence."""
         low, high = (end / (2.0 * math.pi) for end in self.rubber.valid_band or (0.0, math.inf))
         return (
             f"Reduced to {len(self.rubber.moduli)} Maxwell elements for {low:.4g} to {high:.4g} "

@@ -39,7 +39,10 @@ class Block:
     temperature: float | None = None
     """Temperature [K]."""
     shift: WLF | None = None
-    """Time-temperature shift."""
+
+    def states_temperature(self, layout: FileLayout) -> bool:
+        """Return whether a line above the table, or a column, states the temperature."""
+        return self.temperature is not None or layout.column(self.table, "temperature") is not None
 
 
 def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:

@@ -52,6 +52,10 @@ _TITLES = {
         "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
     }.items()
 }
+_KINDS = {
+    "E": re.compile(r"(?<![A-Za-z])E(?![A-Za-z])|(?i:young|tensile)"),
+    "G": re.compile(r"(?<![A-Za-z])G(?![A-Za-z])|(?i:shear|schub)"),
+}
 _LOGARITHM = re.compile(
     r"(?<![A-Za-z])(log10|log|lg|ln)(?:[\s_]*\(([^()]*)\)|[\s_]+(?=[A-Za-zωγ|]))", re.IGNORECASE
 )
@@ -94,13 +98,8 @@ def quantity(name: str) -> str | None:
 
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
-    text = name.strip()
-    kinds = set()
-    for kind, words in (("E", "young|tensile"), ("G", "shear|schub")):
-        letter = re.search(rf"(?<![A-Za-z]){kind}(?![A-Za-z])", text.replace("_", " "))
-        if letter or re.search(words, text, re.IGNORECASE):
-            kinds.add(kind)
-    return kinds.pop() if len(kinds) == 1 else None
+    kinds = [kind for kind, pattern in _KINDS.items() if pattern.search(name)]
+    return kinds[0] if len(kinds) == 1 else None
 
 
 def with_primes(line: str) -> str:

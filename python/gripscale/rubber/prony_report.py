@@ -53,7 +53,6 @@ class Misfit:
     """Of E'' [-]."""
 
     def __str__(self) -> str:
-        """Return the range and both misfits in words."""
         return (
             f"{self.low:.3g} to {self.high:.3g} rad/s "
             f"(E' {self.storage:+.0%}, E'' {self.loss:+.0%})"
@@ -116,7 +115,6 @@ class SwappedModuli:
         return self.as_given > max(_LIKELY, _LIKELY_RATIO * self.swapped)
 
     def __str__(self) -> str:
-        """Return both misfits in a sentence that says what to do."""
         return (
             "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
             f"factor of {math.exp(self.as_given):.2f} in this order, and by "

@@ -389,8 +389,7 @@ def read_strain_sweep(
     strain, storage, loss = (values[complete] for values in (strain, storage, loss))
     moduli = [layout.column(table, name) for name in MODULI if name not in RATIOS]
     kind = layout.modulus_of(table, [column for column in moduli if column is not None])
-    column = layout.column(table, "temperature")
-    if temperature is None and (blocks[0].temperature is not None or column is not None):
+    if temperature is None and blocks[0].states_temperature(layout):
         kelvin = row_temperatures(blocks[0], layout, None)
         kelvin = kelvin[np.isfinite(kelvin)]
         if kelvin.size and np.ptp(kelvin) > 2.0 * TEMPERATURE_TOLERANCE:

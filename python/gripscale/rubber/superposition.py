@@ -63,7 +63,6 @@ class Overlap:
     """The same of log10 E''/E'."""
 
     def __str__(self) -> str:
-        """Return the overlap in words."""
         pair = f"{self.colder - ZERO_CELSIUS:.1f} and {self.warmer - ZERO_CELSIUS:.1f} °C"
         return f"{pair}: {self.decades:.2f} decades"
 

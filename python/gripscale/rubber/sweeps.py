@@ -178,10 +178,7 @@ def states_temperature(path: str | Path) -> bool:
     """Return whether a file states the temperature of its moduli, above a table or in a column."""
     layout = FileLayout()
     blocks = read_blocks(file_path(path), layout, temperature_unit="C")
-    return all(
-        block.temperature is not None or layout.column(block.table, "temperature") is not None
-        for block in blocks
-    )
+    return all(block.states_temperature(layout) for block in blocks)
 
 
 def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | None:
@@ -348,10 +345,8 @@ _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)
 
 def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
     """Return a block with the temperature in the name of its file, if it states none itself."""
-    if block.temperature is not None or layout.column(block.table, "temperature") is not None:
-        return block
     temperatures = _NAMED.findall(block.table.path.stem.replace("_", " "))
-    if len(temperatures) != 1:
+    if block.states_temperature(layout) or len(temperatures) != 1:
         return block
     ((number, unit),) = temperatures
     kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
