@@ -24,7 +24,7 @@ from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.model import Load, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
-from gripscale.wave.profile import solve_profile
+from gripscale.wave.block import solve_profile
 from gripscale.wave.result import waves_to_dataset
 
 JUDGED_TO = 0.05
