@@ -46,7 +46,7 @@ class SavedCase:
     copies: Mapping[str, bytes]
 
 
-def saved_case(file: CaseFile, folder: Path) -> SavedCase:
+def saved_case(file: CaseFile, folder: Path, case_name: str = SAVED_CASE) -> SavedCase:
     """Return `file` as it can be saved in `folder`, where nothing is touched.
 
     Raises `FileError` if a file it names cannot be read.
@@ -57,18 +57,18 @@ def saved_case(file: CaseFile, folder: Path) -> SavedCase:
     if sum(map(len, contents.values())) > COPIED_AT_MOST:
         return SavedCase(renamed(file.text, {name: str(paths[name]) for name in names}), {})
     targets: dict[str, str] = {}
-    earlier = saved_inputs(folder)
+    earlier = saved_inputs(folder, case_name)
     for name, content in contents.items():
         taken = set(targets.values())
-        targets[name] = _free_target(paths[name], content, taken, folder, earlier)
+        targets[name] = free_target(paths[name], content, taken, folder, earlier)
     copies = {target: contents[name] for name, target in targets.items()}
     return SavedCase(renamed(file.text, targets), copies)
 
 
-def saved_inputs(folder: Path) -> set[str]:
+def saved_inputs(folder: Path, case_name: str = SAVED_CASE) -> set[str]:
     """Return the copies, by path in `folder`, that the case saved there names."""
     try:
-        names = read_case_file(folder / SAVED_CASE).case.named_files()
+        names = read_case_file(folder / case_name).case.named_files()
     except GripscaleError:
         return set()
     return {name for _, name in names if Path(name).parent == Path(INPUTS)}
@@ -98,7 +98,7 @@ def _names_a_file(text: str) -> bool:
     return any(name == _MARK for _, name in case.named_files())
 
 
-def _free_target(
+def free_target(
     path: Path, content: bytes, taken: set[str], folder: Path, earlier: set[str]
 ) -> str:
     """Return a path in the folder for a copy, at which no file of somebody else would be lost."""
@@ -164,7 +164,7 @@ def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
         raise unwritable(folder, error) from error
-    _save(saved, folder)
+    write_saved(saved, folder)
 
 
 def save_case(file: CaseFile, folder: Path) -> None:
@@ -172,12 +172,12 @@ def save_case(file: CaseFile, folder: Path) -> None:
 
     Raises `FileError` if one cannot be read or written.
     """
-    _save(saved_case(file, folder), folder)
+    write_saved(saved_case(file, folder), folder)
 
 
-def _save(saved: SavedCase, folder: Path) -> None:
-    if saved.copies:
-        make_folder(folder / INPUTS)
+def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> None:
+    """Write the case and its copies; raise `FileError` if that fails."""
+    make_folder(folder / INPUTS if saved.copies else folder)
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
-    write_text(folder / SAVED_CASE, saved.text)
+    write_text(folder / case_name, saved.text)

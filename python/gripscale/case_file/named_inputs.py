@@ -107,6 +107,8 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
     if path.suffix == ".toml":
         other = read_case_file(path)
         return prepare_rubber(other.case.rubber, other.resolve)
+    if path.suffix.lower() == ".json":  # a Prony series states all of itself
+        return _rubber({"file": str(path)})
     names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
     shared = {name: getattr(table, name) for name in names if getattr(table, name) is not None}
     if "reference_temperature" in shared:

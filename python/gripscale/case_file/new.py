@@ -5,7 +5,6 @@ What was taken for granted is listed as doubts, the weightiest first.
 
 from __future__ import annotations
 
-import json
 import os
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,6 +28,7 @@ from gripscale.case_file.proposals import (
     surface_proposal,
 )
 from gripscale.case_file.read import CaseFile, read_case_file
+from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.units import temperature_in_kelvin
 from gripscale.io.folders import make_folder, write_text
@@ -277,19 +277,9 @@ def case_text(
         parts.append(f"[{name}]")
         for key, value in proposal.keys.items():
             reason = proposal.reasons.get(key) or meanings[name, key].rstrip(".")
-            parts += [*textwrap.wrap(reason, _WIDTH, **_COMMENT), f"{key} = {_toml(value)}"]
+            parts += [*textwrap.wrap(reason, _WIDTH, **_COMMENT), f"{key} = {toml_text(value)}"]
         parts.append("")
-    return "\n".join([*parts, "[output]", f"folder = {_toml(results)}", ""])
-
-
-def _toml(value: Any) -> str:
-    """Return a text, a number, a list of texts or a table as TOML."""
-    if isinstance(value, Mapping):
-        pairs = ", ".join(f"{key} = {_toml(item)}" for key, item in value.items())
-        return f"{{ {pairs} }}"
-    if isinstance(value, list) and sum(map(len, value)) > _WIDTH // 2:
-        return "\n".join(["[", *(f"  {_toml(item)}," for item in value), "]"])
-    return json.dumps(value, ensure_ascii=False)
+    return "\n".join([*parts, "[output]", f"folder = {toml_text(results)}", ""])
 
 
 def doubts_of_inputs(file: CaseFile) -> list[Doubt]:

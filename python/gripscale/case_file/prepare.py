@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import replace
+from dataclasses import MISSING, fields, replace
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,12 @@ import numpy as np
 from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
 from gripscale.case_file.read import CaseFile, read_case_file
-from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
+from gripscale.case_file.rubber_tables import (
+    OF_ANY_RUBBER,
+    ConditionsTable,
+    RubberSource,
+    StrainSweeps,
+)
 from gripscale.case_file.schema import CaseTable
 from gripscale.case_file.tables import FinerTable, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
@@ -49,6 +55,7 @@ from gripscale.rubber import (
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
+from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
@@ -146,44 +153,38 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     paths = [resolve(name) for name in surface.measured_files]
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
-        return [surfaces.read_profile(path, **options) for path in paths]
+        lines = [surfaces.read_profile(path, **options) for path in paths]
+        return [replace(line, reliable=surface.reliable or line.reliable) for line in lines]
     raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
+    raw = replace(raw, reliable=surface.reliable or raw.reliable)
     return raw if surface.direction == "x" else raw.turned()
 
 
 def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfaces.Measured:
-    """Clean profiles or a map, which `raw_surface` has read."""
+    """Clean profiles or a map, which `raw_surface` has read, unless taken as they are."""
     if isinstance(raw, surfaces.HeightMap):
         return _cleaned_map(surface, raw, resolve(surface.measured_files[0]))
+    if not surface.clean:
+        return surfaces.Measured.of(raw)
     profiles, reports = [], []
     for line, name in zip(raw, surface.measured_files, strict=True):
         with about_file(resolve(name), InputError):
-            cleaned, report = surfaces.clean(line, **cleaning_options(surface))
+            cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
     return surfaces.Measured(profiles, reports, None, "")
 
 
-def cleaning_options(surface: SurfaceTable) -> dict[str, Any]:
-    """Return the arguments of `gripscale.clean` that a case states for its profiles."""
-    return _options(surface, surfaces.clean)
-
-
 def _cleaned_map(surface: SurfaceTable, raw: surfaces.HeightMap, path: Path) -> surfaces.Measured:
-    """Clean a map whose x is the way of sliding."""
+    """Clean a map whose x is the way of sliding, unless its heights are taken as they are."""
+    if not surface.clean:
+        return surfaces.Measured.of_map(raw, raw)
     options = _options(surface, surfaces.clean_map)
     with about_file(path, InputError):
         cleaned, report = surfaces.clean_map(
             raw, **options | {"crop": (options["crop"], surface.crop_across)}
         )
-    # The line to be drawn is the fullest, nearest to the middle.
-    away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
-    fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
-    before, after = (
-        each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest])))) for each in (raw, cleaned)
-    )
-    after = replace(after, name=before.name, source=before.source)
-    return surfaces.Measured([(before, after)], [report], None, "", cleaned)
+    return surfaces.Measured.of_map(raw, cleaned, [report])
 
 
 OF_SWEEPS = ("temperature_step", "vertical")
@@ -208,6 +209,8 @@ def prepare_rubber(
         return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
     paths, layout = [resolve(name) for name in source.measured_files], source.layout()
     path = paths[0]
+    if path.suffix.lower() == ".json":
+        return _stored_rubber(path, source, resolve)
     if path.is_dir():
         raise FileError(
             f"{path}: expected a file or a list of files; got a folder: `gripscale new` writes the "
@@ -237,6 +240,33 @@ def prepare_rubber(
     elif sweeps is None:
         rubber = _shifted(rubber, source, resolve)
     return MeasuredRubber(rubber, master.source, master, fit, sweeps, report)
+
+
+_DEFAULTS = {item.name: item.default for item in fields(Rubber) if item.default is not MISSING} | {
+    "strain_energy": {"kind": NeoHookean.kind}
+}
+"""What `Rubber.to_dict` returns of a rubber of which only the moduli are known."""
+
+
+def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> MeasuredRubber:
+    """Return a Prony series from a file of `Rubber.to_dict`, in which defaults may be left out."""
+    try:
+        values = json.loads(read_bytes(path))
+    except ValueError as error:
+        raise FileError(f"{path} cannot be read as a rubber: {error}") from error
+    if not isinstance(values, dict):
+        raise FileError(f"{path} cannot be read as a rubber: it is no JSON object")
+    keys = source.model_fields_set
+    foreign = keys - OF_ANY_RUBBER - {"reference_temperature", "source"}
+    if foreign:
+        raise InputError(f"{path}: {min(foreign)} is for measured moduli; got a Prony series")
+    with about_file(path, InputError):
+        if "equilibrium_modulus" not in values:
+            raise InputError("equilibrium_modulus must be given [Pa]; got none")
+        rubber = Rubber.from_dict(_DEFAULTS | values)
+    changes = keys & {"bulk_modulus", "strain_energy", "reference_temperature", "source"}
+    rubber = replace(rubber, **{name: getattr(source, name) for name in changes})
+    return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
 
 
 OF_A_RAMP = (
@@ -413,7 +443,8 @@ def read_case(path: CaseFile | str | Path) -> Case:
     friction, chain = stated_friction(file), case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, theory = file.case.load, file.case.compare
+    load, theory, table = file.case.load, file.case.compare, file.case.surface
+    cleaned = table.clean and surface.measured is not None
     klueppel_heinrich = None
     if theory.layer_ratio is not None and theory.penetration_depth is not None:
         klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
@@ -432,7 +463,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,
                 friction=friction,
-                cleaning=cleaning_options(file.case.surface) if surface.measured else None,
+                cleaning=_options(table, surfaces.clean) if cleaned else None,
                 options={"uncertainty": file.case.uncertainty.options()},
                 origin=Origin(str(file.path), file.text, file.units, named_files(file)),
             )
