@@ -39,8 +39,9 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
 from gripscale.io import netcdf
-from gripscale.model import NOT_CONVERGED, CutOffExponents, Load, of_curve
+from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
