@@ -7,16 +7,17 @@ import json
 from pathlib import Path
 
 from gripscale.case_file.folder import NOTE, RESULT_FILES
-from gripscale.case_file.read import CaseFile, prediction_key
-from gripscale.core.provenance import whole_package
+from gripscale.case_file.read import CaseFile
+from gripscale.core.provenance import versions, whole_package
 from gripscale.io.netcdf import write_whole
+from gripscale.io.text_table import read_bytes
 
 
 def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> bool:
     """Return whether `folder` holds all results of a case, made by this very software.
 
-    `others` are files beside those of the case that a run shows; they may be missing. Results that
-    were changed since, even only their dates, are none of it.
+    `others` are files beside those of the case that a run shows; they may be missing. Results
+    that have another size or date than the run gave them do not count.
     """
     try:
         noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
@@ -47,8 +48,10 @@ def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -
 
 def _key(file: CaseFile, others: tuple[Path, ...]) -> str:
     """Return a hash of the case, its files, the other files and the software, faces included."""
-    digest = hashlib.sha256(f"{whole_package()} {file.path} ".encode())
-    digest.update(prediction_key(file, "run").encode())
+    inputs = json.dumps([whole_package(), versions(), str(file.path), file.text], sort_keys=True)
+    digest = hashlib.sha256(inputs.encode())
+    for _, name in file.case.named_files():
+        digest.update(hashlib.sha256(read_bytes(file.resolve(name))).digest())
     for path in others:
         digest.update(path.read_bytes() if path.is_file() else b"-")
     return digest.hexdigest()

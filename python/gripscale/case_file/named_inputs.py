@@ -71,17 +71,14 @@ def read_surface(value: Any, file: CaseFile) -> Any:
         settings["scales"] = len(table.sines)
     source = {"files": [str(path)]} if table.map is None else {"map": str(path)}
     surface = prepare_surface(validate(SurfaceTable, settings | source, "vary surface"))
-    return replace(surface, note=_surface_note(value, table) if outside else "")
-
-
-def _surface_note(value: Any, table: SurfaceTable) -> str:
-    settings = table.model_fields_set - SOURCES_OF_SURFACE
-    applied = ", ".join(sorted(settings - set(OF_ONE_ROAD))) or "nothing"
-    without = sorted(settings & set(OF_ONE_ROAD))
-    words = f"{value}: read with {applied} of the case"
-    if not without:
-        return words
-    return f"{words}, but not {' and '.join(without)}, which belongs to the road of the case"
+    if not outside:
+        return surface
+    keys = table.model_fields_set - SOURCES_OF_SURFACE
+    applied, without = sorted(keys - outside), sorted(keys & outside)
+    note = f"{value}: read with {', '.join(applied) or 'nothing'} of the case"
+    if without:
+        note += f", but not {' and '.join(without)}, which belongs to the road of the case"
+    return replace(surface, note=note)
 
 
 def read_rubber(value: Any, file: CaseFile) -> Any:

@@ -23,12 +23,12 @@ from gripscale.case_file.rubber_tables import (
     StrainSweeps,
 )
 from gripscale.case_file.schema import CaseTable
-from gripscale.case_file.tables import FinerTable, SurfaceTable
+from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.errors import FileError, InputError, about_file, about_keys
 from gripscale.core.units import ZERO_CELSIUS, in_mm
-from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
+from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.below_measurement import (
     FinerMeasurement,
     HurstExponent,
@@ -284,9 +284,16 @@ def _superposed(
     if shift is None and not source.vertical:
         shift = read_shift_of_sweeps(path, source.layout())
     sweeps = read_sweeps(paths, tolerance=0.0, temperature_step=source.temperature_step, **reading)
-    if sweeps.is_ramp:
-        _require_shift_of_ramp(path, sweeps, shift)
-    elif source.temperature_step is None:
+    if sweeps.is_ramp and shift is None:
+        low, high = (sweeps.temperature[at] - ZERO_CELSIUS for at in (0, -1))
+        raise InputError(
+            f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
+            f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({sweeps.frequency[0]:.3g} '
+            f"Hz, {low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
+            "frequencies do",
+            missing="shift",
+        )
+    if not sweeps.is_ramp and source.temperature_step is None:
         with about_file(path, InputError):
             sweeps = replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
     single = len(sweeps) == 1
@@ -304,19 +311,6 @@ def _superposed(
         shift=shift,
     )
     return sweeps, master, report
-
-
-def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> None:
-    """Raise `InputError` for a temperature ramp at one frequency without a shift."""
-    if shift is None:
-        low, high = (ramp.temperature[at] - ZERO_CELSIUS for at in (0, -1))
-        raise InputError(
-            f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
-            f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
-            f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
-            "frequencies do",
-            missing="shift",
-        )
 
 
 def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
@@ -364,22 +358,19 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
 
 @about_keys("below_measurement")
 def _below_measurement(file: CaseFile) -> BelowMeasurement:
-    table = file.case.below_measurement
+    table, finer = file.case.below_measurement, file.case.below_measurement.finer
     roughness: Roughness = OwnFaces()
     if table.hurst is not None:
         roughness = HurstExponent(table.hurst)
-    elif table.finer is not None:
-        roughness = FinerMeasurement(_face(table.finer, file.resolve))
+    elif finer is not None and finer.map is not None:
+        face = surfaces.read_map(file.resolve(finer.map), **_options(finer, surfaces.read_map))
+        face = face if finer.direction == "x" else face.turned()
+        roughness = FinerMeasurement(surfaces.clean_map(face)[0])
+    elif finer is not None:
+        options = _options(finer, surfaces.read_profile)
+        line = surfaces.read_profile(file.resolve(finer.file or ""), **options)
+        roughness = FinerMeasurement(surfaces.clean(line)[0])
     return BelowMeasurement(table.down_to, roughness, table.seed)
-
-
-def _face(table: FinerTable, resolve: Resolve) -> surfaces.Profile | surfaces.HeightMap:
-    """Read and level a finer measurement of a face."""
-    if table.file is not None:
-        line = surfaces.read_profile(resolve(table.file), **_options(table, surfaces.read_profile))
-        return surfaces.clean(line)[0]
-    raw = surfaces.read_map(resolve(table.map or ""), **_options(table, surfaces.read_map))
-    return surfaces.clean_map(raw if table.direction == "x" else raw.turned())[0]
 
 
 def case_chain(file: CaseFile) -> Chain:
@@ -394,16 +385,6 @@ def case_chain(file: CaseFile) -> Chain:
         extrapolate=case.rubber.extrapolate,
         conditions=prepare_conditions(case.conditions, file.resolve),
     )
-
-
-@about_keys("measured")
-def stated_friction(file: CaseFile) -> MeasuredFriction | None:
-    """Return the measured friction that a case names, None if it names none.
-
-    Raises `FileError` if it cannot be read.
-    """
-    name = file.case.measured.friction
-    return None if name is None else read_measured_friction(file.resolve(name))
 
 
 def named_files(file: CaseFile) -> list[NamedFile]:
@@ -440,7 +421,11 @@ def read_case(path: CaseFile | str | Path) -> Case:
     if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:
         raise InputError(f"{file.path}: [below_measurement] needs measured profiles; got a map")
     # measured friction is refused before anything is fitted
-    friction, chain = stated_friction(file), case_chain(file)
+    name, friction = file.case.measured.friction, None
+    if name is not None:
+        with about_keys("measured"):
+            friction = read_measured_friction(file.resolve(name))
+    chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     load, theory, table = file.case.load, file.case.compare, file.case.surface

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 import tomllib
@@ -16,9 +15,8 @@ from pydantic import BaseModel, ValidationError
 from gripscale.case_file.schema import first_complaint, sentence
 from gripscale.case_file.tables import CaseTables
 from gripscale.core.errors import FileError, InputError, about_keys
-from gripscale.core.provenance import COMMAND, software, versions
+from gripscale.core.provenance import COMMAND
 from gripscale.core.units import DISPLAY_UNITS, stated_units
-from gripscale.io.text_table import read_bytes
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -114,22 +112,3 @@ def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
     if re.search(r"=\s*[-+]?[\d.]+\s*[^\s\d#]", line):
         return '; a number with its unit stands in "quotation marks"'
     return ""
-
-
-def prediction_key(file: CaseFile, name: str) -> str:
-    """Return the key of the prediction `name` ("dynamic" or "static") of a case.
-
-    It is a hash of all the prediction depends on: the text of the case, the bytes of the files it
-    names and the software that solves it. Equal keys mean equal results, to the last bit.
-
-    Raises `FileError` if a file it names cannot be read.
-    """
-    contents = [read_bytes(file.resolve(named)) for _, named in file.case.named_files()]
-    inputs = {
-        "software": software(),
-        "versions": versions(),
-        "prediction": name,
-        "case": file.text,
-        "files": [hashlib.sha256(content).hexdigest() for content in contents],
-    }
-    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]
