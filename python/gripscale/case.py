@@ -186,7 +186,12 @@ class Case:
         )
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
-        self.measured_rubber = _measured_rubber(rubber)
+        if isinstance(rubber, Rubber):
+            rubber = MeasuredRubber(rubber, rubber.source)
+        elif not isinstance(rubber, MeasuredRubber):
+            fitted, fit = fit_prony_report(rubber)
+            rubber = MeasuredRubber(fitted, rubber.source, rubber, fit)
+        self.measured_rubber = rubber
         end = None
         if smallest_wavelength is not None:
             end = in_si("smallest_wavelength", smallest_wavelength, "length")
@@ -335,10 +340,7 @@ class Case:
 
 
 def in_si(name: str, value: float | str, kind: str) -> float:
-    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar".
-
-    Raises `InputError` if it is neither.
-    """
+    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar"."""
     if not isinstance(value, str):
         return checks.number(name, value)
     try:
@@ -357,21 +359,9 @@ def described_surface(
 ) -> Surface:
     """Return a measured surface with its correlation and the sine waves that follow it.
 
-    Parameters
-    ----------
-    measured : Measured
-        Cleaned profiles or a map.
-    counted, fit : mapping
-        Arguments of `height_difference` and `fit_sines`.
-    cut_off : CutOffRule, optional
-        Where the roughness ends; None where `fit` says so.
-    source : str
-        Where the surface comes from.
-
-    Raises
-    ------
-    InputError
-        If the heights have no correlation, or no waves fit it.
+    `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
+    the roughness ends; None: where `fit` does. Raises `InputError` if the heights have no
+    correlation, or no waves fit it.
     """
     try:
         correlation = height_difference(measured.cleaned, **counted)
@@ -412,12 +402,3 @@ def _surface(
     fit = {"scales": waves, "smallest_wavelength": end}
     source = ", ".join(filter(None, sources))
     return described_surface(measured, counted={}, fit=fit, cut_off=rule, source=source)
-
-
-def _measured_rubber(rubber: RubberLike) -> MeasuredRubber:
-    if isinstance(rubber, MeasuredRubber):
-        return rubber
-    if isinstance(rubber, Rubber):
-        return MeasuredRubber(rubber, rubber.source)
-    fitted, fit = fit_prony_report(rubber)
-    return MeasuredRubber(fitted, rubber.source, rubber, fit)

@@ -8,6 +8,7 @@ Files too large to be copied are named where they are.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import time
@@ -21,7 +22,9 @@ from typing import get_args
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import GripscaleError
+from gripscale.core.provenance import versions, whole_package
 from gripscale.io.folders import make_folder, unwritable, write_bytes, write_text
+from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
@@ -47,10 +50,7 @@ class SavedCase:
 
 
 def saved_case(file: CaseFile, folder: Path, case_name: str = SAVED_CASE) -> SavedCase:
-    """Return `file` as it can be saved in `folder`, where nothing is touched.
-
-    Raises `FileError` if a file it names cannot be read.
-    """
+    """Return `file` as it can be saved in `folder`, where nothing is touched."""
     names = list(dict.fromkeys(name for _, name in file.case.named_files()))
     paths = {name: file.resolve(name) for name in names}
     contents = {name: read_bytes(path) for name, path in paths.items()}
@@ -125,7 +125,7 @@ _FIGURES = (
 AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 NOTE = ".finished.json"
-"""What a finished run was made from, see `gripscale.case_file.finished`."""
+"""What a finished run was made from and the files it left, so that it need not be repeated."""
 RESULT_FILES = (
     NOTE,
     "dynamic.nc",
@@ -153,10 +153,7 @@ def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
 
 
 def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
-    """Make `folder`, remove what an earlier run left but for `keep`, and save the case in it.
-
-    Raises `FileError` if that fails, or a file that the case names cannot be read.
-    """
+    """Make `folder`, remove what an earlier run left but for `keep`, and save the case in it."""
     saved = saved_case(file, folder)
     make_folder(folder / "figures")
     try:
@@ -168,10 +165,7 @@ def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
 
 
 def save_case(file: CaseFile, folder: Path) -> None:
-    """Save the case in `folder` with copies of its files, so that it runs from there.
-
-    Raises `FileError` if one cannot be read or written.
-    """
+    """Save the case in `folder` with copies of its files, so that it runs from there."""
     write_saved(saved_case(file, folder), folder)
 
 
@@ -181,3 +175,53 @@ def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> 
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
     write_text(folder / case_name, saved.text)
+
+
+def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> bool:
+    """Return whether `folder` holds all results of a case, made by this very software.
+
+    `others` are files beside those of the case that a run shows; they may be missing. Results
+    that have another size or date than the run gave them do not count.
+    """
+    try:
+        noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
+        return bool(
+            noted["key"] == _key(file, others) and noted["files"] == _files(folder, noted["files"])
+        )
+    except (OSError, ValueError, TypeError, KeyError):
+        return False
+
+
+def case_replaced(file: CaseFile, folder: Path) -> str:
+    """Return the name of the case whose finished results are in `folder`, if it is another."""
+    try:
+        name = str(json.loads((folder / NOTE).read_text(encoding="utf-8"))["case"])
+    except (OSError, ValueError, TypeError, KeyError):
+        return ""
+    return "" if name == file.path.name else name
+
+
+def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
+    """Note that `folder` holds all results of a case."""
+    present = [name for name in RESULT_FILES if name != NOTE and (folder / name).is_file()]
+    present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
+    files = _files(folder, present)
+    noted = {"key": _key(file, others), "files": files, "case": file.path.name}
+    write_whole(folder / NOTE, lambda path: path.write_text(json.dumps(noted), encoding="utf-8"))
+
+
+def _key(file: CaseFile, others: tuple[Path, ...]) -> str:
+    """Return a hash of the case, its files, the other files and the software, faces included."""
+    inputs = json.dumps([whole_package(), versions(), str(file.path), file.text], sort_keys=True)
+    digest = hashlib.sha256(inputs.encode())
+    for _, name in file.case.named_files():
+        digest.update(hashlib.sha256(read_bytes(file.resolve(name))).digest())
+    for path in others:
+        digest.update(path.read_bytes() if path.is_file() else b"-")
+    return digest.hexdigest()
+
+
+def _files(folder: Path, names: list[str]) -> dict[str, list[int]]:
+    """Return size and date of the files of a folder."""
+    stats = {name: (folder / name).stat() for name in names}
+    return {name: [stat.st_size, stat.st_mtime_ns] for name, stat in stats.items()}

@@ -37,10 +37,7 @@ OF_A_FILE = (
 
 
 def read_named_inputs(vary: Mapping[str, Any], file: CaseFile) -> dict[str, Any]:
-    """Return varied inputs with surfaces and rubbers read from the files they name.
-
-    Raises `FileError` or `InputError` for what cannot be read.
-    """
+    """Return varied inputs with surfaces and rubbers read from the files they name."""
     inputs = dict(vary)
     for axis, read in (("surface", read_surface), ("rubber", read_rubber)):
         if axis in inputs:
@@ -56,8 +53,6 @@ def read_surface(value: Any, file: CaseFile) -> Any:
     `value` is the path of another case (its [surface] is taken), or of a profile or, of a case on a
     map, a map, read with all other settings of the case but the crop, which belongs to its own
     files. "case", synthetic surfaces known by name and surfaces are returned as they are.
-
-    Raises `FileError` or `InputError` for what cannot be read.
     """
     if isinstance(value, Surface | SineStack) or value in (OF_THE_CASE, *SYNTHETIC_SURFACES):
         return value
@@ -89,8 +84,6 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
     of modulus, columns, reference temperature) where it does not say so itself; its rubber has the
     bulk modulus, the strain energy and the limit of outliers of the case. "case" and rubbers are
     returned as they are.
-
-    Raises `FileError` or `InputError` for what cannot be read.
     """
     if isinstance(value, Rubber | MeasuredRubber) or value == OF_THE_CASE:
         return value

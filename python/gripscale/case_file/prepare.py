@@ -108,11 +108,7 @@ def _described(
 
 
 def case_surface(file: CaseFile) -> surfaces.Surface:
-    """Return the surface of a case, its cut-off by the slope in contact solved.
-
-    Raises `FileError` and `InputError` as `prepare_surface` and `contact_by_cut_off` do, and if the
-    contact of the measured roughness does not reach the slope.
-    """
+    """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
     if not isinstance(rule, surfaces.ContactSlope):
@@ -388,10 +384,7 @@ def case_chain(file: CaseFile) -> Chain:
 
 
 def named_files(file: CaseFile) -> list[NamedFile]:
-    """Return the files that a case names, with their checksums.
-
-    Raises `FileError` if one cannot be read.
-    """
+    """Return the files that a case names, with their checksums."""
     files = []
     for role, name in file.case.named_files():
         content = read_bytes(file.resolve(name))

@@ -37,14 +37,14 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.provenance import version_of
 from gripscale.core.units import quantity_in_si
-from gripscale.experiment.measured_friction import MEASURED, MeasuredFriction
+from gripscale.experiment.measured_friction import MEASURED
 from gripscale.half_space.below_measurement import FinerMeasurement, HurstExponent
 from gripscale.questions.uncertainty.options import UncertaintyOptions
 from gripscale.rubber import ShiftTable, fit_prony_report
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.strain_energy import NeoHookean
-from gripscale.surface import HeightMap, Profile, SineStack, fit_sines
+from gripscale.surface import HeightMap, Profile, fit_sines
 from gripscale.surface.cut_off import ContactSlope, RmsSlope
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.block import FiniteStrainBlock
@@ -52,11 +52,7 @@ from gripscale.wave.problem import Mesh
 
 
 def write_case(case: Case, path: Path) -> Path:
-    """Write a case to `path`, its measurements to the folder `inputs` beside it; return `path`.
-
-    Raises `InputError` for what a case file cannot state, `FileError` if a file cannot be read or
-    written, or has changed since the case was read.
-    """
+    """Write a case to `path`, its measurements to the folder `inputs` beside it; return `path`."""
     if case.origin.text:
         write_saved(_copied(case, path), path.parent, path.name)
         return path
@@ -136,6 +132,21 @@ def _printed_distances(x: Array) -> tuple[str, Array]:
 def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
     """Return the tables of a case by name, each with the keys that have a value."""
     load, options = case.load, case.options.get("uncertainty", UncertaintyOptions())
+    below: dict[str, Any] = {"down_to": case.below_measurement.down_to}
+    below["seed"] = case.below_measurement.seed
+    match case.below_measurement.roughness:
+        case HurstExponent(hurst=hurst):
+            below["hurst"] = hurst
+        case FinerMeasurement(surface=face):
+            kind = "map" if isinstance(face, HeightMap) else "file"
+            below["finer"] = {kind: inputs.add_heights(face.name or "finer", face)}
+    measured = {}
+    if case.friction is not None:
+        columns = {
+            name if unit == "1" else f"{name} [{unit}]": getattr(case.friction, name)
+            for name, (unit, _) in MEASURED.items()
+        }
+        measured["friction"] = inputs.add_table("friction", columns)
     tables: dict[str, dict[str, Any]] = {
         "surface": _surface_keys(case, inputs),
         "rubber": _rubber_keys(case.measured_rubber, inputs),
@@ -143,8 +154,8 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "solver": _solver_keys(case.chain),
         "chain": {"pressure_classes": case.chain.pressure_classes},
         "conditions": _conditions_keys(case.conditions, inputs),
-        "below_measurement": _continuation_keys(case, inputs),
-        "measured": _friction_keys(case.friction, inputs),
+        "below_measurement": below,
+        "measured": measured,
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
         "uncertainty": asdict(options) | {"without": list(options.without)},
     }
@@ -163,8 +174,10 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
             raise InputError("a case file cannot state waves that end beyond the last one")
         pairs = zip(surface.sines.wavelength, surface.sines.amplitude, strict=True)
         return {"sines": [{"wavelength": float(w), "amplitude": float(a)} for w, a in pairs]}
-    if surface.correlation is None or not _same_waves(
-        fit_sines(surface.correlation, **surface.fit), surface.sines
+    fitted = surface.correlation and fit_sines(surface.correlation, **surface.fit)
+    if not fitted or not all(
+        np.array_equal(getattr(fitted, part), getattr(surface.sines, part))
+        for part in ("wavelength", "amplitude")
     ):
         raise InputError("a case file cannot state waves that are not fitted to the heights")
     keys: dict[str, Any] = {}
@@ -192,12 +205,6 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
         if value != SurfaceTable.model_fields[name].default:
             keys[name] = list(value) if isinstance(value, tuple) else value
     return keys
-
-
-def _same_waves(waves: SineStack, others: SineStack) -> bool:
-    return np.array_equal(waves.wavelength, others.wavelength) and np.array_equal(
-        waves.amplitude, others.amplitude
-    )
 
 
 def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
@@ -292,25 +299,3 @@ def _softening_table(table: SofteningTable, inputs: _Inputs) -> dict[str, Any]:
         files.append(inputs.add_table("strain_sweep", columns))
     options = {"measured_at": table.measured_at, "amplitude": "single"}
     return {"kind": "table", "files": files, **options}
-
-
-def _continuation_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
-    below = case.below_measurement
-    keys: dict[str, Any] = {"down_to": below.down_to, "seed": below.seed}
-    if isinstance(below.roughness, HurstExponent):
-        keys["hurst"] = below.roughness.hurst
-    elif isinstance(below.roughness, FinerMeasurement):
-        face = below.roughness.surface
-        kind = "map" if isinstance(face, HeightMap) else "file"
-        keys["finer"] = {kind: inputs.add_heights(face.name or "finer", face)}
-    return keys
-
-
-def _friction_keys(friction: MeasuredFriction | None, inputs: _Inputs) -> dict[str, Any]:
-    if friction is None:
-        return {}
-    columns = {
-        name if unit == "1" else f"{name} [{unit}]": getattr(friction, name)
-        for name, (unit, _) in MEASURED.items()
-    }
-    return {"friction": inputs.add_table("friction", columns)}

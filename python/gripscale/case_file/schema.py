@@ -104,10 +104,6 @@ _EXPECTED = {
 """What was expected instead of a value that pydantic refused with an error of this type."""
 
 
-RENAMED_KEYS = {"given": "ranges", "upper_share": "top_height_fraction"}
-"""Keys of version 0.1 and what they are called now."""
-
-
 def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool = False) -> str:
     """Return the first complaint as one sentence; an unknown key goes before its consequences.
 
@@ -121,8 +117,6 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     where = _location(first["loc"], in_table=in_table)
     kind, value = first["type"], first["input"]
     if kind == "extra_forbidden":
-        if key in RENAMED_KEYS:
-            return f"unknown key {where}; it is called {RENAMED_KEYS[key]} now"
         names = list(owner.model_fields)
         near = difflib.get_close_matches(key, names, n=1)
         hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"

@@ -77,10 +77,7 @@ class PressureClasses:
         return float(self.pressure @ self.area / self.area.sum())
 
     def handed_down(self, solved: Sequence[ScaleResult], count: int) -> PressureClasses:
-        """Return `count` classes of the contacts of the waves solved under each class.
-
-        Raises `InputError` for several classes if a solver returns no pressure along the wave.
-        """
+        """Return `count` classes of the contacts of the waves solved under each class."""
         if count == len(solved) == 1:
             wave, area = solved[0], self.area * solved[0].contact_fraction
             # equation 1; unchanged in full contact
