@@ -14,6 +14,7 @@ import re
 import time
 import tomllib
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -84,18 +85,13 @@ def renamed(text: str, targets: Mapping[str, str]) -> str:
             continue
         name = tomllib.loads(f"string = {match[0]}")["string"]
         before, after = text[: match.start()], text[match.end() :]
-        if name in targets and _names_a_file(f'{before}"{_MARK}"{after}'):
-            text = f"{before}{json.dumps(targets[name], ensure_ascii=False)}{after}"
+        if name not in targets:
+            continue
+        with suppress(ValueError):  # no case with another text there
+            case = CaseTables.model_validate(tomllib.loads(f'{before}"{_MARK}"{after}'))
+            if any(file == _MARK for _, file in case.named_files()):
+                text = f"{before}{json.dumps(targets[name], ensure_ascii=False)}{after}"
     return text
-
-
-def _names_a_file(text: str) -> bool:
-    """Return whether the case looks for a file by the mark put into its text."""
-    try:
-        case = CaseTables.model_validate(tomllib.loads(text))
-    except ValueError:
-        return False
-    return any(name == _MARK for _, name in case.named_files())
 
 
 def free_target(

@@ -86,14 +86,7 @@ def prepare_surface(
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     raw = raw_surface(surface, resolve) if raw is None else raw
-    return _described(surface, _cleaned(surface, raw, resolve), resolve)
-
-
-@about_keys("surface")
-def _described(
-    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
-) -> surfaces.Surface:
-    """Return a cleaned surface with its correlation and sine waves; errors of `prepare_surface`."""
+    measured = _cleaned(surface, raw, resolve)
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
@@ -115,8 +108,8 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
         return prepare_surface(table, file.resolve)
     if table.map is not None:
         raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
-    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
-    lines = measured.cleaned
+    raw = raw_surface(table, file.resolve)
+    lines = _cleaned(table, raw, file.resolve).cleaned
     load = file.case.load.nominal
     curve = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
@@ -137,7 +130,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
             "continues the roughness below it)"
         )
     solved = replace(rule, wavelength=wavelength)
-    return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
+    return prepare_surface(table.model_copy(update={"cut_off": solved}), file.resolve, raw)
 
 
 @about_keys("surface")
@@ -150,16 +143,25 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
         lines = [surfaces.read_profile(path, **options) for path in paths]
-        return [replace(line, reliable=surface.reliable or line.reliable) for line in lines]
+        if surface.reliable is None:
+            return lines
+        return [replace(line, reliable=surface.reliable) for line in lines]
     raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
-    raw = replace(raw, reliable=surface.reliable or raw.reliable)
+    if surface.reliable is not None:
+        raw = replace(raw, reliable=surface.reliable)
     return raw if surface.direction == "x" else raw.turned()
 
 
 def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfaces.Measured:
     """Clean profiles or a map, which `raw_surface` has read, unless taken as they are."""
     if isinstance(raw, surfaces.HeightMap):
-        return _cleaned_map(surface, raw, resolve(surface.measured_files[0]))
+        if not surface.clean:
+            return surfaces.Measured.of_map(raw, raw)
+        options = _options(surface, surfaces.clean_map)
+        options["crop"] = (options["crop"], surface.crop_across)
+        with about_file(resolve(surface.measured_files[0]), InputError):
+            clean_map, report = surfaces.clean_map(raw, **options)
+        return surfaces.Measured.of_map(raw, clean_map, [report])
     if not surface.clean:
         return surfaces.Measured.of(raw)
     profiles, reports = [], []
@@ -169,18 +171,6 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
         profiles.append((line, cleaned))
         reports.append(report)
     return surfaces.Measured(profiles, reports, None, "")
-
-
-def _cleaned_map(surface: SurfaceTable, raw: surfaces.HeightMap, path: Path) -> surfaces.Measured:
-    """Clean a map whose x is the way of sliding, unless its heights are taken as they are."""
-    if not surface.clean:
-        return surfaces.Measured.of_map(raw, raw)
-    options = _options(surface, surfaces.clean_map)
-    with about_file(path, InputError):
-        cleaned, report = surfaces.clean_map(
-            raw, **options | {"crop": (options["crop"], surface.crop_across)}
-        )
-    return surfaces.Measured.of_map(raw, cleaned, [report])
 
 
 OF_SWEEPS = ("temperature_step", "vertical")

@@ -368,7 +368,6 @@ def _column(value: Any) -> str | int:
 
 
 def _columns(value: Any) -> dict[str, str | int]:
-    """Accept three columns, or a table of them by quantity."""
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {_COLUMNS}")
     return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
