@@ -112,20 +112,21 @@ class _Inputs:
             along, across = heights.z.shape
             x, y = np.repeat(heights.x, across), np.tile(heights.y, along)
             return self.add_table(name, {"x [m]": x, "y [m]": y, title: heights.z.ravel()})
-        unit, x = _printed_distances(heights.x)
+        unit, x = _even_distances(heights.x)
         return self.add_table(name, {f"x [{unit}]": x, title: heights.z})
 
 
-def _printed_distances(x: Array) -> tuple[str, Array]:
-    """Return the unit and the distances whose even grid is `x` [m] to the last bit.
+def _even_distances(x: Array) -> tuple[str, Array]:
+    """Return a unit and the even grid that is `x` [m] to the last bit once a file is read.
 
-    In m, if there is none: then `x` is not the even grid that readers return.
+    Without one, `x` itself: readers return even grids only, which differ in the last digits.
     """
     for unit, size in (("m", 1.0), ("mm", 1e-3), ("um", 1e-6)):
-        for printed in (x / size, np.array([float(f"{value:.12g}") for value in x / size])):
-            grid = np.linspace(printed[0], printed[-1], printed.size)
+        for digits in (17, 12):  # of a number as computed, and as instruments print it
+            first, last = (float(f"{end / size:.{digits}g}") for end in (x[0], x[-1]))
+            grid = np.linspace(first, last, x.size)
             if np.array_equal(quantity_in_si(grid, unit, "length"), x):
-                return unit, printed
+                return unit, grid
     return "m", x
 
 
@@ -202,6 +203,8 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
             case _:
                 numbers["cut_off"] = surface.rule
     for name, value in numbers.items():
+        if name not in SurfaceTable.model_fields:
+            raise InputError(f"a case file cannot state {name} of the surface")
         if value != SurfaceTable.model_fields[name].default:
             keys[name] = list(value) if isinstance(value, tuple) else value
     return keys

@@ -275,7 +275,7 @@ def _passing(
     *distances: Distances,
 ) -> ComplexArray:
     """Return the steady values, and E r over the `distances` of harmonics that still change."""
-    length = 2.0 * math.sqrt(thermal.diffusivity * time)
+    length = _diffusion_length(time, thermal)
     changing = m.real * (0.5 * length) < STEADY
     if not changing.any():
         return steady
