@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from inspect import Parameter, signature
+from pathlib import Path
 from typing import Any
 
 from gripscale.chain.chain import Chain
@@ -187,7 +188,12 @@ class Case:
         )
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
-        self.measured_rubber = _measured_rubber(rubber)
+        if isinstance(rubber, Rubber):
+            rubber = MeasuredRubber(rubber, rubber.source)
+        elif not isinstance(rubber, MeasuredRubber):
+            fitted, fit = fit_prony_report(rubber)
+            rubber = MeasuredRubber(fitted, rubber.source, rubber, fit)
+        self.measured_rubber = rubber
         end = None
         if smallest_wavelength is not None:
             end = in_si("smallest_wavelength", smallest_wavelength, "length")
@@ -243,6 +249,34 @@ class Case:
         parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]
         content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
         return hashlib.sha256(content.encode()).hexdigest()
+
+    def save(self, path: str | Path) -> Path:
+        """Write the case as a case file, with its measurements in the folder `inputs` beside it.
+
+        The case that `gripscale.read_case` reads from it, there or wherever both go, has the same
+        answers. A case that was read from a file keeps its text and gets copies of its files; any
+        other is written in SI units, profiles, maps and moduli as text files.
+
+        Parameters
+        ----------
+        path : path-like
+            The case file (TOML), such as "folder/case.toml". An earlier one is replaced.
+
+        Returns
+        -------
+        Path
+            The case file.
+
+        Raises
+        ------
+        InputError
+            For what a case file cannot state, such as a solver of your own.
+        FileError
+            If a file cannot be written, or one of the case has changed since it was read.
+        """
+        from gripscale.case_file.save import write_case  # a face: nothing here knows a file
+
+        return write_case(self, Path(path))
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
@@ -328,10 +362,7 @@ class Case:
 
 
 def in_si(name: str, value: float | str, kind: str) -> float:
-    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar".
-
-    Raises `InputError` if it is neither.
-    """
+    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar"."""
     if not isinstance(value, str):
         return checks.number(name, value)
     try:
@@ -350,21 +381,9 @@ def described_surface(
 ) -> Surface:
     """Return a measured surface with its correlation and the sine waves that follow it.
 
-    Parameters
-    ----------
-    measured : Measured
-        Cleaned profiles or a map.
-    counted, fit : mapping
-        Arguments of `height_difference` and `fit_sines`.
-    cut_off : CutOffRule, optional
-        Where the roughness ends; None where `fit` says so.
-    source : str
-        Where the surface comes from.
-
-    Raises
-    ------
-    InputError
-        If the heights have no correlation, or no waves fit it.
+    `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
+    the roughness ends; None: where `fit` does. Raises `InputError` if the heights have no
+    correlation, or no waves fit it.
     """
     try:
         correlation = height_difference(measured.cleaned, **counted)
@@ -388,24 +407,20 @@ def _surface(
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
-    heights = [surface] if isinstance(surface, Profile) else surface
-    if isinstance(heights, HeightMap):
+    if isinstance(surface, HeightMap):
         if cleaning:
             raise InputError("cleaning must be left out for a map: use gripscale.clean_map; got it")
-        measured = Measured.of(heights)
+        measured, sources = Measured.of_map(surface, surface), [surface.source]
     else:
-        measured = Measured.of_raw(heights, cleaning) if cleaning else Measured.of(heights)
-    names = [line.source for line in heights] if isinstance(heights, Sequence) else [heights.source]
+        lines = [surface] if isinstance(surface, Profile) else list(surface)
+        if len({line.name for line in lines}) < len(lines):  # results tell profiles by name
+            lines = [
+                replace(line, name=f"{line.name or 'profile'} {number}")
+                for number, line in enumerate(lines, start=1)
+            ]
+        measured = Measured.of_raw(lines, cleaning) if cleaning else Measured.of(lines)
+        sources = [line.source for line in lines]
     rule: CutOffRule | None = "instrument" if end is None else None
     fit = {"scales": waves, "smallest_wavelength": end}
-    source = ", ".join(filter(None, map(str, names)))
+    source = ", ".join(filter(None, sources))
     return described_surface(measured, counted={}, fit=fit, cut_off=rule, source=source)
-
-
-def _measured_rubber(rubber: RubberLike) -> MeasuredRubber:
-    if isinstance(rubber, MeasuredRubber):
-        return rubber
-    if isinstance(rubber, Rubber):
-        return MeasuredRubber(rubber, rubber.source)
-    fitted, fit = fit_prony_report(rubber)
-    return MeasuredRubber(fitted, rubber.source, rubber, fit)

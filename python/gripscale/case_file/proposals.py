@@ -89,10 +89,7 @@ UNITS_OF_RUBBER = {
 def _read_with(
     read: Callable[..., _Measurement], path: Any, defaults: Mapping[str, str], **options: Any
 ) -> tuple[_Measurement, dict[str, str]]:
-    """Return what a file holds, and the keys without which it cannot be read, by default.
-
-    Raises what reading raises about anything but `defaults`.
-    """
+    """Return what a file holds, and the keys without which it cannot be read, by default."""
     asked: dict[str, str] = {}
     while True:
         try:
@@ -126,7 +123,17 @@ def surface_proposal(
     if step is not None:
         proposal.add("step", step)
     read = read_map if isinstance(surface, HeightMap) else read_profile
-    units = _likely_units(read, paths[0], missing, options)
+    units: dict[str, str] = {}
+    # units that the file does not state with which its heights are those of a texture, if any are
+    for choice in product(LENGTHS, repeat=len(missing)) if missing else ():
+        trial: dict[str, Any] = dict(zip(missing, choice, strict=True))
+        measured = read(paths[0], **options, **trial)
+        middle = measured.z.shape[-1] // 2
+        line = measured.line(middle) if isinstance(measured, HeightMap) else measured
+        units = units or trial
+        if _SHORTEST <= line.length <= _LONGEST and has_likely_units(line):
+            units = trial
+            break
     for key, unit in units.items():
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, OF_ANOTHER_CASE)
@@ -171,26 +178,6 @@ def open_surface(
     raise next((error for error in refusals if error.missing), refusals[0])
 
 
-def _likely_units(
-    read: Callable[..., Profile | HeightMap],
-    path: Path,
-    missing: Mapping[str, str],
-    options: Mapping[str, Any],
-) -> dict[str, str]:
-    """Return the units that a file does not state with which its heights are those of a texture."""
-
-    def plausible(units: Mapping[str, str]) -> bool:
-        surface = read(path, **options, **units)
-        middle = surface.z.shape[-1] // 2
-        line = surface.line(middle) if isinstance(surface, HeightMap) else surface
-        return _SHORTEST <= line.length <= _LONGEST and has_likely_units(line)
-
-    choices = [
-        dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))
-    ]
-    return next(filter(plausible, choices), choices[0]) if missing else {}
-
-
 def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
     """Propose what of the profiles is the road."""
     parts = [part for profile in profiles if (part := road_between(profile)) is not None]
@@ -231,17 +218,17 @@ def rubber_proposal(
     if asked:
         measured, _ = open_rubber(paths, settings)
     _add_reference(proposal, measured, temperature)
-    if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
-        words = "the temperatures have no gaps: moduli are interpolated at multiples of this step"
-        proposal.add("temperature_step", NOMINAL_STEP, words, TENS_OF_PERCENT)
+    if isinstance(measured, Sweeps) and not measured.is_ramp:
+        try:
+            replace(measured, tolerance=TEMPERATURE_TOLERANCE)
+        except InputError:
+            words = (
+                "the temperatures have no gaps: moduli are interpolated at multiples of this step"
+            )
+            proposal.add("temperature_step", NOMINAL_STEP, words, TENS_OF_PERCENT)
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
-    _add_bulk_modulus(proposal, float(measured.storage.max()))
-    return proposal
-
-
-def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
-    """Propose the bulk modulus of rubber, or what the largest measured modulus [Pa] needs."""
+    stiffest = float(measured.storage.max())
     try:
         largest_modulus(stiffest, BULK_MODULUS)
     except InputError:
@@ -255,15 +242,13 @@ def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
     else:
         words = "assumed: a DMA measurement does not give it"
         proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
+    return proposal
 
 
 def open_rubber(
     paths: list[Path], layout: Mapping[str, Any]
 ) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
-    """Return sweeps or a master curve, and the keys of the layout that nothing states.
-
-    Raises `FileError` and `InputError` as reading does.
-    """
+    """Return sweeps or a master curve, and the keys of the layout that nothing states."""
     if len(paths) > 1 or holds_sweeps(paths[0], FileLayout(**layout)):
         return _read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
     return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
@@ -323,15 +308,6 @@ def _add_reference(
 
 NOMINAL_STEP = "5 K"
 """Step of nominal temperatures of ramps at several frequencies."""
-
-
-def _runs_on(sweeps: Sweeps) -> bool:
-    """Return whether temperatures have no gaps between sweeps."""
-    try:
-        replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
-    except InputError:
-        return True
-    return False
 
 
 _ONE_SWEEP = 3.0

@@ -46,10 +46,7 @@ WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
 
 
 def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolver:
-    """Return a solver by its name or its face with options, or the solver itself.
-
-    Raises `InputError` for an unknown name or option, and for options of a solver object.
-    """
+    """Return a solver by its name or its face with options, or the solver itself."""
     if isinstance(solver, str):
         kind = WAVE_SOLVERS[checks.one_of("solver", solver, WAVE_SOLVERS)]
     else:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.terminal import argument, command, option, print_wrapped, screen
 
 if TYPE_CHECKING:
@@ -128,19 +127,8 @@ def mesh(
 def _rubber_of(source: Path) -> Rubber:
     """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
     from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
-    from gripscale.io.text_table import read_bytes
-    from gripscale.rubber import Rubber
 
     if source.suffix == ".toml":
         file = read_case_file(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
-    if source.suffix == ".json":
-        content = read_bytes(source)
-        try:
-            values = json.loads(content)
-        except ValueError as error:
-            raise FileError(f"{source} cannot be read as a rubber: {error}") from error
-        if not isinstance(values, dict):
-            raise FileError(f"{source} cannot be read as a rubber: it is no JSON object")
-        return Rubber.from_dict(values)
     return prepare_rubber(validate(RubberSource, {"file": str(source)}, str(source))).rubber

@@ -65,7 +65,7 @@ def run(
     ] = ProgressFormat.TEXT,
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
-    from gripscale.case_file.finished import is_finished
+    from gripscale.case_file.folder import is_finished
     from gripscale.case_file.read import read_case_file
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
     from gripscale.io.folders import require_writable
@@ -121,7 +121,7 @@ def _run(
 ) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
     from gripscale.case_file import read_case
-    from gripscale.case_file.finished import case_replaced, note_finished
+    from gripscale.case_file.folder import case_replaced, note_finished
     from gripscale.questions.chain.events import FileWritten
     from gripscale.questions.chain.run import ChainRun
     from gripscale.questions.chain.run_figures import background_figures, draw_effects, draw_heat

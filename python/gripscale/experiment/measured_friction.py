@@ -158,7 +158,11 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
             values = table.numbers(at, f"a {word}", missing=word in _OPTIONAL)
             columns[word] = _in_si(path, word, column, values)
             if word in _UNITS and column.unit is None:
-                assumed.append(_assumption(path, word))
+                kind, usual = _UNITS[word]
+                assumed.append(
+                    f"The unit of {word} in {path.name} is not stated and {usual} is assumed: "
+                    f"write it in the title, such as '{word} [{list(UNITS[kind])[1]}]'."
+                )
     absent = [word for word in ("speed", "friction") if word not in columns]
     if absent:
         titles = table.titles or "no titles"
@@ -173,16 +177,6 @@ def _word(title: str) -> str | None:
     """Return which of our columns a title names, or None."""
     plain = " ".join(title.lower().replace("_", " ").split())
     return next((word for word, names in _WORDS.items() if plain in names), None)
-
-
-def _assumption(path: Path, word: str) -> str:
-    """Return which unit is taken for a column whose title names none."""
-    kind, usual = _UNITS[word]
-    other = list(UNITS[kind])[1]
-    return (
-        f"The unit of {word} in {path.name} is not stated and {usual} is assumed: write it in the "
-        f"title, such as '{word} [{other}]'."
-    )
 
 
 _FAR = 30.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
@@ -17,12 +17,15 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
+from gripscale.core.status import Status
+from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.model import Load, OnProgress
 from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import of_sum
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
 from gripscale.wave.block import solve_profile
 from gripscale.wave.result import waves_to_dataset
@@ -100,6 +103,50 @@ def _weighted(weight: Array, shares: Sequence[float] | Sequence[Array]) -> Array
     return np.asarray(mean / total if total > 0.0 else mean * math.nan)
 
 
+def _answer_by_length(
+    data: xr.Dataset,
+    parts: Sequence[Any],
+    why_not: Sequence[str],
+    lengths: Sequence[float],
+    name: str,
+    load: Load,
+    cut_off_exponents: Sequence[CutOffExponents] = (),
+) -> xr.Dataset:
+    """Return `data` over `profile` with the answers of the profiles averaged by length [m].
+
+    `parts` are their results, with the attributes of `TOTALS` without `total_`, `extrapolation`
+    and `status`. `why_not` says why a profile does not count: then there are no totals.
+    """
+    weight = np.asarray(lengths) / np.sum(lengths)
+    bad = [
+        f"profile {number} of {len(parts)}: {why}"
+        for number, why in enumerate(why_not, start=1)
+        if why
+    ]
+    totals = {
+        total: math.nan
+        if bad
+        else float(weight @ [getattr(part, total.removeprefix("total_")) for part in parts])
+        for total in model.TOTALS
+    }
+    attrs = {"units": "1", "long_name": "share of the length"}
+    weighted = data.assign(weight=("profile", weight, attrs))
+    beyond = of_sum(
+        [part.extrapolation for part in parts],
+        weight * [part.friction_from_dissipation for part in parts],
+    )
+    exponents = NOT_CONVERGED
+    if not bad:
+        names = ("contact_fraction", "friction_from_dissipation")
+        added = [weight * [getattr(part, name) for part in parts] for name in names]
+        exponents = of_mean(cut_off_exponents, *added)
+    status = "; ".join(bad) or Status.CONVERGED
+    words = [str(part.status) for part, why in zip(parts, why_not, strict=True) if why]
+    return model.predicted_answer(
+        weighted, totals, status, name, load, beyond, exponents, status_word=next(iter(words), "")
+    )
+
+
 class DirectContact(Checked, model.Model):
     """Direct contact of every cleaned profile, averaged by length; or of a map.
 
@@ -161,7 +208,7 @@ class DirectContact(Checked, model.Model):
         # patches and grids differ in number from profile to profile: only the contacts have them
         parts = [c.to_dataset(fields=False).drop_dims(["patch", "grid"]) for c in contacts]
         lengths = [contact.grid.lengths[0] for contact in contacts]
-        answer = model.answer_by_length(
+        answer = _answer_by_length(
             xr.concat(parts, dim="profile", join="outer", combine_attrs="override"),
             contacts,
             ["" if contact.usable else str(contact.status) for contact in contacts],
@@ -231,4 +278,4 @@ class BlockOnProfile(Checked, model.Model):
         )
         why_not = ["" if result.converged else result.why for result in results]
         lengths = [result.wavelength for result in results]
-        return model.answer_by_length(data, results, why_not, lengths, self.name, load)
+        return _answer_by_length(data, results, why_not, lengths, self.name, load)

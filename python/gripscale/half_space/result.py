@@ -37,17 +37,11 @@ from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
 from gripscale.half_space.response import HalfSpace
-from gripscale.model import (
-    CUT_OFF_EXPONENTS,
-    NOT_CONVERGED,
-    OCTAVE,
-    OUTSIDE_BAND,
-    CutOffExponents,
-    between,
-)
+from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NOTHING_BEYOND, Extrapolation, of_spectrum
 

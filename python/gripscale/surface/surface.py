@@ -57,6 +57,20 @@ class Measured:
         return cls([(line, line) for line in measured], [], None, "")
 
     @classmethod
+    def of_map(
+        cls, raw: HeightMap, cleaned: HeightMap, cleaning: Sequence[CleaningReport] = ()
+    ) -> Measured:
+        """Return a map before and after cleaning; its fullest line near the middle is drawn."""
+        away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
+        fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
+        before, after = (
+            each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest]))))
+            for each in (raw, cleaned)
+        )
+        after = replace(after, name=before.name, source=before.source)
+        return cls([(before, after)], list(cleaning), None, "", cleaned)
+
+    @classmethod
     def of_raw(cls, profiles: Sequence[Profile], cleaning: Mapping[str, Any]) -> Measured:
         """Return profiles cleaned by arguments of `gripscale.clean`, not fitted.
 

@@ -33,7 +33,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.model import NOT_CONVERGED, Load, Model, OnProgress, of_curve
+from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
 from gripscale.surface import Profile, areal_spectrum, profile_spectrum

@@ -10,6 +10,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.units import MILLI, in_mm
+from gripscale.cut_off_exponents import OCTAVE
 from gripscale.io.table import significant
 from gripscale.questions.answer.reliance import (
     MOST_ON_GUESSES,
@@ -57,9 +58,9 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
             friction=steep,
             topic=Topic.SOLUTION,
         )
-    octave = {} if CONTINUED_TO in data else changes(data, 1.0 / model.OCTAVE)
+    octave = {} if CONTINUED_TO in data else changes(data, 1.0 / OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
-        half = in_mm(float(data.cutoff_wavelength) / model.OCTAVE, 3)
+        half = in_mm(float(data.cutoff_wavelength) / OCTAVE, 3)
         yield Finding(
             Severity.WARNING,
             f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "

@@ -20,20 +20,19 @@ import xarray as xr
 
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, Mask
-from gripscale.experiment.design import CONVERGED
+from gripscale.cut_off_exponents import NOT_TOLD
+from gripscale.experiment.design import CONVERGED, error_of_total
 from gripscale.experiment.task import Task
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,
     CUT_OFF_EXPONENTS,
-    NOT_TOLD,
     OUTSIDE_BAND,
     STATUS,
     STATUS_WORD,
     WHY_NO_EXPONENT,
     cut_off_exponents_of,
-    error_of_total,
     extrapolation_of,
     status_words,
 )

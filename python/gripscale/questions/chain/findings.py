@@ -14,6 +14,7 @@ from gripscale import model
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.provenance import versions
+from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import NONE
 from gripscale.questions.answer.findings import LARGE_MISFIT, case_notices, no_answer_notices
@@ -288,7 +289,7 @@ def exponent_sentence(data: xr.Dataset) -> str:
     Empty where there are no totals, or the model does not tell.
     """
     exponents = model.cut_off_exponents_of(data)
-    if exponents.why_not in (model.NOT_TOLD.why_not, model.NOT_CONVERGED.why_not):
+    if exponents.why_not in (NOT_TOLD.why_not, NOT_CONVERGED.why_not):
         return ""
     pairs = (("μ", exponents.friction), ("A_r/A_0", exponents.contact_fraction))
     texts = [
@@ -300,6 +301,6 @@ def exponent_sentence(data: xr.Dataset) -> str:
         return f"The change with the cut-off is not known: {exponents.why_not}."
     text = f"Change with the cut-off, over its last octave: {', '.join(texts)}"
     if math.isfinite(exponents.friction):
-        factor = model.OCTAVE**-exponents.friction
+        factor = OCTAVE**-exponents.friction
         text += f" (half the smallest wavelength: about {factor:.2g} times the friction)"
     return f"{text}."

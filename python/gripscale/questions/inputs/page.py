@@ -160,9 +160,11 @@ def surface_lines(surface: Surface) -> Iterator[str]:
     """Yield what was read and removed, the fits, the sine waves and the cut-off."""
     measured = surface.measured
     if measured is not None:
-        for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
+        # heights taken as they are have no reports
+        reports = [str(report) for report in measured.cleaning] or [""] * len(measured.profiles)
+        for (raw, cleaned), report in zip(measured.profiles, reports, strict=True):
             yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
-            yield from (f"  {line}" for line in str(report).splitlines())
+            yield from (f"  {line}" for line in report.splitlines())
         if measured.map is not None:
             yield map_line(measured.map)
         share = surface.counted.get("top_height_fraction", 1.0)
