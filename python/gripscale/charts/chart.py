@@ -1,26 +1,21 @@
 r"""What a chart shows, described once: series, bands, bars and levels over two axes with units.
 
-`gripscale.charts.paper` draws the panels of a `Sheet` side by side with matplotlib,
-`gripscale.charts.page` draws each `Panel` alone with Bokeh. A description needs neither. Letters of
-equations stand between dollar signs, such as "friction $\mu$ [-]"; the page spells them out.
+`gripscale.charts.draw` draws panels: side by side on paper, or each alone on a page. A description
+needs no library for it. Letters of equations stand between dollar signs, such as
+"friction $\mu$ [-]"; the page spells them out.
 """
 
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.charts.style import BLUE, GREY, INK, WIDE
+from gripscale.charts.style import BLUE, GREY, INK
 from gripscale.core.arrays import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
@@ -81,7 +76,7 @@ class Series:
     colour: str = BLUE
     label: str = ""
     dash: str = "solid"
-    """A key of `gripscale.charts.paper.DASHES`; empty for points without a line."""
+    """A key of `gripscale.charts.style.DASHES`; empty for points without a line."""
     width: float = 1.4
     """Of the line, in points on paper."""
     marker: str = ""
@@ -236,51 +231,3 @@ class Panel:
     def with_marks(self, marks: Iterable[Mark]) -> Panel:
         """Return the panel with more marks, drawn above the others."""
         return replace(self, marks=[*self.marks, *marks])
-
-
-@dataclass(frozen=True)
-class ColourBar:
-    """What colours from a scale of `gripscale.charts.style.shades` mean."""
-
-    low: float
-    high: float
-    scale: str
-    label: str
-    first_row: bool = False
-    """Whether it belongs to the first row of panels only."""
-
-
-class Drawing(ABC):
-    """What a figure on paper is drawn from."""
-
-    @abstractmethod
-    def on_paper(self) -> Figure:
-        """Draw it with matplotlib, which is imported here."""
-
-
-@dataclass(frozen=True)
-class Sheet(Drawing):
-    """Panels of a figure on paper, row by row."""
-
-    panels: Sequence[Panel]
-    columns: int = 2
-    width: float = WIDE
-    height: float = 3.1
-    """Of the figure [inch]."""
-    legend: str = "above"
-    """Where the legend of all panels is: "above", "beside", "below" or nowhere."""
-    legend_columns: int = 3
-    legend_title: str = ""
-    keys: Sequence[Mark] = ()
-    """Entries of the legend that no panel has."""
-    title: str = ""
-    gap: float = 0.06
-    colour_bar: ColourBar | None = None
-    layout: Mapping[str, Any] = field(default_factory=dict)
-    """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
-
-    def on_paper(self) -> Figure:
-        """Draw the panels with matplotlib, which is imported here."""
-        from gripscale.charts.paper import draw_sheet
-
-        return draw_sheet(self)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from gripscale.charts.chart import Drawing
+from gripscale.charts.draw import Drawing
 from gripscale.core.errors import FileError
 
 if TYPE_CHECKING:

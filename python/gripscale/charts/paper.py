@@ -1,9 +1,10 @@
-"""Charts on paper: draws a `Sheet` with matplotlib and saves figures."""
+"""Charts on paper: draws panels with matplotlib and saves figures."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from operator import methodcaller
 from pathlib import Path
 from typing import Any
@@ -33,16 +34,23 @@ from gripscale.charts.chart import (
     PlotAxis,
     Series,
     ShadedBand,
-    Sheet,
     ValueMap,
     spelled_out,
 )
-from gripscale.charts.style import BEYOND_LABEL, FAINT, GREY, INK, shades, short_number, stretches
+from gripscale.charts.style import (
+    BEYOND_LABEL,
+    DASHES,
+    DPI,
+    FAINT,
+    GREY,
+    INK,
+    ROUND,
+    shades,
+    short_number,
+    stretches,
+)
 from gripscale.core import checks
 from gripscale.io.netcdf import write_whole
-
-DPI = 200
-"""Pixels per inch of a PNG, and of what is rasterised in a PDF."""
 
 _PIECES = 5000
 """Pieces of an outline: several to a pixel, so that most gaps are still seen."""
@@ -80,15 +88,6 @@ RULES: Any = {
     "pdf.fonttype": 3,  # 42 cuts the whole font down for each figure, which costs 0.3 s
 }
 
-DASHES: dict[str, Any] = {
-    "": "",
-    "solid": "-",
-    "dashed": (0, (4, 2)),
-    "dotted": (0, (1, 1.5)),
-    "dashdot": (0, (6, 1.5, 1, 1.5)),
-}
-"""Lines by name; dashed are only those beyond the measured band."""
-
 HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
 """Look of a band beyond the measured band."""
 
@@ -102,46 +101,39 @@ _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
 }
 """Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value."""
 
-ROUND = (1, 2, 5, 10)
-"""Steps between the numbers of a linear axis that has few."""
+
+def house_rules() -> AbstractContextManager[None]:
+    """Apply `RULES` within a block; matplotlib's own rules stay as they are."""
+    return mpl.rc_context(RULES)
 
 
-def draw_sheet(sheet: Sheet) -> Figure:
-    """Return the figure of a sheet; matplotlib's own rules stay as they are."""
-    with mpl.rc_context(RULES):
-        rows = -(-len(sheet.panels) // sheet.columns)
-        figure = Figure(
-            figsize=(sheet.width, sheet.height),
-            dpi=DPI,
-            layout=ConstrainedLayoutEngine(wspace=sheet.gap),
-        )
-        options: dict[str, Any] = {"squeeze": False, **sheet.layout}
-        grid = figure.subplots(rows, sheet.columns, **options)
-        for axes in list(grid.flat)[len(sheet.panels) :]:
-            axes.set_visible(False)
-        for axes, panel in zip(grid.flat, sheet.panels, strict=False):
-            _draw_panel(figure, axes, panel)
-        # Limits come last: those of a shared axis are found from all of its panels.
-        for i, (axes, panel) in enumerate(zip(grid.flat, sheet.panels, strict=False)):
-            _end_axis(axes, "x", panel.x)
-            _end_axis(axes, "y", panel.y)
-            if sheet.layout.get("sharey") and i % sheet.columns:
-                axes.set_ylabel("")
-            if sheet.layout.get("sharex"):
-                if i + sheet.columns < len(sheet.panels):
-                    axes.set_xlabel("")
-                else:
-                    axes.tick_params(labelbottom=True)
-        _legend(figure, list(grid.flat)[: len(sheet.panels)], sheet)
-        if sheet.colour_bar is not None:
-            bar, panels = sheet.colour_bar, grid[:1] if sheet.colour_bar.first_row else grid
-            scale = ListedColormap(shades(256, bar.scale))
-            mappable = ScalarMappable(Normalize(bar.low, bar.high), scale)
-            look: Any = {"label": bar.label, "aspect": 40, "pad": 0.02}
-            figure.colorbar(mappable, ax=list(panels.flat), **look).outline.set_visible(False)
-        if sheet.title:
-            figure.suptitle(sheet.title)
-        return figure
+def draw_panels(
+    panels: Sequence[Panel],
+    columns: int,
+    size: tuple[float, float],
+    gap: float,
+    layout: Mapping[str, Any],
+) -> tuple[Figure, list[Axes]]:
+    """Return the figure of panels, of a `size` [inch], and its axes row by row."""
+    figure = Figure(figsize=size, dpi=DPI, layout=ConstrainedLayoutEngine(wspace=gap))
+    options: dict[str, Any] = {"squeeze": False, **layout}
+    grid = list(figure.subplots(-(-len(panels) // columns), columns, **options).flat)
+    for axes in grid[len(panels) :]:
+        axes.set_visible(False)
+    for axes, panel in zip(grid, panels, strict=False):
+        _draw_panel(figure, axes, panel)
+    # Limits come last: those of a shared axis are found from all of its panels.
+    for i, (axes, panel) in enumerate(zip(grid, panels, strict=False)):
+        _end_axis(axes, "x", panel.x)
+        _end_axis(axes, "y", panel.y)
+        if layout.get("sharey") and i % columns:
+            axes.set_ylabel("")
+        if layout.get("sharex"):
+            if i + columns < len(panels):
+                axes.set_xlabel("")
+            else:
+                axes.tick_params(labelbottom=True)
+    return figure, grid
 
 
 def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
@@ -307,8 +299,13 @@ def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
 
 
-def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
-    """Collect the labels of all panels, and what dashed and hatched mean where it occurs."""
+def add_legend(
+    figure: Figure, panels: Sequence[Axes], keys: Sequence[Mark], where: str, title: str, most: int
+) -> None:
+    """Add the labels of all panels and of `keys`, and what dashed and hatched mean where it occurs.
+
+    It stands "above", "beside" or "below" the panels, in up to `most` columns.
+    """
     entries: dict[str, Any] = {}
     dashed = hatched = False
     for axes in panels:
@@ -317,35 +314,40 @@ def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
                 entries.setdefault(label, handle)
         dashed |= any(line.get_gid() == BEYOND_LABEL for line in axes.lines)
         hatched |= any(part.get_gid() == BEYOND_LABEL for part in axes.collections)
-    for key in sheet.keys:
+    for key in keys:
         entries |= {getattr(key, "label", ""): _key(key)}
-    at_side = sheet.legend == "beside"
-    beyond = BEYOND_LABEL.replace("the ", "the\n") if at_side else BEYOND_LABEL
+    beyond = BEYOND_LABEL.replace("the ", "the\n") if where == "beside" else BEYOND_LABEL
     if hatched:
         entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
     elif dashed:
         entries[beyond] = Line2D([], [], ls=DASHES["dashed"], color=GREY)
-    if not entries or not sheet.legend:
+    if not entries:
         return
-    look: dict[str, Any] = {"title": sheet.legend_title or None}
-    if at_side:
-        look |= {"loc": "outside right center", "alignment": "left"}
-    else:
-        where = "upper" if sheet.legend == "above" else "lower"
-        columns = _legend_columns(list(entries), sheet.legend_columns, sheet.width)
-        look |= {"loc": f"outside {where} center", "ncols": columns}
-    figure.legend(list(entries.values()), list(entries), **look)
+    look: dict[str, Any] = {"loc": "outside right center", "alignment": "left"}
+    if where != "beside":
+        columns = _legend_columns(list(entries), most, figure.get_figwidth())
+        side = "upper" if where == "above" else "lower"
+        look = {"loc": f"outside {side} center", "ncols": columns}
+    figure.legend(list(entries.values()), list(entries), title=title or None, **look)
 
 
 def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
     """Return how many columns of a legend fit into a figure of a width [inch], up to `most`."""
-
-    def needed(columns: int) -> float:
-        lengths = [len(spelled_out(label)) for label in labels]
+    lengths = [len(spelled_out(label)) for label in labels]
+    for columns in range(most, 1, -1):
         widest = [max(part, default=0) for part in np.array_split(lengths, columns)]
-        return float(LETTER * sum(widest) + _KEY * columns)
+        if float(LETTER * sum(widest) + _KEY * columns) <= width:
+            return columns
+    return 1
 
-    return next((columns for columns in range(most, 1, -1) if needed(columns) <= width), 1)
+
+def add_colour_bar(
+    figure: Figure, panels: Sequence[Axes], ends: tuple[float, float], scale: str, label: str
+) -> None:
+    """Add the meaning of the colours of a scale from the lower to the upper of its ends."""
+    mappable = ScalarMappable(Normalize(*ends), ListedColormap(shades(256, scale)))
+    look: Any = {"label": label, "aspect": 40, "pad": 0.02}
+    figure.colorbar(mappable, ax=list(panels), **look).outline.set_visible(False)
 
 
 def _key(mark: Mark) -> Any:
@@ -381,7 +383,7 @@ def _mark_between(figure: Figure) -> None:
 def png(figure: Figure, dpi: float = DPI) -> bytes:
     """Return `figure` as PNG; its layout is solved now, and stays."""
     target = io.BytesIO()
-    with mpl.rc_context(RULES):
+    with house_rules():
         figure.set_dpi(dpi)
         _solve_layout(figure)
         # `savefig` would draw twice: once more to find out what it has to show.
@@ -393,7 +395,7 @@ def png(figure: Figure, dpi: float = DPI) -> bytes:
 def _lines(figure: Figure, kind: str) -> bytes:
     """Return `figure` as PDF or SVG."""
     target = io.BytesIO()
-    with mpl.rc_context(RULES):
+    with house_rules():
         _solve_layout(figure)
         canvas: Any = get_registered_canvas_class(kind)(figure)  # imported here: not for pages
         getattr(canvas, f"print_{kind}")(target)

@@ -40,7 +40,7 @@ from gripscale.questions.result import Result
 from gripscale.report.elements import Page
 
 if TYPE_CHECKING:
-    from gripscale.charts.chart import Sheet
+    from gripscale.charts.draw import Sheet
 
 ANSWER_FILE = "answer.nc"
 """Name of the saved answer in a results folder."""
