@@ -133,7 +133,7 @@ def conclude(
     from gripscale.io.folders import write_text
     from gripscale.io.table import as_text
     from gripscale.questions.result import warning_lines
-    from gripscale.report.summary import write_summary
+    from gripscale.questions.summary_table import write_summary
 
     console.print()
     print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
@@ -148,7 +148,7 @@ def conclude(
     console.print()
     print_wrapped(console, f"{closing} {target}")
     if page:
-        from gripscale.report import write_report
+        from gripscale.questions.page_of_folder import write_report
 
         try:
             print_wrapped(console, f"Page: {write_report(target / page)}")

@@ -23,6 +23,7 @@ from gripscale.questions import (
     Study,
     compare_compounds,
     compare_surfaces,
+    write_report,
 )
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.findings import case_notices
@@ -30,7 +31,6 @@ from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report import write_report
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import Shell

@@ -41,8 +41,8 @@ class Folded:
     kind: ClassVar[str] = "folded"
 
 
-AppElement = Element | Cards | Folded | Callable[[], pn.viewable.Viewable]
-"""What a tab shows; a function makes what is more than words and figures."""
+AppElement = Element | Cards | Folded
+"""What a tab shows."""
 PageElements = Sequence[AppElement]
 
 
@@ -74,12 +74,10 @@ def column(*parts: Any, **options: Any) -> pn.Column:
 
 def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     """Return the panes that show `elements`, in order."""
-    return [
-        e() if callable(e) else chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements
-    ]
+    return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
-def html(element: Element | Cards | Folded) -> pn.pane.HTML:
+def html(element: AppElement) -> pn.pane.HTML:
     """Return the pane of a text, a notice, a table, facts, code or cards."""
     return raw(_environment().get_template("elements.html").render(e=element))
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,6 @@ from gripscale.app.case_panel import problem_pane
 from gripscale.app.crop import RawSurface
 from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
-from gripscale.app.superposition import Redraw, superposition_elements
 from gripscale.app.uploads import NewText, file_upload, with_upload
 from gripscale.case import Case
 from gripscale.case_file import (
@@ -33,10 +31,12 @@ from gripscale.case_file import (
 )
 from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
+from gripscale.charts.draw import image
+from gripscale.charts.page_elements import Picture
 from gripscale.core.finding import Finding, Severity
 from gripscale.model import doubt_sentences
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.charts_of_rubber import rubber_charts
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts, superposition_figure
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
 from gripscale.questions.inputs.page import (
     cleaning_tables,
@@ -95,7 +95,7 @@ def surface_elements(file: CaseFile) -> list[AppElement]:
     ]
 
 
-def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[AppElement]:
+def rubber_elements(file: CaseFile) -> list[AppElement]:
     """Return findings, superposition, moduli with the fit and the ends of the data."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
     case = _case_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
@@ -105,7 +105,12 @@ def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[Ap
     elements = [*notice_elements([Finding(Severity.WARNING, text) for text in texts])]
     for part in shift_parts(case.measured_rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
-    elements += superposition_elements(state, case.measured_rubber, redraw)
+    sweeps, master = case.measured_rubber.sweeps, case.measured_rubber.master
+    if sweeps is not None and master is not None and master.shift is not None and len(sweeps) > 1:
+        words = "Sweeps as measured and shifted to one temperature."
+        alt = "Moduli and loss factor of all sweeps by frequency, as measured and shifted."
+        figure = superposition_figure(sweeps, master)
+        elements.append(image(Picture("superposition", figure, words, alt)))
     return [*elements, *rubber_charts(inputs, None), rubber_facts(InputRecord(inputs))]
 
 
@@ -144,11 +149,7 @@ def with_proposal(
 
 def rubber_tab(state: CaseState) -> pn.Column:
     """Return the tab of the rubber: uploads, fields, preview."""
-
-    async def redraw() -> None:
-        await preview.update()
-
-    preview = PreviewPanel(state, "rubber", "Read and fit", partial(rubber_elements, state, redraw))
+    preview = PreviewPanel(state, "rubber", "Read and fit", rubber_elements)
     return column(
         problem_pane(state, "rubber"),
         file_upload(

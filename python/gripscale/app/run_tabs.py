@@ -43,13 +43,13 @@ from gripscale.charts.style import BLUE
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
+from gripscale.questions import page_of_folder
 from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import AXIS_TITLES, HEADINGS, SYMBOLS, PredictionView
 from gripscale.questions.registry import Form, FormField
-from gripscale.report import source
 from gripscale.report.elements import Element, Text
 
 POLL = 500
@@ -177,10 +177,10 @@ def output_text(run: AppRun, state: CaseState) -> str:
 def answer_elements(run: AppRun) -> PageElements:
     """Return the answer of a finished run, what it rests on, and what is to be known of it."""
     try:
-        result = source.read_result(run.folder)
+        result = page_of_folder.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
-    page = source.page_of(result)
+    page = page_of_folder.page_of(result)
     numbers = Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
     folded = [Folded(page.notices_folded)] if page.notices_folded else []
     return [*page.errors, numbers, *page.notices_open, *folded]
@@ -286,7 +286,7 @@ def compared_elements(runs: Runs) -> PageElements:
     compared: list[ComparedRun] = []
     for run in runs.all:
         try:
-            result = None if run.running else source.read_result(run.folder)
+            result = None if run.running else page_of_folder.read_result(run.folder)
         except GripscaleError:
             continue  # stopped or failed before its first wave
         if isinstance(result, RunSource):

@@ -125,8 +125,8 @@ def _run(
     from gripscale.questions.chain.events import FileWritten
     from gripscale.questions.chain.run import ChainRun
     from gripscale.questions.chain.run_figures import background_figures, draw_effects, draw_heat
+    from gripscale.questions.summary_table import SUMMARY_FILE as SUMMARY
     from gripscale.report.failures import explained
-    from gripscale.report.summary import SUMMARY_FILE as SUMMARY
 
     chain = ChainRun.of(read_case(file), target, fresh=fresh)
     other = case_replaced(file, target)
@@ -341,7 +341,7 @@ def report_command(
     ] = None,
 ) -> None:
     """Write one HTML page with inputs, results, figures and evidence; it needs no network."""
-    from gripscale.report import write_report
+    from gripscale.questions.page_of_folder import write_report
 
     page = write_report(result, output)
     terminal.print_wrapped(

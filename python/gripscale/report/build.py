@@ -1,4 +1,4 @@
-"""From a result to the file: read, compose, render, write."""
+"""From a page to its file: render and write."""
 
 from __future__ import annotations
 
@@ -16,17 +16,6 @@ from gripscale.charts.bokeh_parts import document
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
 from gripscale.report.elements import Page, with_code
-from gripscale.report.source import page_of, read_result
-
-_REPORT = "report.html"
-
-
-def build(result: Path, output: Path | None) -> Path:
-    """Write the report of `result` to `output`, by default into the folder of the result."""
-    source = read_result(result)
-    if output is None:
-        output = (result if result.is_dir() else result.parent) / _REPORT
-    return write(page_of(source), output)
 
 
 def write(page: Page, output: Path) -> Path:

@@ -109,7 +109,7 @@ class Answer(NumbersWithIntervals):
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""
-        from gripscale.report.summary import summary_table
+        from gripscale.questions.summary_table import summary_table
 
         return summary_table([self.data])
 
