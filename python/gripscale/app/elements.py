@@ -62,11 +62,6 @@ def _environment() -> Environment:
     return environment
 
 
-@cache
-def _style() -> str:
-    return files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
-
-
 def column(*parts: Any, **options: Any) -> pn.Column:
     """Return a column as wide as the page."""
     return pn.Column(*parts, sizing_mode="stretch_width", **options)
@@ -77,6 +72,9 @@ def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
+_STYLE = files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
+
+
 def html(element: AppElement) -> pn.pane.HTML:
     """Return the pane of a text, a notice, a table, facts, code or cards."""
     return raw(_environment().get_template("elements.html").render(e=element))
@@ -84,7 +82,7 @@ def html(element: AppElement) -> pn.pane.HTML:
 
 def raw(markup: str, **options: Any) -> pn.pane.HTML:
     """Return the pane of markup written in this package, in the style of the page."""
-    look = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_style()]}
+    look = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_STYLE]}
     return pn.pane.HTML(markup, **(look | options))
 
 

@@ -12,7 +12,6 @@ import shlex
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +20,6 @@ import xarray as xr
 
 from gripscale.app.case import CaseState, case_tables, field_text
 from gripscale.app.case_panel import problem_pane
-from gripscale.app.commands import COMMANDS
 from gripscale.app.elements import (
     Cards,
     Folded,
@@ -34,7 +32,7 @@ from gripscale.app.elements import (
     raw,
     work_button,
 )
-from gripscale.app.runs import AppRun, Runs
+from gripscale.app.runs import COMMANDS, AppRun, Runs
 from gripscale.app.uploads import file_upload
 from gripscale.charts.chart import Panel, PlotAxis, Series
 from gripscale.charts.draw import panels_on_page
@@ -49,7 +47,7 @@ from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import AXIS_TITLES, HEADINGS, SYMBOLS, PredictionView
-from gripscale.questions.registry import Form, FormField
+from gripscale.questions.registry import Form
 from gripscale.report.elements import Element, Text
 
 POLL = 500
@@ -91,7 +89,12 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     def show_options(*_: Any) -> None:
         command: Form = choice.value
         fields.clear()
-        fields.update({option.label: option_field(option) for option in command.fields})
+        for option in command.fields:
+            look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
+            if option.choices:
+                fields[option.label] = pn.widgets.Select(options=dict(option.choices), **look)
+            else:
+                fields[option.label] = pn.widgets.TextInput(**look)
         drop = []
         if command.others:
             others.value = ""
@@ -119,7 +122,9 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
 
     def show_output(run: AppRun) -> None:
         status.objects = [html(run_status(run))]
-        output.object, folded_output.visible = code(output_text(run, state)).object, True
+        command = f"$ {shlex.join(['gripscale', *run.words])}"
+        output.object = code(f"{command}\n{state.visit.short(run.log())}").object
+        folded_output.visible = True
 
     async def conclude(run: AppRun) -> None:
         bar.visible = stop.visible = False
@@ -149,14 +154,6 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     )
 
 
-def option_field(option: FormField) -> pn.widgets.TextInput | pn.widgets.Select:
-    """Return the field of an option: a choice where only some values are possible."""
-    look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
-    if not option.choices:
-        return pn.widgets.TextInput(**look)
-    return pn.widgets.Select(options=dict(option.choices), **look)
-
-
 def run_status(run: AppRun) -> Element:
     """Return the state of a run in a sentence; what it failed with is the problem of the case."""
     words = {
@@ -166,12 +163,6 @@ def run_status(run: AppRun) -> Element:
         "finished": "has finished; the next tab shows its page.",
     }
     return Text(f"{run.name}, {run.command.title.lower()}, {words[run.state]}")
-
-
-def output_text(run: AppRun, state: CaseState) -> str:
-    """Return the command of a run, and what it printed, if anything."""
-    command = f"$ {shlex.join(['gripscale', *run.words])}"
-    return f"{command}\n{state.visit.short(run.log())}"
 
 
 def answer_elements(run: AppRun) -> PageElements:
@@ -202,7 +193,12 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
         body.objects, body.loading = [raw(f"<p>Writing the page of {run.name} ...</p>")], True
         try:
             page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
-            parts = [downloads(run), report_frame(state, run, page)]
+            address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
+            frame = raw(
+                f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
+                f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
+            )
+            parts = [downloads(run), frame]
         except FileError as error:
             why = state.visit.short(run.failure() or error)
             parts = [html(Text(f"{run.name} has no page: {why}"))]
@@ -219,15 +215,6 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     choice.param.watch(show, "value")
     runs.param.watch(follow, "changes")
     return column(choice, body)
-
-
-def report_frame(state: CaseState, run: AppRun, page: Path) -> pn.pane.HTML:
-    """Return the page of a run as wide as this one, with a link that opens it alone."""
-    address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
-    return raw(
-        f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
-        f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
-    )
 
 
 def downloads(run: AppRun) -> pn.FlexBox:
@@ -344,7 +331,10 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
             math.nan if with_area_term is None else float(with_area_term),
         ]
         totals.append(numbers if view.complete else [math.nan] * len(numbers))
-        states.append(_state(view, direct))
+        if direct is not None and no_answer(direct):
+            states.append("best estimate not to be relied on")
+        else:
+            states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
     speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _, _ in compared]
     area, friction, with_term = zip(*totals, strict=True)
@@ -362,12 +352,6 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         Column("changes", changes, "keys that differ from the first", words=True),
     ]
     return Table("runs", columns, "The runs of this visit")
-
-
-def _state(view: PredictionView, direct: xr.Dataset | None) -> str:
-    if direct is not None and no_answer(direct):
-        return "best estimate not to be relied on"
-    return "complete" if view.complete else f"{view.waves} of {view.planned} waves"
 
 
 _CHAIN = "chain of waves"

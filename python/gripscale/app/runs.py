@@ -22,8 +22,6 @@ from typing import Any
 import param
 
 from gripscale.app.case import CaseState
-from gripscale.app.commands import COMMANDS, RUN_COMMAND
-from gripscale.case_file import CaseFile
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.folders import write_text
 from gripscale.questions.chain.events import (
@@ -36,8 +34,11 @@ from gripscale.questions.chain.events import (
     WaveSolved,
     event_from_json,
 )
-from gripscale.questions.registry import Form
+from gripscale.questions.registry import Form, forms
 
+RUN_COMMAND = "run"
+COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
+"""What the page runs on a case, in its order."""
 REPORT = "report.html"
 """The page of a result in its folder, as `gripscale report` names it."""
 GRACE = 5.0
@@ -166,10 +167,7 @@ class AppRun:
         return (self.command.title, *self.arguments, self.text)
 
     def write_page(self) -> Path:
-        """Write the page of the result, unless it is there, in a process; return its path.
-
-        Raises `FileError` with the sentence of the process if it cannot be written.
-        """
+        """Write the page of the result, unless it is there, in a process; return its path."""
         page = self.folder / REPORT
         if not page.exists():
             command = [sys.executable, "-m", "gripscale", "report", str(self.folder)]
@@ -195,9 +193,8 @@ class AppRun:
             return "running"
         if self.stopped:
             return "stopped"
-        return (
-            "finished" if self._process is not None and self._process.returncode == 0 else "failed"
-        )
+        finished = self._process is not None and self._process.returncode == 0
+        return "finished" if finished else "failed"
 
     def stop(self) -> None:
         """End the process and all it started."""
@@ -296,7 +293,10 @@ class Runs(param.Parameterized):
             raise InputError(f"{command.title}: expected other {command.others}; got none")
         for name in others:
             self._state.visit.require_name_inside(name, command.others)
-        run = self._new(file, command, tuple(command.arguments(values, others)))
+        number, path = len(self.all) + 1, self._state.visit.path
+        name, case = f"run-{number}", path / f"case-{number}.toml"
+        arguments = tuple(command.arguments(values, others))
+        run = AppRun(name, case, path / "runs" / name, file.text, command, arguments)
         earlier = [each for each in self.all if each.asked == run.asked]
         if earlier and earlier[-1].state in ("finished", "stopped"):
             run = earlier[-1]
@@ -314,9 +314,3 @@ class Runs(param.Parameterized):
         for run in self.all:
             run.stop()
         self.changes += 1
-
-    def _new(self, file: CaseFile, command: Form, arguments: tuple[str, ...]) -> AppRun:
-        """Return a further run of a case, to be saved beside the files it names."""
-        number, path = len(self.all) + 1, self._state.visit.path
-        name, case = f"run-{number}", path / f"case-{number}.toml"
-        return AppRun(name, case, path / "runs" / name, file.text, command, arguments)

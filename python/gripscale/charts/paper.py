@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
-from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +49,7 @@ from gripscale.charts.style import (
     stretches,
 )
 from gripscale.core import checks
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_bytes
 
 _PIECES = 5000
 """Pieces of an outline: several to a pixel, so that most gaps are still seen."""
@@ -434,12 +433,5 @@ def save_figure(
 
 
 def write_rendered(files: Mapping[str, bytes], folder: Path, name: str) -> list[Path]:
-    """Write what `rendered` returned into `folder`; return the paths.
-
-    Raises `FileError` if one cannot be written.
-    """
-    paths = []
-    for kind, content in files.items():
-        write = methodcaller("write_bytes", content)
-        paths.append(write_whole(folder / f"{name}.{kind}", write))
-    return paths
+    """Write what `rendered` returned into `folder`; return the paths."""
+    return [write_bytes(folder / f"{name}.{kind}", content) for kind, content in files.items()]

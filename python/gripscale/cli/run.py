@@ -76,7 +76,11 @@ def run(
         file = read_case_file(case)
         target = output if output is not None else file.resolve(file.case.output.folder)
         if not (fresh or as_json) and is_finished(file, target, _shown_too(target)):
-            _print_finished(console, target)
+            report = target / _REPORT
+            date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
+            typer.echo(report.read_text(encoding="utf-8"))
+            words = f"Finished {date}. Case, files and software are the same; nothing was solved "
+            terminal.print_wrapped(console, f"{words}again (--fresh does). {CLOSING} {target}")
         else:
             require_writable(target)
             terminal.RESULTS_FOLDER.set(target)
@@ -100,15 +104,6 @@ def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
         emit(RunFailed(*terminal.failure_of(error)))
         raise
     emit(RunFinished())
-
-
-def _print_finished(console: Console, target: Path) -> None:
-    """Print the report of a run that is finished."""
-    report = target / _REPORT
-    date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
-    typer.echo(report.read_text(encoding="utf-8"))
-    words = f"Finished {date}. Case, files and software are the same; nothing was solved "
-    terminal.print_wrapped(console, f"{words}again (--fresh does). {CLOSING} {target}")
 
 
 def _shown_too(target: Path) -> tuple[Path, ...]:
@@ -160,7 +155,10 @@ def _run(
         emit(FileWritten(str(target / _REPORT)))
         if solved:
             emit(FileWritten(str(target / SUMMARY)))
-    _print_older_page(console, target)
+    page = target / "report.html"
+    if page.is_file() and page.stat().st_mtime < (target / "case.toml").stat().st_mtime:
+        words = shlex.join(["gripscale", "report", str(target)])
+        terminal.print_wrapped(console, f"{page.name} in it is older; `{words}` renews it")
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
@@ -225,14 +223,6 @@ def _solve(
             emit(EffectsSolved.of(effects))
             emit(FileWritten(str(target / EFFECTS.format(model=case.chain.name))))
     return effects
-
-
-def _print_older_page(console: Console, target: Path) -> None:
-    """Say if a page of an earlier run stays beside these results."""
-    page, case = target / "report.html", target / "case.toml"
-    if page.is_file() and page.stat().st_mtime < case.stat().st_mtime:
-        words = shlex.join(["gripscale", "report", str(target)])
-        terminal.print_wrapped(console, f"{page.name} in it is older; `{words}` renews it")
 
 
 def _inputs(case: Case) -> list[str]:

@@ -307,10 +307,7 @@ def _in(unit: str) -> str:
 
 
 def from_mapping(law: type[_T], kind: str, values: Mapping[str, Any]) -> _T:
-    """Return the dataclass `law` with parameters `values`; those with a default may be left out.
-
-    Raises `InputError` that lists the parameters if one is missing or unknown.
-    """
+    """Return the dataclass `law` with parameters `values`; those with a default may be left out."""
     parameters = [item for item in fields(law) if item.init]  # type: ignore[arg-type]
     names = [item.name for item in parameters]
     needed = [p.name for p in parameters if p.default is p.default_factory is MISSING]
@@ -324,11 +321,7 @@ def from_mapping(law: type[_T], kind: str, values: Mapping[str, Any]) -> _T:
 
 
 def of_kind(laws: Mapping[str, type[_T]], name: str, values: Any) -> _T:
-    """Return the law of a mapping such as {"kind": "wlf", "c1": 8.0, "c2": 120.0}.
-
-    Raises `InputError`, which calls it `name`, if it is no mapping, its kind is not one of `laws`
-    or `from_mapping` refuses its parameters.
-    """
+    """Return the law of a mapping such as {"kind": "wlf", "c1": 8.0, "c2": 120.0}."""
     if not isinstance(values, Mapping):
         raise InputError(f"{name} must be a mapping with its kind; got {short_repr(values)}")
     parameters = dict(values)

@@ -161,7 +161,7 @@ class Column:
         return self.format((number - self.zero) / self.size)
 
     def mark(self, row: int) -> str:
-        """Return the mark of a row."""
+        """Return the text behind the number of a row."""
         return self.marks[row] if len(self.marks) else ""
 
     def raw(self) -> list[tuple[str, list[Any]]]:
@@ -426,10 +426,7 @@ def as_text(*parts: str | Table, width: int = 100) -> str:
 
 
 def write_csv(table: Table, path: Path) -> Path:
-    """Write a table as CSV: commas, points, UTF-8, numbers to their last digit; return the path.
-
-    Missing values are empty cells. Raises `FileError` if it cannot be written.
-    """
+    """Write a table as CSV: commas, points, UTF-8, all digits, empty cells for missing values."""
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:

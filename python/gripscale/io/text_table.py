@@ -96,11 +96,7 @@ def is_excel(path: Path) -> bool:
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
-    """Return the rows of each sheet by its name, in the order of the file.
-
-    Raises `FileError` if openpyxl is missing (`pip install 'gripscale[export]'`), or the file is no
-    xlsx file or has no sheet of cells.
-    """
+    """Return the rows of each sheet by its name, in the order of the file."""
     if path.is_dir():
         raise FileError(f"{path}: expected a file; got a directory")
     if not path.is_file():
@@ -133,9 +129,7 @@ def read_sheets(path: Path) -> dict[str, _Rows]:
 def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
     """Return a sheet as lines whose cells are parted by tabs, without its empty columns.
 
-    Without a `sheet`, by name or number from 1, the one that holds rows of numbers. Raises
-    `FileError` as `read_sheets` does, `InputError` if there is no such sheet, or several hold rows
-    of numbers and none is named.
+    Without a `sheet`, by name or number from 1, the one that holds rows of numbers.
     """
     sheets = {}
     for name, rows in read_sheets(path).items():
@@ -170,7 +164,6 @@ def _cell_text(value: object) -> str:
 _BINARY = {
     b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
     b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
-    b"%PDF": "a PDF",
 }
 """Binary files that are mistaken for text, by their first bytes."""
 _LINE_END = re.compile(r"\r*\n|\r")
@@ -220,11 +213,7 @@ class TextTable:
         return shortened(", ".join(self.names))
 
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
-        """Return a column of numbers; with `missing`, NaN where a value is missing.
-
-        Raises `FileError`, with the line and what was `expected`, for the first other cell or
-        number beyond `MOST`.
-        """
+        """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
         cells = self._cells(column)
         if missing:
             cells = ["nan" if cell.lower() in MISSING else cell for cell in cells]
@@ -273,10 +262,6 @@ def read_table(
     `expected` is the content of the rows, for messages. A line with a unit of one of the `kinds` of
     `gripscale.core.units`, or a name of a column by `named`, holds the titles. `sheet` is the name
     of the Excel sheet or its number from 1, where several hold numbers.
-
-    Raises `FileError`, which names path and line, if the file cannot be read, is not text or has no
-    rows, a row has another number of cells than the first, or the decimal sign changes;
-    `InputError` if `sheet` is missing or is not in the file.
     """
     return table_in(path, read_lines(path, sheet=sheet), expected, kinds=kinds, named=named)
 
@@ -287,9 +272,6 @@ def read_lines(
     """Return the lines of a text file or of a sheet of an Excel file that are not empty.
 
     Rows of numbers among the first `header` lines are turned into comments.
-
-    Raises `FileError` and `InputError` as `read_table` does, and `InputError` if `header` is no
-    number of lines.
     """
     above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
     if is_excel(path):
@@ -311,10 +293,7 @@ def read_lines(
 
 
 def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextTable | None:
-    """Return the one number of each of `lines`, with the title above; None if they are no such.
-
-    `kinds` are those of its unit. Raises `FileError` if the decimal sign changes.
-    """
+    """Return the one number of each of `lines`, with the title above; None if they are no such."""
     titles: list[ColumnTitle] = []
     numbers: list[int] = []
     cells: list[list[str]] = []

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import base64
 import hashlib
-from functools import lru_cache
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from bokeh.resources import Resources
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from gripscale.charts.bokeh_parts import document
 from gripscale.core.errors import FileError
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.report.elements import Page, with_code
 
 
@@ -22,41 +23,39 @@ def write(page: Page, output: Path) -> Path:
     """Write a page; raise `FileError` if that fails."""
     if not output.parent.is_dir():
         raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
-    text = render(page)
-
-    def write_text(path: Path) -> None:
-        path.write_text(text, encoding="utf-8")
-
-    return write_whole(output, write_text)
+    return write_text(output, render(page))
 
 
 def render(page: Page) -> str:
     """Return `page` as HTML; all texts in it are escaped by the template."""
-    library, script = _bokeh(), "\n".join(map(_template_file, ("outlines.js", "page.js")))
+    # Bokeh's core script alone: widgets, tables and WebGL are not needed
+    resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
+    library = "\n".join(resources.js_raw)
+    script = "\n".join(map(_template_file, ("outlines.js", "page.js")))
     style = "\n".join(map(_template_file, ("page.css", "elements.css", "media.css")))
-    return _template().render(
-        page=page,
-        # the template turns plain data into JSON without any markup
-        figures={
-            "places": {chart.figure.id: f"plot-{chart.name}" for chart in page.charts},
-            "document": document([chart.figure for chart in page.charts]),
-        },
-        library=Markup(library),
-        style=Markup(style),
-        script=Markup(script),
-        policy=_policy(library, script),
+    return (
+        _environment()
+        .get_template("page.html")
+        .render(
+            page=page,
+            # the template turns plain data into JSON without any markup
+            figures={
+                "places": {chart.figure.id: f"plot-{chart.name}" for chart in page.charts},
+                "document": document([chart.figure for chart in page.charts]),
+            },
+            library=Markup(library),
+            style=Markup(style),
+            script=Markup(script),
+            policy=_policy(library, script),
+        )
     )
 
 
-@lru_cache(maxsize=1)
-def _template() -> Template:
-    environment = Environment(
-        loader=PackageLoader("gripscale.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+@cache
+def _environment() -> Environment:
+    loader = PackageLoader("gripscale.report")
+    options: Any = {"trim_blocks": True, "lstrip_blocks": True}
+    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, **options)
     environment.filters["with_code"] = with_code
     # Bokeh's figures name an object where it first occurs: the order of keys matters.
     environment.policies["json.dumps_kwargs"] = {
@@ -64,14 +63,7 @@ def _template() -> Template:
         "separators": (",", ":"),
         "allow_nan": False,
     }
-    return environment.get_template("page.html")
-
-
-@lru_cache(maxsize=1)
-def _bokeh() -> str:
-    """Return Bokeh's core script; widgets, tables and WebGL are not needed."""
-    resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
-    return "\n".join(resources.js_raw)
+    return environment
 
 
 def _template_file(name: str) -> str:

@@ -134,9 +134,7 @@ class Page:
     @property
     def notices_open(self) -> list[Finding]:
         """The first few warnings, below the numbers."""
-        return [
-            each for each in open_and_folded(self.notices)[0] if each.severity != Severity.ERROR
-        ]
+        return open_and_folded(self.notices)[0][len(self.errors) :]
 
     @property
     def notices_folded(self) -> list[Finding]:
