@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
 
+RUN_REPORT, RUN_CLOSING = "report.txt", "Results, report and figures are in"
+"""Text in the folder of a run, and what its last line says."""
+
 PLAIN_WIDTH = 100
 """Characters per line where there is no terminal to ask."""
 
@@ -337,7 +340,6 @@ COLUMNS = (
     "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
     "frequency=1,storage=3,loss_factor=5."
 )
-"""What the option --columns takes."""
 
 
 def column_of(text: str) -> str | int:

@@ -42,7 +42,6 @@ class Folded:
 
 
 AppElement = Element | Cards | Folded
-"""What a tab shows."""
 PageElements = Sequence[AppElement]
 
 

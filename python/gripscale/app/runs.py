@@ -13,7 +13,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -38,11 +38,17 @@ from gripscale.questions.registry import Form, forms
 
 RUN_COMMAND = "run"
 COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
-"""What the page runs on a case, in its order."""
 REPORT = "report.html"
 """The page of a result in its folder, as `gripscale report` names it."""
 GRACE = 5.0
 """Seconds a process has to end before it is killed."""
+
+
+_LAST_STAGES = {
+    "waves": "all waves are solved; direct contact, effects and figures follow",
+    "direct contact": "the direct contact is solved; effects and figures follow",
+    "effects": "the effects are solved; the figures follow",
+}
 
 
 @dataclass(frozen=True)
@@ -55,33 +61,28 @@ class RunProgress:
 
     start: RunStarted | None = None
     wave: WaveSolved | None = None
-    """The wave that was solved last."""
     finished: tuple[str, ...] = ()
     """Predictions that came to their end, with a solution or without."""
     last_stage: str = "waves"
-    """What was solved last: waves, direct contact or effects."""
-
-    def after(self, event: Event) -> RunProgress:
-        """Return how far the run is after one more event."""
-        match event:
-            case RunStarted():
-                return RunProgress(event)
-            case WaveSolved():
-                return replace(self, wave=event)
-            case PredictionFinished():
-                return replace(self, finished=(*self.finished, event.prediction))
-            case AnswerSolved():
-                return replace(self, last_stage="direct contact")
-            case EffectsSolved():
-                return replace(self, last_stage="effects")
-        return self
+    """One of `_LAST_STAGES`: what was solved last."""
 
     @classmethod
     def of(cls, events: Iterable[Event]) -> RunProgress:
         """Return how far the run is that reported `events`."""
         progress = cls()
         for event in events:
-            progress = progress.after(event)
+            match event:
+                case RunStarted():
+                    progress = cls(event)
+                case WaveSolved():
+                    progress = replace(progress, wave=event)
+                case PredictionFinished():
+                    finished = (*progress.finished, event.prediction)
+                    progress = replace(progress, finished=finished)
+                case AnswerSolved():
+                    progress = replace(progress, last_stage="direct contact")
+                case EffectsSolved():
+                    progress = replace(progress, last_stage="effects")
         return progress
 
     @property
@@ -102,24 +103,16 @@ class RunProgress:
     @property
     def sentence(self) -> str:
         """How far the run is, in words."""
-        return ", ".join(self._parts())
-
-    def _parts(self) -> Iterator[str]:
         if self.start is None or self.wave is None:
-            yield "reading and fitting"
-        elif self.solved and self.last_stage == "effects":
-            yield "the effects are solved; the figures follow"
-        elif self.solved and self.last_stage == "direct contact":
-            yield "the direct contact is solved; effects and figures follow"
-        elif self.solved:
-            yield "all waves are solved; direct contact, effects and figures follow"
-        else:
-            names = self.start.predictions
-            if len(names) > 1:
-                yield f"prediction {names.index(self.wave.prediction) + 1} of {len(names)}"
-            if self.start.iterated:
-                yield f"pass {self.wave.pass_number} until rubber and contact agree"
-            yield f"wave {self.wave.number} of {self.wave.count}"
+            return "reading and fitting"
+        if self.solved:
+            return _LAST_STAGES[self.last_stage]
+        names, parts = self.start.predictions, []
+        if len(names) > 1:
+            parts.append(f"prediction {names.index(self.wave.prediction) + 1} of {len(names)}")
+        if self.start.iterated:
+            parts.append(f"pass {self.wave.pass_number} until rubber and contact agree")
+        return ", ".join([*parts, f"wave {self.wave.number} of {self.wave.count}"])
 
 
 @dataclass
@@ -132,7 +125,6 @@ class AppRun:
     text: str
     command: Form = COMMANDS[0]
     arguments: tuple[str, ...] = ()
-    """What follows the case on the command line."""
     stopped: bool = field(default=False, init=False)
     _process: Any = field(default=None, init=False, repr=False)
 

@@ -21,7 +21,6 @@ LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
     "^*": "*", "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\ln": "ln ", "\\": "",
 }  # fmt: skip
-"""Letters of equations without mathematical type."""
 
 
 def spelled_out(text: str) -> str:
@@ -47,11 +46,9 @@ class PlotAxis:
     ticks: Mapping[float, str] | None = None
     """Names of positions, in place of numbers."""
     bold: frozenset[str] = frozenset()
-    """Names that stand out."""
     numbers: int = 0
     """Most numbers along the axis on paper; 0 for as many as matplotlib finds good."""
     whole: bool = False
-    """Whether only whole numbers have a meaning."""
     grid: bool = True
     margin: float | None = None
     """Room beside what is drawn, over its extent."""
@@ -91,16 +88,13 @@ class Series:
     high: ArrayLike | None = None
     """Ends of error bars."""
     level_bars: bool = False
-    """Whether the error bars are along x."""
     alpha: float = 1.0
     order: float = 2.0
     """What is drawn later, above, on paper."""
     clip: bool = True
-    """Whether markers end at the frame."""
     coarse: bool = False
     """Whether paper has pixels in place of a drawing, for very many points."""
     listed: bool = True
-    """Whether the legend on paper has its label."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +134,6 @@ class ShadedBand:
     beyond: ArrayLike = False
     """Where it rests on the rubber beyond its measured band, and is hatched."""
     edged: bool = False
-    """Whether a fine white line parts it from its neighbours."""
 
 
 @dataclass(frozen=True)
@@ -188,7 +181,6 @@ class Note:
     top: bool = False
     """Whether the point is at the top of the words, not in their middle."""
     boxed: bool = False
-    """Whether a white box hides what is behind."""
     italic: bool = False
 
 

@@ -59,7 +59,6 @@ MOST_EXACT = 300
 """Points above which a curve is stored in single precision: enough to draw, half the size."""
 
 _DASHES = {"dotted": [2, 4], "dashed": [6], "dashdot": [2, 4, 6, 4], "solid": []}
-"""Lengths of dashes and gaps [px]."""
 _MARKERS = {
     "o": "circle", ".": "circle", "s": "square", "^": "triangle", "v": "inverted_triangle",
     "D": "diamond", "P": "plus", "X": "x", "x": "x", "+": "cross", "<": "hex", "d": "diamond_cross",
@@ -166,7 +165,6 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
 
 
 def _extent(marks: Sequence[Mark], which: str) -> Array:
-    """Return all finite numbers that marks show along an axis."""
     parts: list[Any] = []
     for mark in marks:
         match mark:

@@ -23,19 +23,7 @@ from matplotlib.markers import TICKDOWN, TICKLEFT
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
-from gripscale.charts.chart import (
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Outline,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    ValueMap,
-    spelled_out,
-)
+from gripscale.charts import chart
 from gripscale.charts.style import (
     BEYOND_LABEL,
     DASHES,
@@ -88,7 +76,6 @@ RULES: Any = {
 }
 
 HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
-"""Look of a band beyond the measured band."""
 
 _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
     "x": ((8.0, (1, 2, 3, 5, 7)), (60.0, (1, 2, 5)), (1e3, (1, 3))),
@@ -107,7 +94,7 @@ def house_rules() -> AbstractContextManager[None]:
 
 
 def draw_panels(
-    panels: Sequence[Panel],
+    panels: Sequence[chart.Panel],
     columns: int,
     size: tuple[float, float],
     gap: float,
@@ -135,7 +122,7 @@ def draw_panels(
     return figure, grid
 
 
-def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
+def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
     which: Any
     for which, axis in (("x", panel.x), ("y", panel.y)):
         if axis.log:  # before anything is drawn: a linear axis may start below zero
@@ -150,7 +137,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
         _draw_mark(figure, axes, mark)
     if panel.to_scale:
         axes.set_aspect("equal", adjustable="box")
-    if any(isinstance(mark, Bars) for mark in panel.marks):
+    if any(isinstance(mark, chart.Bars) for mark in panel.marks):
         axes.use_sticky_edges = False  # of bars upon bars, which would leave no room above
     if panel.title:
         axes.set_title(panel.title)
@@ -159,7 +146,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
         axes.legend(loc=corner)
 
 
-def _end_axis(axes: Axes, which: str, axis: PlotAxis) -> None:
+def _end_axis(axes: Axes, which: str, axis: chart.PlotAxis) -> None:
     """Set the limits of an axis, and place numbers or names along it."""
     drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
     if axis.low is not None or axis.high is not None:
@@ -179,35 +166,35 @@ def _end_axis(axes: Axes, which: str, axis: PlotAxis) -> None:
         drawn.set_major_locator(MaxNLocator(axis.numbers, steps=ROUND, integer=axis.whole))
 
 
-def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
+def _draw_mark(figure: Figure, axes: Axes, mark: chart.Mark) -> None:
     match mark:
-        case Series():
+        case chart.Series():
             _draw_series(axes, mark)
-        case Outline():
-            _draw_series(axes, Series(*mark.drawn(_PIECES), mark.colour, mark.label,
+        case chart.Outline():
+            _draw_series(axes, chart.Series(*mark.drawn(_PIECES), mark.colour, mark.label,
                                       width=mark.width, coarse=True))  # fmt: skip
-        case ShadedBand():
+        case chart.ShadedBand():
             _draw_band(axes, mark)
-        case Bars():
+        case chart.Bars():
             x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
             look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
             axes.bar(x0, y1 - y0, x1 - x0, y0, align="edge", zorder=mark.order,
                      label=mark.label or None, **look)  # fmt: skip
-        case CrossLine(to=None):
+        case chart.CrossLine(to=None):
             look = {"color": mark.colour, "ls": DASHES[mark.dash], "lw": mark.width}
             across = axes.axvline if mark.upright else axes.axhline
             across(mark.at, label=mark.label or None, zorder=mark.order, **look)
-        case CrossLine(to=float(end)):
+        case chart.CrossLine(to=float(end)):
             shade = axes.axvspan if mark.upright else axes.axhspan
             look = {"color": mark.colour, "alpha": 0.5, "lw": 0}
             shade(mark.at, end, label=mark.label or None, **look)
-        case Note():
+        case chart.Note():
             _draw_note(axes, mark)
-        case ValueMap():
+        case chart.ValueMap():
             _draw_field(figure, axes, mark)
 
 
-def _draw_series(axes: Axes, series: Series) -> None:
+def _draw_series(axes: Axes, series: chart.Series) -> None:
     """Draw a curve, dashed where it rests on the rubber beyond its measured band."""
     x, y = np.asarray(series.x, dtype=float), np.asarray(series.y, dtype=float)
     filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
@@ -250,7 +237,7 @@ def _draw_series(axes: Axes, series: Series) -> None:
         axes.plot([], [], label=label, **look)
 
 
-def _draw_band(axes: Axes, band: ShadedBand) -> None:
+def _draw_band(axes: Axes, band: chart.ShadedBand) -> None:
     x, low, high = (np.asarray(values, dtype=float) for values in (band.x, band.low, band.high))
     x, low, high = np.broadcast_arrays(x, low, high)
     look: dict[str, Any] = {"color": band.colour, "alpha": band.alpha, "lw": 0.0}
@@ -262,7 +249,7 @@ def _draw_band(axes: Axes, band: ShadedBand) -> None:
             axes.fill_between(x[part], low[part], high[part], gid=BEYOND_LABEL, **HATCHED)
 
 
-def _draw_note(axes: Axes, note: Note) -> None:
+def _draw_note(axes: Axes, note: chart.Note) -> None:
     frames: dict[str, Any] = {"": "data", "x": ("axes fraction", "data"), "xy": "axes fraction"}
     axes.annotate(
         note.text,
@@ -279,7 +266,7 @@ def _draw_note(axes: Axes, note: Note) -> None:
     )
 
 
-def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
+def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
     x, y, values = (np.asarray(part, dtype=float) for part in (field.x, field.y, field.values))
     mappable: Any
     if field.levels:
@@ -299,7 +286,12 @@ def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
 
 
 def add_legend(
-    figure: Figure, panels: Sequence[Axes], keys: Sequence[Mark], where: str, title: str, most: int
+    figure: Figure,
+    panels: Sequence[Axes],
+    keys: Sequence[chart.Mark],
+    where: str,
+    title: str,
+    most: int,
 ) -> None:
     """Add the labels of all panels and of `keys`, and what dashed and hatched mean where it occurs.
 
@@ -332,7 +324,7 @@ def add_legend(
 
 def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
     """Return how many columns of a legend fit into a figure of a width [inch], up to `most`."""
-    lengths = [len(spelled_out(label)) for label in labels]
+    lengths = [len(chart.spelled_out(label)) for label in labels]
     for columns in range(most, 1, -1):
         widest = [max(part, default=0) for part in np.array_split(lengths, columns)]
         if float(LETTER * sum(widest) + _KEY * columns) <= width:
@@ -349,13 +341,13 @@ def add_colour_bar(
     figure.colorbar(mappable, ax=list(panels), **look).outline.set_visible(False)
 
 
-def _key(mark: Mark) -> Any:
+def _key(mark: chart.Mark) -> Any:
     """Return what stands in the legend for a mark that no panel has."""
-    if isinstance(mark, Series):
+    if isinstance(mark, chart.Series):
         look: dict[str, Any] = {"marker": mark.marker, "ms": mark.size, "ls": DASHES[mark.dash]}
         face = mark.colour if np.all(mark.filled) else "white"
         return Line2D([], [], color=mark.colour, lw=mark.width, mfc=face, **look)
-    if isinstance(mark, CrossLine):
+    if isinstance(mark, chart.CrossLine):
         return Line2D([], [], color=mark.colour, lw=mark.width, ls=DASHES[mark.dash])
     return Patch(color=getattr(mark, "colour", GREY), alpha=getattr(mark, "alpha", 1.0))
 
@@ -392,7 +384,6 @@ def png(figure: Figure, dpi: float = DPI) -> bytes:
 
 
 def _lines(figure: Figure, kind: str) -> bytes:
-    """Return `figure` as PDF or SVG."""
     target = io.BytesIO()
     with house_rules():
         _solve_layout(figure)
@@ -412,7 +403,6 @@ def _solve_layout(figure: Figure) -> None:
 
 
 KINDS = ("png", "pdf", "svg")
-"""What a figure can be written as."""
 
 
 def rendered(figure: Figure, kinds: Sequence[str]) -> dict[str, bytes]:
@@ -429,9 +419,5 @@ def save_figure(
 
     Raises `FileError` if one cannot be written, `InputError` for another kind.
     """
-    return write_rendered(rendered(figure, kinds), folder, name)
-
-
-def write_rendered(files: Mapping[str, bytes], folder: Path, name: str) -> list[Path]:
-    """Write what `rendered` returned into `folder`; return the paths."""
+    files = rendered(figure, kinds)
     return [write_bytes(folder / f"{name}.{kind}", content) for kind, content in files.items()]

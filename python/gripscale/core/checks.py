@@ -108,7 +108,6 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
 
 
 def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> Array:
-    """Return `value` as a 1-D float array without infinity."""
     expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
     result = array(value, expected)
     if result.ndim != 1:
@@ -166,7 +165,6 @@ def _above_zero(name: str, result: Array, unit: str) -> Array:
 
 
 def _refuse(values: Array, bad: Mask, expected: str, unit: str = "") -> None:
-    """Raise `InputError` about the first of the `bad` values, if there are any."""
     if bad.any():
         at = int(np.argmax(bad))
         raise InputError(f"{expected}; got {values[at]:g}{unit} at index {at}")

@@ -26,7 +26,6 @@ ENGINE: Final = "netcdf4"
 _SEAL: Final = b"\ngripscale sha256 "
 _SEAL_LENGTH: Final = len(_SEAL) + 65
 _PART: Final = 1 << 20
-"""Bytes read together."""
 
 
 def save(

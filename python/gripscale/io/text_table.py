@@ -14,6 +14,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -85,7 +86,6 @@ def cells_of(line: str, separator: str | None) -> list[str]:
 
 
 EXCEL = (".xlsx", ".xlsm")
-"""Suffixes of Excel files."""
 
 _Rows = list[tuple[object, ...]]
 
@@ -97,11 +97,8 @@ def is_excel(path: Path) -> bool:
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
     """Return the rows of each sheet by its name, in the order of the file."""
-    if path.is_dir():
-        raise FileError(f"{path}: expected a file; got a directory")
-    if not path.is_file():
-        raise FileError(f"{path}: cannot be read (no such file)")
-    if not path.stat().st_size:
+    content = read_bytes(path)
+    if not content:
         raise FileError(f"{path}: expected an xlsx file; got an empty file")
     try:
         openpyxl = import_module("openpyxl")
@@ -111,11 +108,8 @@ def read_sheets(path: Path) -> dict[str, _Rows]:
             "install it with: pip install 'gripscale[export]'"
         ) from error
     try:
-        with path.open("rb") as file:  # openpyxl leaves files open that it cannot read
-            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
-            sheets = {
-                sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets
-            }
+        book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+        sheets = {sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets}
     except Exception as error:  # openpyxl, zipfile and the XML parser each fail in their own way
         raise FileError(
             f"{path}: expected an xlsx file; got a damaged file or another kind with this ending: "
@@ -168,7 +162,6 @@ _BINARY = {
 """Binary files that are mistaken for text, by their first bytes."""
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
-"""Largest number of lines above the rows."""
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
@@ -196,7 +189,6 @@ class TextTable:
 
     path: Path
     columns: list[ColumnTitle]
-    """Title of each column, empty if the file has no titles."""
     rows: list[list[str]]
     line_numbers: list[int]
     decimal: str
@@ -244,7 +236,6 @@ class TextTable:
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
     def _cells(self, column: int) -> list[str]:
-        """Return the cells of a column, their decimal sign a point."""
         cells = [row[column] for row in self.rows]
         return [cell.replace(",", ".") for cell in cells] if self.decimal == "," else cells
 
@@ -443,7 +434,6 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
 
 
 def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
-    """Return the decimal sign that all numbers of the file use."""
     first: dict[str, tuple[int, str]] = {}
     for sign, form in ((",", COMMA_NUMBER), (".", _NUMBER)):
         for at, row in enumerate(rows):
@@ -463,7 +453,6 @@ def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
 def _columns(
     above: list[str], count: int, kinds: Collection[str], named: Callable[[str], bool]
 ) -> list[ColumnTitle]:
-    """Return names and units of the columns from the lines `above` the rows."""
     columns, units = [ColumnTitle()] * count, [""] * count
     for cells in filter(None, (_titles(line, count) for line in above)):
         bare = [cell.strip("()[] ") for cell in cells]

@@ -16,16 +16,12 @@ if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet
 
 _MOST_ROWS = 1_048_576
-"""Rows of an Excel sheet, its heading included."""
 MOST_LETTERS = 32_767
-"""Letters of an Excel cell."""
 MOST_TITLE = 31
-"""Letters of the title of an Excel sheet."""
 CUT = " ... [cut: longer than a cell of a workbook; csv has all of it]"
 _NO_LETTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 """What XML 1.0 cannot hold."""
 _WIDEST = 40
-"""Letters of the widest column."""
 
 
 def write_workbook(tables: Sequence[Table], path: Path) -> Path:

@@ -74,7 +74,6 @@ class Section:
     title: str
     elements: Sequence[Element]
     folded: bool = False
-    """Whether the reader has to open it."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,6 @@ class Page:
     title: str
     subtitle: str
     notices: Sequence[Finding]
-    """Ranked."""
     cards: Sequence[Card]
     sections: Sequence[Section] = field(default_factory=tuple)
     basis: Sequence[str] = ()
