@@ -123,31 +123,7 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
         # at equal scales Bokeh finds the limits
         free = replace(axis, low=None, high=None) if panel.to_scale else axis
         _set_axis(figure, which, free, _extent(panel.marks, which))
-    points: list[Part] = []
-    look: dict[str, Any]
-    for mark in panel.marks:
-        match mark:
-            case Series():
-                points += _draw_series(figure, mark, positive=panel.y.log)
-            case Outline():
-                _draw_outline(figure, mark, store)
-            case ValueMap(levels=0):
-                _draw_field(figure, mark)
-            case ShadedBand():
-                _draw_band(figure, mark, positive=panel.y.log)
-            case Bars():
-                ends = np.broadcast_arrays(*np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1))
-                source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
-                look = {"fill_color": mark.colour, "fill_alpha": mark.alpha, "line_color": None}
-                _draw_glyph(figure, source, _glyph("Quad", source, **look), mark.label)
-            case CrossLine(to=None):
-                _draw_cross_line(figure, mark, panel)
-            case CrossLine(to=float(end)):
-                look = {"fill_color": mark.colour, "line_color": mark.colour}
-                look |= {"fill_alpha": 0.4, "level": "underlay"}
-                edges = ("left", "right") if mark.upright else ("bottom", "top")
-                look |= dict(zip(edges, (mark.at, end), strict=True))
-                figure["center"].append(Part("BoxAnnotation", **look))
+    points = [point for mark in panel.marks for point in _draw_mark(figure, mark, panel, store)]
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND_LABEL, line_color=GREY,
@@ -162,6 +138,34 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
     if panel.legend == "none" or not figure["above"][0]["items"]:
         figure.update(above=[])
     return figure
+
+
+def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list[Part]:
+    """Draw a mark; return what shows its numbers under the pointer."""
+    look: dict[str, Any]
+    match mark:
+        case Series():
+            return _draw_series(figure, mark, positive=panel.y.log)
+        case Outline():
+            _draw_outline(figure, mark, store)
+        case ValueMap(levels=0):
+            _draw_field(figure, mark)
+        case ShadedBand():
+            _draw_band(figure, mark, positive=panel.y.log)
+        case Bars():
+            ends = np.broadcast_arrays(*np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1))
+            source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
+            look = {"fill_color": mark.colour, "fill_alpha": mark.alpha, "line_color": None}
+            _draw_glyph(figure, source, _glyph("Quad", source, **look), mark.label)
+        case CrossLine(to=None):
+            _draw_cross_line(figure, mark, panel)
+        case CrossLine(to=float(end)):
+            look = {"fill_color": mark.colour, "line_color": mark.colour}
+            look |= {"fill_alpha": 0.4, "level": "underlay"}
+            edges = ("left", "right") if mark.upright else ("bottom", "top")
+            look |= dict(zip(edges, (mark.at, end), strict=True))
+            figure["center"].append(Part("BoxAnnotation", **look))
+    return []
 
 
 def _extent(marks: Sequence[Mark], which: str) -> Array:
