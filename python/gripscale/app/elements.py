@@ -71,7 +71,12 @@ def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
-_STYLE = files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
+def template(name: str) -> str:
+    """Return a script or style of the page."""
+    return files("gripscale.app").joinpath("templates", name).read_text(encoding="utf-8")
+
+
+_STYLE = template("elements.css")
 
 
 def html(element: AppElement) -> pn.pane.HTML:
@@ -79,10 +84,10 @@ def html(element: AppElement) -> pn.pane.HTML:
     return raw(_environment().get_template("elements.html").render(e=element))
 
 
-def raw(markup: str, **options: Any) -> pn.pane.HTML:
+def raw(markup: str) -> pn.pane.HTML:
     """Return the pane of markup written in this package, in the style of the page."""
-    look = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_STYLE]}
-    return pn.pane.HTML(markup, **(look | options))
+    look: Any = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_STYLE]}
+    return pn.pane.HTML(markup, **look)
 
 
 def chart_pane(chart: Chart, figure: Any = None) -> pn.Column:

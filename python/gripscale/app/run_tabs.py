@@ -179,10 +179,8 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
             waiting = f"<p>{run.name} is running; its page follows at its end.</p>"
             body.objects, body.loading = [elements.raw(waiting)], False
             return
-        body.objects, body.loading = (
-            [elements.raw(f"<p>Writing the page of {run.name} ...</p>")],
-            True,
-        )
+        body.objects = [elements.raw(f"<p>Writing the page of {run.name} ...</p>")]
+        body.loading = True
         try:
             page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
             address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
