@@ -9,17 +9,15 @@ import asyncio
 from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from typing import Any, ClassVar, TypeVar
 
 import panel as pn
-from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.core.finding import Finding
-from gripscale.report.elements import Card, Code, Element, Text, open_and_folded, with_code
+from gripscale.report.build import template_text, templates
+from gripscale.report.elements import Card, Code, Element, Text, open_and_folded
 
 _T = TypeVar("_T")
 
@@ -53,14 +51,6 @@ def notice_elements(notices: Sequence[Finding]) -> Iterator[AppElement]:
         yield Folded(folded)
 
 
-@cache
-def _environment() -> Environment:
-    loader = PackageLoader("gripscale.app")
-    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
-    environment.filters["with_code"] = with_code
-    return environment
-
-
 def column(*parts: Any, **options: Any) -> pn.Column:
     """Return a column as wide as the page."""
     return pn.Column(*parts, sizing_mode="stretch_width", **options)
@@ -71,17 +61,12 @@ def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
-def template(name: str) -> str:
-    """Return a script or style of the page."""
-    return files("gripscale.app").joinpath("templates", name).read_text(encoding="utf-8")
-
-
-_STYLE = template("elements.css")
+_STYLE = template_text("gripscale.app", "elements.css")
 
 
 def html(element: AppElement) -> pn.pane.HTML:
     """Return the pane of a text, a notice, a table, facts, code or cards."""
-    return raw(_environment().get_template("elements.html").render(e=element))
+    return raw(templates("gripscale.app").get_template("elements.html").render(e=element))
 
 
 def raw(markup: str) -> pn.pane.HTML:

@@ -16,8 +16,9 @@ from bokeh.document import Document
 from bokeh.models import CustomJS
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
-from gripscale.app.elements import column, in_worker, template
+from gripscale.app.elements import column, in_worker
 from gripscale.core.errors import InputError
+from gripscale.report.build import template_text
 
 NewText = Callable[[Mapping[str, bytes]], str]
 """From uploads by name to the text of the case with them; may read them, in the worker thread."""
@@ -35,7 +36,7 @@ TOO_LARGE = "too large"
 
 def prepare_areas(page: Document) -> None:
     """Let the areas of a page name, announce and send all files of a drop at once."""
-    page.js_on_event("document_ready", CustomJS(code=template("uploads.js")))
+    page.js_on_event("document_ready", CustomJS(code=template_text("gripscale.app", "uploads.js")))
 
 
 def file_upload(

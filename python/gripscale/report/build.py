@@ -31,43 +31,38 @@ def render(page: Page) -> str:
     # Bokeh's core script alone: widgets, tables and WebGL are not needed
     resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
     library = "\n".join(resources.js_raw)
-    script = "\n".join(map(_template_file, ("outlines.js", "page.js")))
-    style = "\n".join(map(_template_file, ("page.css", "elements.css", "media.css")))
-    return (
-        _environment()
-        .get_template("page.html")
-        .render(
-            page=page,
-            # the template turns plain data into JSON without any markup
-            figures={
-                "places": {chart.figure.id: f"plot-{chart.name}" for chart in page.charts},
-                "document": document([chart.figure for chart in page.charts]),
-            },
-            library=Markup(library),
-            style=Markup(style),
-            script=Markup(script),
-            policy=_policy(library, script),
-        )
+    room, styles = "gripscale.report", ("page.css", "elements.css", "media.css")
+    script = "\n".join(template_text(room, name) for name in ("outlines.js", "page.js"))
+    template = templates(room).get_template("page.html")
+    return template.render(
+        page=page,
+        # the template turns plain data into JSON without any markup
+        figures={
+            "places": {chart.figure.id: f"plot-{chart.name}" for chart in page.charts},
+            "document": document([chart.figure for chart in page.charts]),
+        },
+        library=Markup(library),
+        style=Markup("\n".join(template_text(room, name) for name in styles)),
+        script=Markup(script),
+        policy=_policy(library, script),
     )
 
 
 @cache
-def _environment() -> Environment:
-    loader = PackageLoader("gripscale.report")
-    options: Any = {"trim_blocks": True, "lstrip_blocks": True}
-    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, **options)
+def templates(package: str) -> Environment:
+    """Return the templates of a room."""
+    options: Any = {"trim_blocks": True, "lstrip_blocks": True, "undefined": StrictUndefined}
+    environment = Environment(loader=PackageLoader(package), autoescape=True, **options)
     environment.filters["with_code"] = with_code
     # Bokeh's figures name an object where it first occurs: the order of keys matters.
-    environment.policies["json.dumps_kwargs"] = {
-        "sort_keys": False,
-        "separators": (",", ":"),
-        "allow_nan": False,
-    }
+    settings = {"sort_keys": False, "separators": (",", ":"), "allow_nan": False}
+    environment.policies["json.dumps_kwargs"] = settings
     return environment
 
 
-def _template_file(name: str) -> str:
-    return files("gripscale.report").joinpath("templates", name).read_text(encoding="utf-8")
+def template_text(package: str, name: str) -> str:
+    """Return a script or style of a room."""
+    return files(package).joinpath("templates", name).read_text(encoding="utf-8")
 
 
 def _policy(*scripts: str) -> str:
