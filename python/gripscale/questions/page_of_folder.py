@@ -1,4 +1,4 @@
-"""The page of a results folder or of one of its files: what it holds decides which question's."""
+"""The page of a results folder or of one of its files; its content says whose question it answers."""
 
 from __future__ import annotations
 
