@@ -204,11 +204,6 @@ class CaseState(param.Parameterized):
         super().__init__()  # type: ignore[no-untyped-call]
         self.visit = visit
 
-    @property
-    def validation_message(self) -> str:
-        """What is wrong with the case, in a sentence; empty if nothing is."""
-        return "" if self.problem is None else self.problem.sentence
-
     def set_text(self, text: str) -> None:
         """Take `text` as the case, valid or not."""
         text = text.replace("\r\n", "\n")

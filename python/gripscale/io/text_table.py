@@ -31,7 +31,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import MOST, short_repr, shortened, whole
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError, using_extra
 from gripscale.core.units import spelled
 
 Line = tuple[int, str]
@@ -100,13 +100,8 @@ def read_sheets(path: Path) -> dict[str, _Rows]:
     content = read_bytes(path)
     if not content:
         raise FileError(f"{path}: expected an xlsx file; got an empty file")
-    try:
+    with using_extra("export", f"{path}: xlsx", "openpyxl", kind=FileError):
         openpyxl = import_module("openpyxl")
-    except ImportError as error:
-        raise FileError(
-            f"{path}: xlsx needs openpyxl, which is not installed; "
-            "install it with: pip install 'gripscale[export]'"
-        ) from error
     try:
         book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
         sheets = {sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets}

@@ -1,4 +1,4 @@
-"""The page of a results folder or of one of its files; its content says whose question it answers."""
+"""The page of a results folder or of one of its files, by what the file holds."""
 
 from __future__ import annotations
 

@@ -12,14 +12,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gripscale.core.errors import InputError
+from gripscale.core.errors import using_extra
 
 if TYPE_CHECKING:
     from gripscale.report.elements import Page
 
 __all__ = ["write_page", "write_report"]
-
-_EXTRA = ("bokeh", "jinja2", "markupsafe")
 
 
 def __getattr__(name: str) -> Any:
@@ -39,16 +37,10 @@ def write_page(page: Callable[[], Page], output: str | Path) -> Path:
     collecting = gc.isenabled()
     gc.disable()
     try:
-        from gripscale.report.build import write
+        with using_extra("report", "a report", "bokeh", "jinja2", "markupsafe"):
+            from gripscale.report.build import write
 
-        return write(page(), Path(output))
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in _EXTRA:
-            raise
-        raise InputError(
-            f"a report needs {error.name}, which is not installed; "
-            "install it with: pip install 'gripscale[report]'"
-        ) from error
+            return write(page(), Path(output))
     finally:
         if collecting:
             gc.enable()
