@@ -24,7 +24,7 @@ from gripscale.half_space.sampling_error import (
 )
 from gripscale.io import netcdf
 from gripscale.model import Load
-from gripscale.questions import designed_rubber, write_report
+from gripscale.questions import designed_rubber
 from gripscale.questions.design import compound_design
 from gripscale.questions.design.charts import design_figure
 from gripscale.questions.design.compound_gain import gain
@@ -38,6 +38,7 @@ from gripscale.questions.design.design_text import (
 )
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.questions.design.page import design_cards, design_lines
+from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road

@@ -15,7 +15,8 @@ from gripscale.case_file.prepare import read_case
 from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
-from gripscale.questions import FrictionSensitivity, write_report
+from gripscale.questions import FrictionSensitivity
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.sensitivity.friction_sensitivity import (
     FEEDBACK,
     KELVIN_STEP,

@@ -12,7 +12,8 @@ from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import significant
-from gripscale.questions import Compounds, at_one_temperature, compare_compounds, write_report
+from gripscale.questions import Compounds, at_one_temperature, compare_compounds
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts_side_by_side import compound_friction_figure
 from gripscale.questions.vary.page_side_by_side import (
     CHAIN_RANKS_NOTHING,
