@@ -7,8 +7,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gripscale import terminal
-from gripscale.case_file import CaseFile, read_case, run_case
+from gripscale import case_file, terminal
 from gripscale.case_file.finished import case_replaced
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
@@ -47,13 +46,13 @@ REPORT_WIDTH = 110
 def solve_run(
     console: Console,
     emit: events.OnEvent,
-    file: CaseFile,
+    file: case_file.CaseFile,
     target: Path,
     figures: Figures,
     fresh: bool,
 ) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
-    chain = ChainRun.of(read_case(file), target, fresh=fresh)
+    chain = ChainRun.of(case_file.read_case(file), target, fresh=fresh)
     other = case_replaced(file, target)
     if other:
         words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
@@ -113,7 +112,7 @@ def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answ
 def _solve(
     console: Console,
     emit: events.OnEvent,
-    file: CaseFile,
+    file: case_file.CaseFile,
     chain: ChainRun,
     answer: Answer,
     draw: events.OnEvent,
@@ -129,7 +128,7 @@ def _solve(
         draw(event)
 
     with console.status("solving") if console.is_terminal else nullcontext():
-        run_case(file, output=target, on_event=on_event, run=chain)
+        case_file.run_case(file, output=target, on_event=on_event, run=chain)
         if answer.is_solved:
             answer.save(target / ANSWER_FILE)
             emit(events.AnswerSolved.of(answer))
