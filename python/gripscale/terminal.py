@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
 
+RUN_REPORT, RUN_CLOSING = "report.txt", "Results, report and figures are in"
+"""Text in the folder of a run, and what its last line says."""
+
 PLAIN_WIDTH = 100
 """Characters per line where there is no terminal to ask."""
 
@@ -132,7 +135,7 @@ def conclude(
     from gripscale.io.folders import write_text
     from gripscale.io.table import as_text
     from gripscale.questions.result import warning_lines
-    from gripscale.report.summary import write_summary
+    from gripscale.questions.summary_table import write_summary
 
     console.print()
     print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
@@ -147,7 +150,7 @@ def conclude(
     console.print()
     print_wrapped(console, f"{closing} {target}")
     if page:
-        from gripscale.report import write_report
+        from gripscale.questions.page_of_folder import write_report
 
         try:
             print_wrapped(console, f"Page: {write_report(target / page)}")
@@ -323,7 +326,6 @@ COLUMNS = (
     "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
     "frequency=1,storage=3,loss_factor=5."
 )
-"""What the option --columns takes."""
 
 
 def column_of(text: str) -> str | int:

@@ -20,18 +20,14 @@ from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.finding import doubt, to_json
 from gripscale.model import INPUT_DOUBTS, Load, input_doubts_of, load_doubts
-from gripscale.questions import (
-    Study,
-    compare_compounds,
-    compare_surfaces,
-)
+from gripscale.questions import Study, compare_compounds, compare_surfaces
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import Shell

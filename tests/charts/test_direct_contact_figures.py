@@ -10,7 +10,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from gripscale.charts.chart import CrossLine, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Panel, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import png
 from gripscale.half_space.location import with_traces
 from gripscale.questions.answer.charts import (

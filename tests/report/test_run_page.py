@@ -26,8 +26,7 @@ from gripscale.questions.chain.findings import notices, run_cards
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.run_page import run_page
 from gripscale.questions.inputs.page import rubber_facts
-from gripscale.report import write_report
-from gripscale.report.source import read_result
+from gripscale.questions.page_of_folder import read_result, write_report
 from gripscale.surface import self_affine_profile
 from tests.samples import ZENER
 

@@ -12,7 +12,7 @@ import xarray as xr
 from gripscale.core.finding import doubt, to_json
 from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.intervals import interval_ends
-from gripscale.report.summary import SUMMARY_FILE, summary_table, write_summary
+from gripscale.questions.summary_table import SUMMARY_FILE, summary_table, write_summary
 
 UNIT = {"units": "1"}
 

@@ -325,7 +325,7 @@ class ChainResult:
         """Write a page of this prediction at `output`; see `gripscale.report.write_report`."""
         with TemporaryDirectory() as folder:
             stored = netcdf.save(self.to_dataset(), Path(folder) / "prediction.nc")
-            return gripscale.report.write_report(stored, output)
+            return Path(gripscale.report.write_report(stored, output))
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> ChainResult:

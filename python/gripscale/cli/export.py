@@ -52,7 +52,7 @@ def rubber(
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
-    from gripscale.core.units import temperature_in_kelvin
+    from gripscale.core.units import parse_quantity, temperature_in_kelvin
     from gripscale.export import write_rubber
     from gripscale.export.reduction import reduced
 
@@ -60,8 +60,18 @@ def rubber(
     if temperature is not None:
         rubber = rubber.at(temperature_in_kelvin(temperature))
     console = screen()
-    if band is not None or terms is not None:
-        reduction = reduced(rubber, band=None if band is None else _band(band), terms=terms)
+    ends = None
+    if band is not None:
+        words = band.strip().removesuffix("Hz").strip().split("..")
+        try:
+            low, high = (parse_quantity(f"{end.strip()} Hz", "frequency") for end in words)
+        except ValueError as error:
+            raise InputError(
+                f"band must be two frequencies such as 1..1e6 Hz; got {band!r}"
+            ) from error
+        ends = low, high
+    if ends is not None or terms is not None:
+        reduction = reduced(rubber, band=ends, terms=terms)
         rubber = reduction.rubber
         print_wrapped(console, f"{reduction}.")
     names = ("name", "material", "modulus_unit", "temperature_unit")
@@ -70,18 +80,6 @@ def rubber(
     for remark in written.remarks:
         print_wrapped(console, remark)
     print_wrapped(console, f"The material is {output}")
-
-
-def _band(text: str) -> tuple[float, float]:
-    """Return the ends [Hz] of a band such as 1..1e6 Hz."""
-    from gripscale.core.units import parse_quantity
-
-    words = text.strip().removesuffix("Hz").strip()
-    try:
-        low, high = (parse_quantity(f"{end.strip()} Hz", "frequency") for end in words.split(".."))
-    except ValueError as error:
-        raise InputError(f"band must be two frequencies such as 1..1e6 Hz; got {text!r}") from error
-    return low, high
 
 
 @export.command("tables")

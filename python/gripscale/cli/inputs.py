@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 
 _FIGURES = ("png", "pdf")
-"""What figures of a command without a case are written as."""
 
 
 class ExampleName(StrEnum):
@@ -150,12 +149,7 @@ def fit_surface(
     from gripscale.case_file import SurfaceTable, prepare_surface, validate
     from gripscale.case_file.proposals import open_surface
     from gripscale.io.folders import make_folder, require_writable
-    from gripscale.questions.inputs.page import (
-        rms_slopes_table,
-        surface_lines,
-        texture_table,
-        waves_table,
-    )
+    from gripscale.questions.inputs import page
     from gripscale.surface import HeightMap
 
     values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
@@ -183,15 +177,15 @@ def fit_surface(
     sines = prepared.sines
     parts: list[str | Table] = [
         *(f"doubt: {with_options(doubt.sentence, context.params)}" for doubt in prepared.doubts),
-        *surface_lines(prepared),
+        *page.surface_lines(prepared),
         *(f"note: {finding}" for finding in prepared.findings if finding not in prepared.doubts),
-        waves_table(sines.wavelength, sines.amplitude),
+        page.waves_table(sines.wavelength, sines.amplitude),
         *_ambiguity(prepared),
     ]
     if prepared.measured is not None:
-        parts.append(texture_table(prepared.measured.texture))
+        parts.append(page.texture_table(prepared.measured.texture))
         if slopes:
-            parts.append(rms_slopes_table(prepared.measured.slopes))
+            parts.append(page.rms_slopes_table(prepared.measured.slopes))
     print_parts(console, parts)
     if output is not None:
         from gripscale.charts.figure_folder import FigureFolder
@@ -204,7 +198,6 @@ def fit_surface(
 
 
 def _ambiguity(prepared: Surface) -> Iterator[str]:
-    """Yield how far the correlation determines the waves, where there are several."""
     from gripscale.surface import sine_ambiguity
 
     if prepared.correlation is None or len(prepared.sines) < 2:

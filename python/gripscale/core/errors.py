@@ -48,6 +48,22 @@ class RubberWarning(UserWarning):
 
 
 @contextmanager
+def using_extra(
+    extra: str, user: str, *libraries: str, kind: type[FileError] | type[InputError] = InputError
+) -> Iterator[None]:
+    """Say in one sentence which of the libraries of an extra of the package its user lacks."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in libraries:
+            raise
+        raise kind(
+            f"{user} needs {error.name}, which is not installed; "
+            f"install it with: pip install 'gripscale[{extra}]'"
+        ) from error
+
+
+@contextmanager
 def about_keys(table: str) -> Iterator[None]:
     """Let errors refer to the keys of a table of the case, unless they refer to something else."""
     try:

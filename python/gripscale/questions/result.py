@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from gripscale.charts.chart import Drawing
+    from gripscale.charts.draw import Drawing
     from gripscale.core.finding import Finding
     from gripscale.report.elements import Page
 
@@ -94,7 +94,7 @@ class Result(ABC):
 
         Raises `InputError` if there is nothing to draw.
         """
-        from gripscale.charts.chart import Drawing
+        from gripscale.charts.draw import Drawing
 
         _, figure = next(self.figures(), ("", None))
         if figure is None:

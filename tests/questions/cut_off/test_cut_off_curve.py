@@ -16,7 +16,7 @@ from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off
 from gripscale.questions.cut_off.question import cut_off
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
 
 SURFACE = 'files = ["road.txt"]\nscales = 3\ncut_off = "0.5 mm"'

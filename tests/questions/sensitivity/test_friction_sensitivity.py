@@ -16,6 +16,7 @@ from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
 from gripscale.questions import FrictionSensitivity
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.sensitivity.friction_sensitivity import (
     FEEDBACK,
     KELVIN_STEP,
@@ -28,7 +29,6 @@ from gripscale.questions.sensitivity.page import (
     sensitivity_parts,
     sums_table,
 )
-from gripscale.report import write_report
 from gripscale.surface import Measured, Surface, self_affine_profile
 from tests.samples import (
     SHIFTED_LOAD,

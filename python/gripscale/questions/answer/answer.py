@@ -40,7 +40,7 @@ from gripscale.questions.result import Result
 from gripscale.report.elements import Page
 
 if TYPE_CHECKING:
-    from gripscale.charts.chart import Sheet
+    from gripscale.charts.draw import Sheet
 
 ANSWER_FILE = "answer.nc"
 """Name of the saved answer in a results folder."""
@@ -109,7 +109,7 @@ class Answer(NumbersWithIntervals):
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""
-        from gripscale.report.summary import summary_table
+        from gripscale.questions.summary_table import summary_table
 
         return summary_table([self.data])
 

@@ -23,9 +23,9 @@ from gripscale.charts.chart import (
     PlotAxis,
     Series,
     ShadedBand,
-    Sheet,
     ValueMap,
 )
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
 from gripscale.core.arrays import Array

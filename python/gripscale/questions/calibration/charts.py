@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, ORANGE, WIDE
 from gripscale.core.units import MEGA, DisplayUnit, display_unit_of

@@ -17,17 +17,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import (
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-)
+from gripscale.charts.chart import Bars, CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array

@@ -15,9 +15,9 @@ from gripscale.charts.chart import (
     PlotAxis,
     Series,
     ShadedBand,
-    Sheet,
     wavelength_axis,
 )
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI

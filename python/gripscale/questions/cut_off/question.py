@@ -27,7 +27,7 @@ from gripscale.questions.result import Result
 from gripscale.report.elements import Page
 
 if TYPE_CHECKING:
-    from gripscale.charts.chart import Sheet
+    from gripscale.charts.draw import Sheet
 
 
 class CutOff(Result):

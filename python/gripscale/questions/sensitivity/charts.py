@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import draw, style
-from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart, Picture
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
