@@ -257,7 +257,7 @@ def _inputs(case: Case) -> list[str]:
 def _event_printer(console: Console, speed_unit: DisplayUnit) -> OnEvent:
     """Return what prints a sentence for each event that a person waits for."""
     from gripscale.questions.chain.events import PredictionFinished, ResultsReplaced, WaveSolved
-    from gripscale.questions.chain.run import title
+    from gripscale.questions.chain.view import title
 
     def print_event(event: Event) -> None:
         match event:
@@ -298,7 +298,7 @@ def _parts(
     from gripscale.questions.chain.run import DYNAMIC
     from gripscale.questions.chain.view import PredictionView
     from gripscale.questions.compare.page import judgement
-    from gripscale.questions.cut_off.page import cut_off_basis, rules_table
+    from gripscale.questions.cut_off.question import CutOff
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
     from gripscale.questions.vary.page_side_by_side import effects_table
@@ -321,7 +321,8 @@ def _parts(
     sampled = stored_uncertainty(target)
     parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
     if answer.curve is not None:
-        parts += ["", *cut_off_basis(answer.curve), rules_table(answer.curve)]
+        curve = CutOff(answer.curve)
+        parts += ["", *curve.basis, curve.rules_table()]
     return parts, heat
 
 

@@ -30,11 +30,11 @@ from gripscale.questions.answer.reliance import (
     is_solved,
     no_answer,
 )
-from gripscale.questions.chain.view import HEADINGS, SYMBOLS
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import rubber_section, surface_section
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
+from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section

@@ -14,12 +14,13 @@ from gripscale import model
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.provenance import versions
+from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import NONE
 from gripscale.questions.answer.findings import LARGE_MISFIT, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards
 from gripscale.questions.answer.reliance import friction_sentence, has_answer, no_answer
-from gripscale.questions.chain.view import CONVERGED_WORD, PredictionView
+from gripscale.questions.chain.view import PredictionView
 from gripscale.report.elements import Card, number_text, percent_text
 from gripscale.report.failures import Failure, chapter_words
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
@@ -155,7 +156,7 @@ def _failures(view: PredictionView) -> Iterator[str]:
         ).rstrip()
     if view.complete or not view.converged.all():
         return
-    if view.status != CONVERGED_WORD:
+    if view.status != CONVERGED:
         advice = _advice(view.status_word)
         yield f"{view.title}: {view.status}. There are no totals. {advice}".rstrip()
     else:

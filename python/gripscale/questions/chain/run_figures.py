@@ -15,11 +15,12 @@ from gripscale.questions.chain import charts as wave_and_chain
 from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
 from gripscale.questions.chain.run import planned
-from gripscale.questions.chain.view import JUDGE, PredictionView
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.record import excited
+from gripscale.questions.words import JUDGE
 
 if TYPE_CHECKING:
     from gripscale.case import Case

@@ -16,7 +16,7 @@ from gripscale.questions.chain.page import wave_tables
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare import page as comparison
-from gripscale.questions.cut_off import page as cut_off
+from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.uncertainty import page as uncertainty
 from gripscale.questions.vary import page_side_by_side as side_by_side
@@ -73,7 +73,11 @@ def run_page(run: RunSource) -> Page:
             Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
-            Section("cut-off", "Against the cut-off", cut_off.cut_off_elements(run.cut_off)),
+            Section(
+                "cut-off",
+                "Against the cut-off",
+                [] if run.cut_off is None else CutOff(run.cut_off).elements(),
+            ),
             Section("effects", "What each effect is worth", effects_elements(run.effects)),
             Section(
                 "blocks",

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw
 from gripscale.charts.chart import (
     CrossLine,
     Mark,
@@ -18,7 +17,6 @@ from gripscale.charts.chart import (
     Sheet,
     wavelength_axis,
 )
-from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI
 from gripscale.questions.cut_off.curve import (
@@ -36,20 +34,22 @@ _SAME = 0.01
 """Relative distance of two rules that lie on each other in a figure."""
 
 
-def cut_off_charts(data: xr.Dataset) -> list[Chart]:
-    """Return the panels as charts of the page."""
-    return draw.panels_on_page(_panels(data))
-
-
 def cut_off_sheet(data: xr.Dataset) -> Sheet:
     """Describe friction, contact and the slope in contact over the same cut-offs."""
     layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
     return Sheet(
-        _panels(data), 1, WIDE, 6.6, gap=0.03, legend="above", legend_columns=2, layout=layout
+        cut_off_panels(data),
+        1,
+        WIDE,
+        6.6,
+        gap=0.03,
+        legend="above",
+        legend_columns=2,
+        layout=layout,
     )
 
 
-def _panels(data: xr.Dataset) -> list[Panel]:
+def cut_off_panels(data: xr.Dataset) -> list[Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
     axis = wavelength_axis(lengths)

@@ -33,11 +33,6 @@ _EFFECTS = {
 }
 
 
-def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
-    """Return the panels as charts of the page."""
-    return draw.panels_on_page(_panels(data))
-
-
 def height_charts(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
     """Return what heights of the surface are worth; nothing where something is varied."""
     return draw.panels_on_page(
@@ -61,10 +56,10 @@ def _traces(data: xr.Dataset, inputs: xr.Dataset) -> list[tuple[str, xr.Dataset]
 def sensitivity_figure(data: xr.Dataset) -> Figure:
     """Draw master curve and derivatives of the friction over the same frequencies."""
     layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
-    return Sheet(_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
+    return Sheet(sensitivity_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
 
 
-def _panels(data: xr.Dataset) -> list[Panel]:
+def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
     """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
     omega = data.modulus_frequency.values
     listed = list(points(data))

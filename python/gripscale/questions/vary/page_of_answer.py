@@ -14,9 +14,9 @@ from gripscale.io.table import least_to_most, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
 from gripscale.questions.answer.best_estimate import IsotropicSurface
 from gripscale.questions.answer.reliance import WORTH_NAMING
-from gripscale.questions.chain.view import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
+from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.elements import Card, percent_text
 
 _SAME = 0.03
