@@ -18,25 +18,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, Mask
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.task import Task
 from gripscale.half_space import location
-from gripscale.model import (
-    ADHESIVE_FRICTION,
-    BASIS,
-    CUT_OFF_EXPONENTS,
-    NOT_TOLD,
-    OUTSIDE_BAND,
-    STATUS,
-    STATUS_WORD,
-    WHY_NO_EXPONENT,
-    cut_off_exponents_of,
-    error_of_total,
-    extrapolation_of,
-    status_words,
-)
 from gripscale.questions.answer.intervals import LogError
 
 SAMPLED_QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
@@ -61,8 +48,8 @@ def sample_numbers(
     """
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
-    numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
-    for name in BASIS:
+    numbers |= {f"{name}_error": model.error_of_total(answer, name) for name in SMOOTH}
+    for name in model.BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
     for share in location.SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
@@ -70,19 +57,21 @@ def sample_numbers(
     if rest:
         numbers |= {name: 0.0 * numbers[name] for name in SAMPLED_QUANTITIES if "friction" in name}
         numbers["friction_error"] = math.nan
-    if ADHESIVE_FRICTION in answer or conditions is None:
-        numbers["adhesive_friction"] = float(answer.get(ADHESIVE_FRICTION, math.nan))
+    if model.ADHESIVE_FRICTION in answer or conditions is None:
+        numbers["adhesive_friction"] = float(answer.get(model.ADHESIVE_FRICTION, math.nan))
     else:
         load, kelvin = task.load, task.rubber.reference_temperature
         numbers["adhesive_friction"] = conditions.adhesive_friction(
             numbers["contact_fraction"], load.pressure, load.speed, kelvin
         )
-    beyond, exponents = extrapolation_of(answer), cut_off_exponents_of(answer)
-    numbers |= {name: getattr(beyond, part) for name, (part, _) in OUTSIDE_BAND.items()}
-    numbers |= {name: getattr(exponents, part) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
-    numbers[WHY_NO_EXPONENT] = exponents.why_not
-    numbers[STATUS] = str(answer[STATUS].item())
-    numbers[STATUS_WORD] = str(status_words(answer).item())
+    beyond, exponents = model.extrapolation_of(answer), model.cut_off_exponents_of(answer)
+    numbers |= {name: getattr(beyond, part) for name, (part, _) in model.OUTSIDE_BAND.items()}
+    numbers |= {
+        name: getattr(exponents, part) for name, (part, _) in model.CUT_OFF_EXPONENTS.items()
+    }
+    numbers[model.WHY_NO_EXPONENT] = exponents.why_not
+    numbers[model.STATUS] = str(answer[model.STATUS].item())
+    numbers[model.STATUS_WORD] = str(model.status_words(answer).item())
     return xr.Dataset(numbers | _curve(answer))
 
 
@@ -293,14 +282,14 @@ def _present(samples: xr.Dataset) -> Mask:
 
 def outside_band(samples: xr.Dataset) -> xr.Dataset:
     """Return what of the mean friction rests on the rubber beyond its measured frequencies."""
-    share, below, above = (usable(samples, name) for name in OUTSIDE_BAND)
+    share, below, above = (usable(samples, name) for name in model.OUTSIDE_BAND)
     weight, there = abs(usable(samples, "friction")), converged(samples)
     total = _sum(weight, there)
     # a sample without friction has no share, and adds none
     mean = _sum(weight * share.where(weight > 0.0, 0.0), there) / total.where(total > 0.0)
     mean = mean.where(((share != 0.0) & there).any("sample"), 0.0)
     parts = (mean, below.max("sample"), above.max("sample"))
-    return xr.Dataset(dict(zip(OUTSIDE_BAND, parts, strict=True))).where(there.any("sample"))
+    return xr.Dataset(dict(zip(model.OUTSIDE_BAND, parts, strict=True))).where(there.any("sample"))
 
 
 def _sum(values: xr.DataArray, there: xr.DataArray) -> xr.DataArray:
@@ -315,22 +304,22 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
     """
     there = converged(samples)
     data: dict[str, Any] = {}
-    for name, (quantity, _) in CUT_OFF_EXPONENTS.items():
+    for name, (quantity, _) in model.CUT_OFF_EXPONENTS.items():
         weight = usable(samples, quantity)
         total = _sum(weight, there)
         mean = _sum(weight * samples[name], there) / total.where(total != 0.0)
         data[name] = mean.where(there.any("sample"))
-    texts = samples[WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
+    texts = samples[model.WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
     first = texts.isel(sample=0).copy(deep=True)
     for at in np.ndindex(first.shape):
         first.values[at] = next(filter(None, texts.values[at]), "")
-    data[WHY_NO_EXPONENT] = first.where(there.any("sample"), NOT_TOLD.why_not)
+    data[model.WHY_NO_EXPONENT] = first.where(there.any("sample"), model.NOT_TOLD.why_not)
     return xr.Dataset(data)
 
 
 def status(samples: xr.Dataset) -> xr.DataArray:
     """Return "converged", or how many samples did not and what the first of them says."""
-    texts = samples[STATUS].transpose(..., "sample")
+    texts = samples[model.STATUS].transpose(..., "sample")
     words = np.empty(texts.shape[:-1], dtype=object)
     for at in np.ndindex(words.shape):
         present = [text for text in texts.values[at] if text]
@@ -343,8 +332,8 @@ def status(samples: xr.Dataset) -> xr.DataArray:
 
 def status_word(samples: xr.Dataset) -> xr.DataArray:
     """Return the word of the status of the first sample that did not converge, or "converged"."""
-    texts = samples[STATUS].transpose(..., "sample")
-    of_samples = status_words(samples).transpose(..., "sample")
+    texts = samples[model.STATUS].transpose(..., "sample")
+    of_samples = model.status_words(samples).transpose(..., "sample")
     words = np.empty(texts.shape[:-1], dtype=object)
     for at in np.ndindex(words.shape):
         pairs = zip(texts.values[at], of_samples.values[at], strict=True)

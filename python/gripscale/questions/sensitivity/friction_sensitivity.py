@@ -32,7 +32,7 @@ from gripscale.experiment.design import (
     variable_attributes,
 )
 from gripscale.experiment.task import Task
-from gripscale.half_space.location import PREFIX, contact_trace, with_traces
+from gripscale.half_space.location import contact_trace, trace_variables, with_traces
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.model import STATUS
@@ -171,8 +171,7 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 
 def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
-    traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
-    kept = answer[[*_derivatives_of(answer), *traces]]
+    kept = answer[[*_derivatives_of(answer), *trace_variables(answer)]]
     return surface_numbers(answer, task).assign(kept.variables)
 
 
