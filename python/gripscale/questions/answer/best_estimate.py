@@ -117,7 +117,7 @@ def best_estimate(
         if upper_height is not None:
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(samples, upper_height)
         for factor in supplied:
-            factors[factor.name] = factor.label, _stated(factor, unknown)
+            factors[factor.name] = factor.label, _numbers_of(factor, unknown)
     labels = [label for label, _ in factors.values()]
     solved = [_where_all_known(numbers) for _, numbers in factors.values()]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
@@ -187,11 +187,11 @@ def _finite_strain(samples: xr.Dataset, unknown: xr.DataArray) -> tuple[str, Fac
             changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
             numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
     if not numbers or any(bool(value.isnull().any()) for value, _ in numbers.values()):
-        return ASSUMED_FINITE_STRAIN.label, _stated(ASSUMED_FINITE_STRAIN, unknown)
+        return ASSUMED_FINITE_STRAIN.label, _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
     return "finite strain", numbers
 
 
-def _stated(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
+def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
         number: LogNormalValue = getattr(factor, name)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import xarray as xr
 
 from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.io.table import Table
+from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.reliance import has_answer
 from gripscale.questions.calibration.page_of_measured import measured_lines
@@ -21,7 +23,7 @@ from gripscale.questions.inputs import page as inputs
 from gripscale.questions.uncertainty import page as uncertainty
 from gripscale.questions.vary import page_side_by_side as side_by_side
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import Element, Page, Section, Text
+from gripscale.report.elements import Element, Facts, Page, Section, Text, number_text
 from gripscale.report.equations import method_section
 from gripscale.surface import SineStack
 
@@ -49,8 +51,8 @@ def run_page(run: RunSource) -> Page:
     blocks = ("surface_x", "surface_pressure", "mesh_x")
     meshed = [view for view in run.predictions if all(view.has(name) for name in blocks)]
     waves = _waves(run)
-    moving = next((view for view in run.by_wave if view.moving), None)
-    origin: list[Element] = [inputs.load_facts(run)]
+    moving = next((view.data for view in run.by_wave if view.moving), None)
+    origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
     return Page.of(
@@ -70,7 +72,11 @@ def run_page(run: RunSource) -> Page:
                 "Surface",
                 [] if waves is None else inputs.surface_section(run.record, waves),
             ),
-            Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
+            Section(
+                "rubber",
+                "Rubber",
+                inputs.rubber_section(run.record, moving),
+            ),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
             Section(
@@ -90,6 +96,41 @@ def run_page(run: RunSource) -> Page:
             rerun_section(run.attrs),
         ],
         () if run.direct is None else answer.basis_lines(run.direct),
+    )
+
+
+def _load_facts(run: RunSource) -> Facts:
+    """Return load, rubber, surface and model in words."""
+    attrs, data = run.attrs, run.data
+    first = run.predictions[0]
+
+    def text(name: str, value: float) -> str:
+        display_unit = first.display_unit(name)
+        return f"{number_text(display_unit.of(value))} {display_unit.unit}"
+
+    speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
+    if any(not view.moving for view in run.predictions):
+        speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
+    model = str(attrs.get("model", NONE))
+    if "wave_solver" in data:
+        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
+        model += f", waves by {', '.join(solvers)}"
+    record = run.record
+    source = inputs.without_folder(str(attrs.get("rubber_source", attrs.get("rubber", ""))))
+    # of a strain energy such as "MooneyRivlin(share=0.2)" the name in words, and its parameters
+    law, _, parameters = record.text("strain_energy").partition("(")
+    energy = "-".join(re.findall(r"[A-Z][a-z]+", law)) or law or NONE
+    return Facts(
+        "Load and model",
+        [
+            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
+            ("Sliding speed", speeds),
+            ("Footprint", text("footprint", float(data["footprint"]))),
+            ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
+            ("Model", model.replace("_", " ")),
+            ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
+            ("Method", str(attrs.get("method", NONE))),
+        ],
     )
 
 

@@ -31,8 +31,6 @@ from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
 
 if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
-    from gripscale.questions.chain.run_folder import RunSource
-    from gripscale.questions.chain.view import PredictionView
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
@@ -271,41 +269,6 @@ def _end(end: End, plateau: str) -> str:
     return f"{significant(end.modulus / MEGA)} MPa ({kind})"
 
 
-def load_facts(run: RunSource) -> Facts:
-    """Return load, rubber, surface and model in words."""
-    attrs, data = run.attrs, run.data
-    first = run.predictions[0]
-
-    def text(name: str, value: float) -> str:
-        display_unit = first.display_unit(name)
-        return f"{number_text(display_unit.of(value))} {display_unit.unit}"
-
-    speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
-    if any(not view.moving for view in run.predictions):
-        speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
-    model = str(attrs.get("model", NONE))
-    if "wave_solver" in data:
-        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
-        model += f", waves by {', '.join(solvers)}"
-    record = run.record
-    source = without_folder(str(attrs.get("rubber_source", attrs.get("rubber", ""))))
-    # of a strain energy such as "MooneyRivlin(share=0.2)" the name in words, and its parameters
-    law, _, parameters = record.text("strain_energy").partition("(")
-    energy = "-".join(re.findall(r"[A-Z][a-z]+", law)) or law or NONE
-    return Facts(
-        "Load and model",
-        [
-            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
-            ("Sliding speed", speeds),
-            ("Footprint", text("footprint", float(data["footprint"]))),
-            ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
-            ("Model", model.replace("_", " ")),
-            ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
-            ("Method", str(attrs.get("method", NONE))),
-        ],
-    )
-
-
 def without_folder(text: str) -> str:
     """Return `text` with only the names of absolute paths in it: folders are of one machine."""
     parts = re.split(r"(; |, |: |\n)", text)
@@ -520,14 +483,13 @@ def surface_section(record: InputRecord, waves: SineStack | None = None) -> list
     return [*elements, waves_table(waves.wavelength, waves.amplitude)]
 
 
-def rubber_section(record: InputRecord, moving: PredictionView | None = None) -> list[Element]:
+def rubber_section(record: InputRecord, moving: xr.Dataset | None = None) -> list[Element]:
     """Return facts, moduli with their fit and Prony series of a rubber.
 
     `moving` is a prediction of the chain in motion, whose waves are marked.
     """
     if not record.has("equilibrium_modulus_Pa"):
         return []
-    charts = rubber_charts(record.data, moving)
-    elements: list[Element] = [rubber_facts(record), *charts]
     times, moduli = record.relaxation_times
-    return [*elements, prony_table(times, moduli)] if np.size(times) else elements
+    series = [prony_table(times, moduli)] if np.size(times) else []
+    return [rubber_facts(record), *rubber_charts(record.data, moving), *series]
