@@ -62,9 +62,11 @@ def _of_waves(
     """Yield a warning of the flagged waves; `error` is the relative one of their friction."""
     waves = _named_waves(flagged)
     if waves:
-        yield Finding(
-            Severity.WARNING, f"{waves}: {words}.", _in_total(view, flagged * error), topic=doubt
-        )
+        in_total = math.nan
+        if view.moving and view.complete:
+            friction = view.column("friction")
+            in_total = float(flagged * error @ friction / friction.sum())
+        yield Finding(Severity.WARNING, f"{waves}: {words}.", in_total, topic=doubt)
 
 
 def _named_waves(flagged: np.ndarray) -> str:
@@ -72,14 +74,6 @@ def _named_waves(flagged: np.ndarray) -> str:
     if len(numbers) > 1 and len(numbers) == flagged.size:
         return f"All {len(numbers)} waves"
     return f"Wave{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}" if numbers else ""
-
-
-def _in_total(view: PredictionView, error: np.ndarray) -> float:
-    """Return what relative errors of the frictions of the waves make of their sum."""
-    if not (view.moving and view.complete):
-        return math.nan
-    friction = view.column("friction")
-    return float(error @ friction / friction.sum())
 
 
 def _share(value: float) -> str:
@@ -142,28 +136,24 @@ def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
 
 def run_failures(run: RunSource) -> Iterator[Finding]:
     """Yield what has no numbers in a run: waves and predictions."""
-    yield from (
-        Finding(Severity.ERROR, text) for view in run.predictions for text in _failures(view)
-    )
-
-
-def _failures(view: PredictionView) -> Iterator[str]:
-    for i in np.flatnonzero(~view.converged):
-        why, word = view.why(int(i)), str(view.data["status"].values[i])
-        yield (
-            f"{view.title}: wave {i + 1} did NOT converge ({why}). Its numbers are not to be "
-            f"used, the waves after it were not solved, and there are no totals. {_advice(word)}"
-        ).rstrip()
-    if view.complete or not view.converged.all():
-        return
-    if view.status != CONVERGED:
-        advice = _advice(view.status_word)
-        yield f"{view.title}: {view.status}. There are no totals. {advice}".rstrip()
-    else:
-        yield (
-            f"{view.title}: the run ended after wave {view.waves} of {view.planned}. The totals "
-            "would lack the smaller waves and are not shown; run the case again."
+    for view in run.predictions:
+        text = ""
+        for i in np.flatnonzero(~view.converged):
+            text = (
+                f"wave {i + 1} did NOT converge ({view.why(int(i))}). Its numbers are not to be "
+                "used, the waves after it were not solved, and there are no totals. "
+                f"{_advice(str(view.data['status'].values[i]))}"
+            )
+            yield Finding(Severity.ERROR, f"{view.title}: {text}".rstrip())
+        if view.complete or text:
+            continue
+        text = (
+            f"the run ended after wave {view.waves} of {view.planned}. The totals would lack the "
+            "smaller waves and are not shown; run the case again."
         )
+        if view.status != CONVERGED:
+            text = f"{view.status}. There are no totals. {_advice(view.status_word)}"
+        yield Finding(Severity.ERROR, f"{view.title}: {text}".rstrip())
 
 
 def _advice(word: str) -> str:

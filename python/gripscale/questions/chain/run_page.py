@@ -50,7 +50,10 @@ def run_page(run: RunSource) -> Page:
     stale = run.uncertainty is not None and run.own_uncertainty is None
     blocks = ("surface_x", "surface_pressure", "mesh_x")
     meshed = [view for view in run.predictions if all(view.has(name) for name in blocks)]
-    waves = _waves(run)
+    surface: list[Element] = []
+    if "sines_wavelength" in run.data:
+        waves = SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
+        surface = inputs.surface_section(run.record, waves)
     moving = next((view.data for view in run.by_wave if view.moving), None)
     origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
@@ -67,11 +70,7 @@ def run_page(run: RunSource) -> Page:
                 [] if run.direct is None else answer.contact_elements(run.direct, run.record),
             ),
             Section("inputs", "Inputs and their origin", origin),
-            Section(
-                "surface",
-                "Surface",
-                [] if waves is None else inputs.surface_section(run.record, waves),
-            ),
+            Section("surface", "Surface", surface),
             Section(
                 "rubber",
                 "Rubber",
@@ -132,12 +131,6 @@ def _load_facts(run: RunSource) -> Facts:
             ("Method", str(attrs.get("method", NONE))),
         ],
     )
-
-
-def _waves(run: RunSource) -> SineStack | None:
-    if "sines_wavelength" not in run.data:
-        return None
-    return SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
 
 
 def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:

@@ -7,16 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import (
-    CrossLine,
-    Mark,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-    wavelength_axis,
-)
+from gripscale.charts import chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI
 from gripscale.questions.cut_off.curve import (
@@ -34,10 +25,10 @@ _SAME = 0.01
 """Relative distance of two rules that lie on each other in a figure."""
 
 
-def cut_off_sheet(data: xr.Dataset) -> Sheet:
+def cut_off_sheet(data: xr.Dataset) -> chart.Sheet:
     """Describe friction, contact and the slope in contact over the same cut-offs."""
     layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
-    return Sheet(
+    return chart.Sheet(
         cut_off_panels(data),
         1,
         WIDE,
@@ -49,16 +40,18 @@ def cut_off_sheet(data: xr.Dataset) -> Sheet:
     )
 
 
-def cut_off_panels(data: xr.Dataset) -> list[Panel]:
+def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
-    axis = wavelength_axis(lengths)
-    axis = PlotAxis("cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high)
+    axis = chart.wavelength_axis(lengths)
+    axis = chart.PlotAxis(
+        "cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high
+    )
     rules = list(_rules(data))
     panels = []
     for name, (label, colour, title) in _CURVES.items():
-        marks: list[Mark] = [
-            ShadedBand(
+        marks: list[chart.Mark] = [
+            chart.ShadedBand(
                 lengths,
                 data[f"{name}_lower"].values,
                 data[f"{name}_upper"].values,
@@ -69,9 +62,9 @@ def cut_off_panels(data: xr.Dataset) -> list[Panel]:
             *rules,
         ]
         panels.append(
-            Panel(
+            chart.Panel(
                 axis,
-                PlotAxis(label, log=name == AREA, low=None if name == AREA else 0.0),
+                chart.PlotAxis(label, log=name == AREA, low=None if name == AREA else 0.0),
                 marks,
                 name=f"cut-off-{'friction' if name == FRICTION else 'area'}",
                 caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
@@ -79,15 +72,15 @@ def cut_off_panels(data: xr.Dataset) -> list[Panel]:
                 alt=f"{title} against the shortest wavelength of the road.",
             )
         )
-    slope: list[Mark] = [
+    slope: list[chart.Mark] = [
         *_curve(data, SLOPE_IN_CONTACT, GREY, labelled=False),
-        CrossLine(CONTACT_SLOPE),
-        *(CrossLine(rule.at, rule.colour, "", "dashed", 0.9, upright=True) for rule in rules),
+        chart.CrossLine(CONTACT_SLOPE),
+        *(chart.CrossLine(rule.at, rule.colour, "", "dashed", 0.9, upright=True) for rule in rules),
     ]
     panels.append(
-        Panel(
+        chart.Panel(
             axis,
-            PlotAxis("rms slope in contact [-]", low=0.0),
+            chart.PlotAxis("rms slope in contact [-]", low=0.0),
             slope,
             name="cut-off-slope",
             caption="Rms slope of the road where it touches: small strain ends near 1.",
@@ -97,7 +90,7 @@ def cut_off_panels(data: xr.Dataset) -> list[Panel]:
     return panels
 
 
-def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Iterator[Mark]:
+def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Iterator[chart.Mark]:
     """Yield a curve, solid where it was measured and dotted where it is continued."""
     lengths, values = data.cut_off.values / MILLI, data[name].values
     measured = data.curve_measured.values.astype(bool)
@@ -107,7 +100,7 @@ def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Itera
         (below, "dotted", "continued roughness"),
     ):
         if where.any():
-            yield Series(
+            yield chart.Series(
                 lengths[where],
                 values[where],
                 colour,
@@ -118,7 +111,7 @@ def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Itera
             )
 
 
-def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
+def _rules(data: xr.Dataset) -> Iterator[chart.CrossLine]:
     """Yield the rules of cut-off that lie on the axis; those at the same place are one line."""
     first, last = data.cut_off.values[[0, -1]]
     names: dict[float, list[str]] = {}
@@ -129,4 +122,4 @@ def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
     for i, (at, alike) in enumerate(names.items()):
         colour = COLOURS[(i + 2) % len(COLOURS)]
         label = f"{', '.join(alike)}: {at / MILLI:.2g} mm"
-        yield CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)
+        yield chart.CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)

@@ -91,12 +91,13 @@ class FrictionSensitivity(DirectContact):
         answer = super().predict(rubber, surface, load, on_progress=keep)
         if answer[STATUS].item() != CONVERGED:
             return answer
+        shifted_to = None if rubber.shift is None else rubber.reference_temperature
         parts = [
             contact_sensitivity(
                 contact,
                 bands_per_decade=self.bands_per_decade,
                 contact_fraction=self.contact_fraction,
-                reference_temperature=_shifted_to(rubber),
+                reference_temperature=shifted_to,
             )
             for contact in contacts
         ]
@@ -142,11 +143,6 @@ class FrictionSensitivity(DirectContact):
             )
             for name, value in derivatives.items()
         }
-
-
-def _shifted_to(rubber: Rubber) -> float | None:
-    """Return the temperature that frequencies are shifted to [K], of a rubber with a shift."""
-    return rubber.reference_temperature if rubber.shift is not None else None
 
 
 def _derivatives_of(data: xr.Dataset) -> list[str]:
