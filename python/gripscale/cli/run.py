@@ -122,9 +122,10 @@ def _run(
     """Prepare, solve, print and write a case, with an event for each step."""
     from gripscale.case_file import read_case
     from gripscale.case_file.finished import case_replaced, note_finished
+    from gripscale.questions.chain.charts import effects_sheet, heat_sheet
     from gripscale.questions.chain.events import FileWritten
     from gripscale.questions.chain.run import ChainRun
-    from gripscale.questions.chain.run_figures import background_figures, draw_effects, draw_heat
+    from gripscale.questions.chain.run_figures import background_figures
     from gripscale.report.failures import explained
     from gripscale.report.summary import SUMMARY_FILE as SUMMARY
 
@@ -142,9 +143,9 @@ def _run(
 
         def draw_conditions() -> None:
             if heat is not None:
-                draw_heat(heat, figures)
+                figures.save(heat_sheet(heat), "heat")
             if effects is not None:
-                draw_effects([effects], figures)
+                figures.save(effects_sheet(effects), "effects")
 
         terminal.conclude(
             console,
@@ -202,6 +203,7 @@ def _solve(
     from gripscale.questions.cut_off.question import cut_off_result
     from gripscale.questions.vary.effects import EFFECTS_FILE as EFFECTS
     from gripscale.questions.vary.effects import case_effects
+    from gripscale.questions.vary.inputs import effects_asked
 
     case, target = chain.case, chain.folder
     assert target is not None
@@ -216,13 +218,14 @@ def _solve(
         run_case(file, output=target, on_event=on_event, run=chain)
         if answer.is_solved:
             answer.save(target / ANSWER)
-            emit(AnswerSolved.of(answer))
+            converged = answer.status == "converged"
+            emit(AnswerSolved(converged, answer.contact_fraction, answer.friction))
             emit(FileWritten(str(target / ANSWER)))
         if answer.curve is not None:
             cut_off_result(answer.curve, case).save(target / "cut_off.nc")
         effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
         if effects is not None:
-            emit(EffectsSolved.of(effects))
+            emit(EffectsSolved(tuple(effects_asked(case.chain))))
             emit(FileWritten(str(target / EFFECTS.format(model=case.chain.name))))
     return effects
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from gripscale.charts.figure_folder import FigureProcess, Figures
 from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
-from gripscale.questions.chain import charts as wave_and_chain
+from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
 from gripscale.questions.chain.run import planned
@@ -83,7 +81,7 @@ def draw_contact(run: ChainRun, figures: Figures) -> None:
     titles = {PredictionView(data).title.lower(): data for data in predictions}
     if run.answer is not None and run.answer.is_solved:
         titles[JUDGE] = run.answer.data
-    figures.save(wave_and_chain.contact_sheet(titles), "contact_and_friction")
+    figures.save(contact_sheet(titles), "contact_and_friction")
     if run.answer is not None and run.answer.curve is not None:
         figures.save(cut_off_sheet(run.answer.curve), "cut_off")
 
@@ -95,13 +93,3 @@ def draw_direct(answer: Answer, figures: Figures) -> None:
     """
     for name, trace in named_traces(answer.data, profile_names(answer.inputs))[:1]:
         figures.save(trace_sheet(trace, name), "direct_contact")
-
-
-def draw_heat(data: xr.Dataset, figures: Figures) -> None:
-    """Draw the temperature of each wave of a chain."""
-    figures.save(wave_and_chain.heat_sheet(data), "heat")
-
-
-def draw_effects(results: Sequence[xr.Dataset], figures: Figures) -> None:
-    """Draw what each effect of the conditions is worth."""
-    figures.save(wave_and_chain.effects_sheet(*results), "effects")

@@ -26,7 +26,7 @@ from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
-from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
+from gripscale.rubber.material import BEYOND, End, fast_end, slow_end
 from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
 
 if TYPE_CHECKING:
@@ -413,44 +413,16 @@ def input_sections(data: xr.Dataset) -> list[Section]:
 
 
 def rubbers_of(data: xr.Dataset) -> list[Rubber]:
-    """Return the rubbers of a study from their exact parameters, without strain energy and shift.
-
-    None of a file that does not hold them.
-    """
-    rubbers = []
-    for values in json.loads(str(data.attrs.get("rubber_parameters", "[]"))):
-        names = ("equilibrium_modulus", "moduli", "relaxation_times", "bulk_modulus")
-        exact = {name: _from_hex(values[name]) for name in names}
-        series = values.get("admissible") or {}
-        parts = ("relaxation_times", "equilibrium_moduli", "moduli")
-        others = [_from_hex(series[name]) for name in parts if isinstance(series.get(name), list)]
-        rubbers.append(
-            Rubber(
-                **exact,
-                name=values.get("name", ""),
-                valid_band=_from_hex(values.get("valid_band")),
-                admissible=AdmissibleSeries(*others) if len(others) == len(parts) else None,
-                reference_temperature=_from_hex(values.get("reference_temperature")),
-            )
-        )
-    return rubbers
-
-
-def _from_hex(value: Any) -> Any:
-    """Return the numbers of which hexadecimal texts were written."""
-    if isinstance(value, list):
-        return [_from_hex(part) for part in value]
-    return float.fromhex(value) if isinstance(value, str) else value
+    """Return the rubbers of a study; none of a file that does not hold them."""
+    return list(map(Rubber.from_dict, json.loads(data.attrs.get("rubber_parameters", "[]"))))
 
 
 def _rubber_facts(rubber: Rubber, name: str) -> Facts:
     """Return what a rubber of a study is."""
+    relaxed, glassy = rubber.equilibrium_modulus, rubber.glassy_modulus
     pairs = [
-        (
-            "Relaxed modulus of the series",
-            f"{number_text(rubber.equilibrium_modulus, MEGA)} MPa",
-        ),
-        ("Glassy modulus of the series", f"{number_text(rubber.glassy_modulus, MEGA)} MPa"),
+        ("Relaxed modulus of the series", f"{number_text(relaxed, MEGA)} MPa"),
+        ("Glassy modulus of the series", f"{number_text(glassy, MEGA)} MPa"),
         ("Bulk modulus", f"{number_text(rubber.bulk_modulus, GIGA)} GPa"),
         ("Maxwell elements", str(len(rubber.moduli))),
     ]
