@@ -22,7 +22,7 @@ from gripscale.core.finding import Finding
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
-from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
+from gripscale.questions.answer.charts import named_traces, trace_sheet
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import (
@@ -107,7 +107,7 @@ class Answer(NumbersWithIntervals):
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         if self.is_solved:
-            for name, trace in named_traces(self.data, profile_names(self.inputs))[:1]:
+            for name, trace in named_traces(self.data, self.inputs)[:1]:
                 yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:

@@ -6,7 +6,6 @@ All are drawn from a trace (`gripscale.half_space.location.contact_trace`), whic
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +33,8 @@ DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST, LOWEST = 0.15, 0.2
 """Least height of the stretch to scale and what it shows below its contact, over its length."""
+NamedTrace = tuple[str, xr.Dataset]
+"""Name of a profile and its trace."""
 PAGE = 420
 """Width of half a page [px]."""
 _ROW, FIELD_ROW, _BELOW, _HEAD = 1.15, 2.9, 0.32, 1.1
@@ -63,13 +64,15 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
     return trace_sheet(contact_trace(contact, stretch=stretch), length=stretch).on_paper()
 
 
-def named_traces(data: xr.Dataset, profiles: Sequence[str] = ()) -> list[tuple[str, xr.Dataset]]:
-    """Return the first few traces of a result with the names of their profiles.
+def named_traces(data: xr.Dataset, inputs: xr.Dataset | None = None) -> list[NamedTrace]:
+    """Return the first few traces of a result with the names of the profiles of its inputs.
 
-    Profiles are numbered where `profiles` does not tell them apart.
+    Profiles are numbered where their names do not tell them apart.
     """
     traces = traces_of(data)
-    names = [name for name in profiles if name]
+    names: list[str] = []
+    if inputs is not None and "profile_name" in inputs:
+        names = [str(name) for name in inputs["profile_name"].values if name]
     if len({_word(name) for name in names}) != len(traces):
         names = [f"profile {number}" for number in range(1, len(traces) + 1)]
     return [
@@ -78,23 +81,12 @@ def named_traces(data: xr.Dataset, profiles: Sequence[str] = ()) -> list[tuple[s
     ]
 
 
-def profile_names(inputs: xr.Dataset) -> list[str]:
-    """Return the names of the profiles of recorded inputs; empty without any."""
-    return [str(name) for name in inputs["profile_name"].values] if "profile_name" in inputs else []
-
-
 def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None) -> chart.Sheet:
     """Describe a trace on paper, its stretch of a length [m] or as short as the contact allows."""
     trace = _around_contact(trace, length)
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
     heights = [FIELD_ROW] * len(fields) + [_ROW] * len(lines) + [_drawn_height(close)]
     return _sheet([*fields, *lines, close], heights, title)
-
-
-def contact_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
-    """Return the traces of a result with its recorded inputs on the page; nothing without any."""
-    traces = named_traces(data, profile_names(inputs))
-    return [chart for name, trace in traces for chart in trace_charts(trace, name)]
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:

@@ -18,7 +18,7 @@ from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
-from gripscale.questions.answer.charts import contact_pictures
+from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.findings import no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.cut_off.curve import CONTINUED_TO
@@ -166,9 +166,11 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
 
 def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
     """Return the direct contact of the measured surface as pictures and by slope."""
-    if not (pictures := contact_pictures(direct, record.data)):
+    traces = named_traces(direct, record.data)
+    charts = [chart for name, trace in traces for chart in trace_charts(trace, name)]
+    if not charts:
         return []
-    first, *others = pictures
+    first, *others = charts
     return [Text(_PICTURE), first, *slopes_table(direct), *others]
 
 

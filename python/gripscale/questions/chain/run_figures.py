@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gripscale.charts.figure_folder import FigureProcess, Figures
-from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
 from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
@@ -91,5 +90,5 @@ def draw_direct(answer: Answer, figures: Figures) -> None:
 
     The page shows the others.
     """
-    for name, trace in named_traces(answer.data, profile_names(answer.inputs))[:1]:
-        figures.save(trace_sheet(trace, name), "direct_contact")
+    for name, figure in answer.figures():
+        figures.save(figure, name)

@@ -8,17 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw, style
+from gripscale.charts import style
 from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
-from gripscale.charts.page_elements import Chart, Picture
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
-from gripscale.questions.answer.charts import (
-    height_figure,
-    height_panels,
-    named_traces,
-    profile_names,
-)
+from gripscale.questions.answer.charts import NamedTrace, named_traces
 from gripscale.questions.sensitivity.friction_sensitivity import LOSS, STORAGE
 from gripscale.questions.vary.axis import dimensions, points
 
@@ -33,24 +27,9 @@ _EFFECTS = {
 }
 
 
-def height_charts(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
-    """Return what heights of the surface are worth; nothing where something is varied."""
-    return draw.panels_on_page(
-        panel for name, trace in _traces(data, inputs) for panel in height_panels(trace, name)
-    )
-
-
-def height_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Picture]:
-    """Return the same for the figures of a folder."""
-    return [
-        Picture(f"height_{number}", height_figure(trace, name), "", "")
-        for number, (name, trace) in enumerate(_traces(data, inputs), start=1)
-    ]
-
-
-def _traces(data: xr.Dataset, inputs: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    """Return the traces at the first point, with the names of the profiles of the inputs."""
-    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)), profile_names(inputs))
+def height_traces(data: xr.Dataset, inputs: xr.Dataset) -> list[NamedTrace]:
+    """Return the traces at the first point, which show what heights of the surface are worth."""
+    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)), inputs)
 
 
 def sensitivity_figure(data: xr.Dataset) -> Figure:

@@ -25,6 +25,7 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, on_page, percent
 from gripscale.model import STATUS, STATUS_WORD
+from gripscale.questions.answer.charts import height_figure, height_panels
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
@@ -179,8 +180,9 @@ class Sensitivity(Result):
     def figures(self) -> Iterator[tuple[str, Figure]]:
         if STORAGE in self.data:
             yield "sensitivity", charts.sensitivity_figure(self.data)
-            for picture in charts.height_pictures(self.data, self.inputs):
-                yield picture.name, picture.figure
+            traces = charts.height_traces(self.data, self.inputs)
+            for number, (name, trace) in enumerate(traces, start=1):
+                yield f"height_{number}", height_figure(trace, name)
 
     def page_content(self) -> Page:
         lead, *below = self.lines
@@ -192,7 +194,8 @@ class Sensitivity(Result):
                 detail = "of friction, at all frequencies"
                 cards.append(Card(f"1 % more {symbol}", on_page(f"{value} %"), detail))
         effects = as_elements([*below, *self.parts()])
-        heights = charts.height_charts(self.data, self.inputs)
+        traces = charts.height_traces(self.data, self.inputs)
+        heights = [panel for name, trace in traces for panel in height_panels(trace, name)]
         return Page.of(
             f"What decides the friction of {case_name(self.data.attrs) or 'a case'}",
             lead,
@@ -208,7 +211,7 @@ class Sensitivity(Result):
                     "Over the master curve",
                     [Text(_CURVES), *draw.panels_on_page(panels)],
                 ),
-                Section("heights", "Which heights count", heights),
+                Section("heights", "Which heights count", draw.panels_on_page(heights)),
                 rerun_section(self.data.attrs),
             ],
         )
