@@ -25,12 +25,7 @@ from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, trace_sheet
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
-from gripscale.questions.answer.reliance import (
-    answer_interval,
-    answer_number,
-    is_solved,
-    no_answer,
-)
+from gripscale.questions.answer.reliance import answer_interval, answer_number, is_solved, no_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result

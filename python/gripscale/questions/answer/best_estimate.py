@@ -57,10 +57,7 @@ class Factor:
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
 """Rungs whose ratio is the factor of finite strain."""
 ASSUMED_FINITE_STRAIN = Factor(
-    "finite_strain",
-    "finite strain, assumed",
-    LogNormalValue(1.0, 0.03),
-    LogNormalValue(1.0, 0.05),
+    "finite_strain", "finite strain, assumed", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
 """Where these rungs were not solved: what windows and blocks of other roads showed."""
 LINES_TO_SURFACE = "step from lines to a surface"

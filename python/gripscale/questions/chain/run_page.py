@@ -71,11 +71,7 @@ def run_page(run: RunSource) -> Page:
             ),
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", surface),
-            Section(
-                "rubber",
-                "Rubber",
-                inputs.rubber_section(run.record, moving),
-            ),
+            Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
             Section(

@@ -10,12 +10,7 @@ import xarray as xr
 from gripscale.charts import chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI
-from gripscale.questions.cut_off.curve import (
-    AREA,
-    CONTACT_SLOPE,
-    FRICTION,
-    SLOPE_IN_CONTACT,
-)
+from gripscale.questions.cut_off.curve import AREA, CONTACT_SLOPE, FRICTION, SLOPE_IN_CONTACT
 
 _CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),

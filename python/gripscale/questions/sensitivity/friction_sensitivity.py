@@ -26,11 +26,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import (
-    CONVERGED,
-    surface_numbers,
-    variable_attributes,
-)
+from gripscale.experiment.design import CONVERGED, surface_numbers, variable_attributes
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import contact_trace, trace_variables, with_traces
 from gripscale.half_space.model import DirectContact

@@ -207,9 +207,7 @@ class Sensitivity(Result):
             [
                 Section("effects", "What the friction depends on", effects),
                 Section(
-                    "curves",
-                    "Over the master curve",
-                    [Text(_CURVES), *draw.panels_on_page(panels)],
+                    "curves", "Over the master curve", [Text(_CURVES), *draw.panels_on_page(panels)]
                 ),
                 Section("heights", "Which heights count", draw.panels_on_page(heights)),
                 rerun_section(self.data.attrs),
