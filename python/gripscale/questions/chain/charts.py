@@ -333,12 +333,6 @@ BAR = 1.25
 """Left end of a bar over its wavelength, and that over its right end."""
 
 
-def require_warming(data: xr.Dataset) -> None:
-    """Raise `InputError` unless a chain's Dataset has temperatures of its waves."""
-    if not set(PARTS) <= set(data.data_vars) or "scale" not in data.dims:
-        raise InputError("data must be of a chain solved with heat; got one without temperatures")
-
-
 def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     """Draw by how much each wave of a chain is warmer than the rubber before the contact.
 
@@ -363,7 +357,8 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
 
 def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
     """Describe what `heat_figure` draws; arguments and errors are its own."""
-    require_warming(data)
+    if not set(PARTS) <= set(data.data_vars) or "scale" not in data.dims:
+        raise InputError("data must be of a chain solved with heat; got one without temperatures")
     data = data.isel(scale=np.isfinite(data.flash_temperature_rise_own.values))
     length = data.wavelength.values / MILLI
     above, below = np.zeros(length.size), np.zeros(length.size)

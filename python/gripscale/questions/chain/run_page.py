@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-import xarray as xr
-
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
@@ -55,6 +53,9 @@ def run_page(run: RunSource) -> Page:
         waves = SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
         surface = inputs.surface_section(run.record, waves)
     moving = next((view.data for view in run.by_wave if view.moving), None)
+    effects: list[Element] = []
+    if run.effects:
+        effects = [Text(_EFFECTS), side_by_side.effects_table(*run.effects)]
     origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
@@ -79,7 +80,7 @@ def run_page(run: RunSource) -> Page:
                 "Against the cut-off",
                 [] if run.cut_off is None else CutOff(run.cut_off).elements(),
             ),
-            Section("effects", "What each effect is worth", effects_elements(run.effects)),
+            Section("effects", "What each effect is worth", effects),
             Section(
                 "blocks",
                 "Deformed blocks",
@@ -132,7 +133,8 @@ def _load_facts(run: RunSource) -> Facts:
 def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:
     sentences = [(view.title, notices.exponent_sentence(view.data)) for view in run.predictions]
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
-    below += judgement_elements(run)
+    if run.direct is not None:
+        below.append(Text(" ".join(comparison.judgement(run.predictions[0], run.direct))))
     if not run.by_wave:
         return [Text("The model has no waves; its totals stand above."), *below]
     names = ("load", "contact", "conditions", "further")
@@ -152,18 +154,6 @@ def _measured(run: RunSource) -> list[Element]:
     first = sliding[0]
     lines = measured_lines(run.measured, first.speed, first.display_unit("speed"))
     return [measured_chart(run.measured, [*sliding, *direct]), *map(Text, lines)]
-
-
-def judgement_elements(run: RunSource) -> list[Element]:
-    """Return the direct contact of the profiles, and the first prediction against it."""
-    if run.direct is None:
-        return []
-    return [Text(" ".join(comparison.judgement(run.predictions[0], run.direct)))]
-
-
-def effects_elements(results: list[xr.Dataset]) -> list[Element]:
-    """Return the answers of each model with and without each effect; nothing without any."""
-    return [Text(_EFFECTS), side_by_side.effects_table(*results)] if results else []
 
 
 def _comparison(run: RunSource) -> list[Element]:
