@@ -93,17 +93,13 @@ def best_estimate(
     """Return the best estimate of the solved rungs.
 
     `upper_height` is that of measured lines (`gripscale.half_space.line_to_map`); None for a map.
-    `sampled` adds what is not known of the inputs to the interval.
+    `sampled` adds what is not known of the inputs to the interval. A `supplied` factor with the
+    name of a known one replaces it.
 
-    `best_contact_fraction` and `best_friction` with their relative standard `_uncertainty` and the
-    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
-    interval where the profiles are too short to tell how well they represent the road
-    (`_sampling_error`, the relative standard error; `_grid_error` is that of the grid).
-    `best_steep_share`, `best_missing_share`, and over `slope` `best_friction_by_slope`,
-    `best_load_by_slope`, `best_contact_by_slope` (`gripscale.half_space.shares_by_slope`). Over
-    `factor` the `_factor` on each with its `_factor_uncertainty`, NaN where it is not included, and
-    `factor_label`. No factors without the rung of the direct contact. A `supplied` factor with the
-    name of ours replaces it.
+    `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty` and the
+    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged or
+    where the profiles are too short to tell how well they represent the road (`_sampling_error`);
+    over `factor` the `_factor` on each with its `_factor_uncertainty`, NaN if not included.
     """
     has_direct = DIRECT in samples["rung"].values
     status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)

@@ -80,10 +80,9 @@ def direct_contact_design(
 
 
 def solve_direct_contact(case: Case) -> xr.Dataset | None:
-    """Return the direct contact of each profile of a case, with its trace for charts.
+    """Return the direct contact of each profile of a case over `sample`, with its trace.
 
-    Over `sample`, see `gripscale.questions.answer.samples`; None if no profile was measured. Raises
-    `InputError` if the direct contact cannot use the rubber or a profile.
+    None if no profile was measured; `InputError` for a rubber or profile that cannot be used.
     """
     design = direct_contact_design(case, case.load, traces=True)
     if design is None:

@@ -39,12 +39,11 @@ SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
 def sample_numbers(
     answer: xr.Dataset, task: Task, conditions: Conditions | None = None
 ) -> xr.Dataset:
-    """Return totals, their estimated errors, and curves by wavelength, of the answer of a task.
+    """Return totals, named without `total_`, their estimated errors, and curves by wavelength.
 
-    Totals are named without `total_`; `curve_contact_fraction` and `curve_friction` over `curve`
-    are those of all waves not shorter than `curve_wavelength`. At rest friction is zero: what
-    rounding leaves of it counts for nothing. Where the model does not know the area term of
-    `conditions`, it is that of its contact area at the temperature before the contact.
+    `curve_contact_fraction` and `curve_friction` over `curve` count all waves not shorter than
+    `curve_wavelength`. Friction at rest is zero. An area term of `conditions` that the model does
+    not know is that of its contact area at the temperature before the contact.
     """
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
@@ -78,9 +77,8 @@ def sample_numbers(
 def _curve(answer: xr.Dataset) -> dict[str, Any]:
     """Return area and friction down to each wavelength; nothing where the model has none.
 
-    The chain adds a wave at a time, in steps. The direct contact splits its friction by octave
-    (its area is that of another contact, without the shorter waves), the theories integrate: both
-    are interpolated in the logarithm of the wavelength.
+    The chain adds waves in steps; the direct contact, by octave, and the theories are interpolated
+    in the logarithm of the wavelength.
     """
     by_octave = "octave_running_friction" in answer
     if by_octave:
@@ -108,10 +106,9 @@ def curve_at(
 ) -> Array:
     """Return `contact_fraction` or `friction` of all waves not shorter than `at` [m].
 
-    Above the longest wave nothing of the surface counts yet; below the shortest no more is added;
-    NaN where the model has the wave and not the number. Of a curve of falling `wavelength` [m], NaN
-    beyond its end, and `values` [-], NaN where unknown; if `stepped` each wavelength is one wave,
-    and nothing lies between.
+    The curve has falling `wavelength` [m], NaN beyond its end, and `values` [-], NaN where unknown;
+    if `stepped`, nothing lies between its waves. Above the longest wave nothing counts yet, below
+    the shortest no more is added.
     """
     finite = np.isfinite(values) & np.isfinite(wavelength)
     if not finite.any():
@@ -176,10 +173,7 @@ def spread(values: xr.DataArray) -> xr.DataArray:
 
 
 def log_error_of_mean(values: xr.DataArray) -> xr.DataArray:
-    """Return the standard deviation of the logarithm of the mean over `sample`, by their scatter.
-
-    NaN for fewer than two values and for values not above zero.
-    """
+    """Return the standard error of the log of the mean; NaN for one value or values <= 0."""
     positive = ((values > 0.0) | values.isnull()).all("sample")
     error = spread(values) / values.count("sample") ** 0.5 / values.mean("sample")
     return error.where(positive)
@@ -199,12 +193,11 @@ def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def road_error(samples: xr.Dataset, name: str) -> LogError:
-    """Return how well the mean of a number stands for its road, with its degrees of freedom.
+    """Return how well the mean of a number over the samples of one rung stands for its road.
 
     From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
-    else from the scatter of the samples, of several subjects (profiles) from that of their means,
-    because samples of one of them say nothing of the others. `samples` is of one rung, with the
-    coordinate `subject` over `sample`; NaN where neither is known.
+    else from the scatter of the samples, or of the means of several subjects (profiles), because
+    samples of one subject say nothing of the others. NaN where neither is known.
     """
     values, there = usable(samples, name), converged(samples)
     of_piece = f"{name.removesuffix('_from_dissipation')}_sampling_error"
@@ -233,9 +226,8 @@ def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
 def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
     """Return the ratio of the means of two rungs, and its relative standard error.
 
-    Where both have one sample each of the same subjects, only subjects that both have count, and
-    the error is from the scatter of their ratios; else from the scatter of both. The truth is taken
-    to lie evenly within the errors that the models estimate.
+    The error is from the scatter of the ratios of subjects that both have, or else from the scatter
+    of both; the truth lies evenly within the errors that the models estimate.
     """
     if not paired(over, under):
         means = [usable(samples, name).mean("sample") for samples in (over, under)]
@@ -256,10 +248,7 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
 
 
 def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
-    """Return what the scatter of the ratios of the same subjects says of the ratio of the means.
-
-    Only subjects that converged in both count; NaN for fewer than two, or values not above zero.
-    """
+    """Return the error of a ratio of means by the scatter of the ratios of the same subjects."""
     both = converged(over) & converged(under)
     upper, lower = over[name].where(both), under[name].where(both)
     scatter = log_error_of_mean(upper / lower).where(((lower > 0.0) | ~both).all("sample"))

@@ -122,13 +122,6 @@ def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
             yield Finding(Severity.WARNING, f"{label}: {text}", share, topic=Topic.RUBBER)
 
 
-def notices(run: RunSource) -> list[Finding]:
-    """Return errors first, then warnings by what they change."""
-    of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
-    of_friction = friction_notices(friction_doubts(run.measured, run.predictions[0].speed))
-    return ranked([*run_failures(run), *of_friction, *of_case, *_of_predictions(run)])
-
-
 def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
     """Yield a warning for each doubt of measured friction."""
     yield from (Finding(Severity.DOUBT, text) for text in doubts)
@@ -164,32 +157,40 @@ def _advice(word: str) -> str:
     return f"{status.advice} See {chapter_words(status.chapter)}."
 
 
-def _of_predictions(run: RunSource) -> Iterator[Finding]:
-    """Yield warnings about the waves, and about where the results come from."""
-    answered = run.direct is not None and has_answer(run.direct)
-    if run.direct is not None and not no_answer(run.direct):
-        yield from _beside_the_answer(run.predictions[0], run.direct)
+def notices(run: RunSource) -> list[Finding]:
+    """Return errors first, then warnings by what they change."""
+    direct, here = run.direct, versions()["gripscale"]
+    answered = direct is not None and has_answer(direct)
+    findings = [
+        *run_failures(run),
+        *friction_notices(friction_doubts(run.measured, run.predictions[0].speed)),
+        *no_answer_notices(direct),
+        *case_notices(direct, run.record),
+    ]
+    if direct is not None and not no_answer(direct):
+        findings += _beside_the_answer(run.predictions[0], direct)
     for view in run.predictions:
-        beyond = prediction_sentence(view)
+        beyond, share = prediction_sentence(view), model.extrapolation_of(view.data).share
         if beyond and not answered:
             text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
-            yield Finding(
-                Severity.WARNING, text, model.extrapolation_of(view.data).share, topic=Topic.RUBBER
-            )
+            findings.append(Finding(Severity.WARNING, text, share, topic=Topic.RUBBER))
     for view in run.by_wave:
-        for notice in (
+        of_waves = (
             *_mismatch(view),
             *conditions_notices(view),
             *_compressible(view, run.record.bulk_modulus),
-        ):
-            yield replace(notice, sentence=f"{view.title}: {notice.sentence}")
+        )
+        findings += [
+            replace(notice, sentence=f"{view.title}: {notice.sentence}") for notice in of_waves
+        ]
     if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
         text = "The dynamic and the static result come from different case files."
-        yield Finding(Severity.DOUBT, text)
-    solved, here = run.attrs.get("version_gripscale"), versions()["gripscale"]
+        findings.append(Finding(Severity.DOUBT, text))
+    solved = run.attrs.get("version_gripscale")
     if solved is not None and solved != here:
         text = f"Solved with gripscale {solved}, reported with {here}."
-        yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)
+        findings.append(Finding(Severity.WARNING, text, topic=Topic.SOURCE))
+    return ranked(findings)
 
 
 def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Finding]:
@@ -234,33 +235,28 @@ def _mismatch(view: PredictionView) -> Iterator[Finding]:
     yield from _of_waves(view, large, words, mismatch, Topic.SOLUTION)
 
 
-def run_cards(run: RunSource) -> list[Card]:
-    """Return the answer of the measured surface, then the totals of each prediction."""
-    made = [] if run.direct is None else list(answer_cards(run.direct))
-    if not made:
-        return [card for view in run.predictions for card in _cards(view)]
-    return [*made, *(card for view in run.predictions for card in _chain_cards(view))]
+def run_cards(run: RunSource) -> Iterator[Card]:
+    """Yield the answer of the measured surface, then the totals of each prediction."""
+    answered = [] if run.direct is None else list(answer_cards(run.direct))
+    yield from answered
+    for view in run.predictions:
+        yield from _cards(view, beside_answer=bool(answered))
 
 
-def _chain_cards(view: PredictionView) -> Iterator[Card]:
-    """Yield the totals of waves one by one, beside the answer of the measured surface."""
-    if not view.complete:
-        yield from _cards(view)
-        return
-    area = number_text(view.total("contact_fraction"))
-    if not view.moving:
-        yield Card("Chain of waves, A_r/A_0", area, view.title)
-        return
-    friction = number_text(view.total("friction"))
-    yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
-
-
-def _cards(view: PredictionView) -> Iterator[Card]:
+def _cards(view: PredictionView, *, beside_answer: bool) -> Iterator[Card]:
+    """Yield the totals of a prediction, in one card beside the answer of the measured surface."""
     if not view.complete:
         yield Card("No totals", "not converged", view.title, bad=True)
         return
-    waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
     area = number_text(view.total("contact_fraction"))
+    if beside_answer:
+        if view.moving:
+            friction = number_text(view.total("friction"))
+            yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
+        else:
+            yield Card("Chain of waves, A_r/A_0", area, view.title)
+        return
+    waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
     yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
     if not view.moving:
         return
