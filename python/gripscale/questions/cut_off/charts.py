@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -23,36 +24,23 @@ _SAME = 0.01
 def cut_off_sheet(data: xr.Dataset) -> chart.Sheet:
     """Describe friction, contact and the slope in contact over the same cut-offs."""
     layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
-    return chart.Sheet(
-        cut_off_panels(data),
-        1,
-        WIDE,
-        6.6,
-        gap=0.03,
-        legend="above",
-        legend_columns=2,
-        layout=layout,
-    )
+    panels = cut_off_panels(data)
+    return chart.Sheet(panels, 1, WIDE, 6.6, gap=0.03, legend_columns=2, layout=layout)
 
 
 def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
-    axis = chart.wavelength_axis(lengths)
-    axis = chart.PlotAxis(
-        "cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high
-    )
+    ends = chart.wavelength_axis(lengths)
+    words = "cut-off: shortest wavelength of the road [mm]"
+    axis = chart.PlotAxis(words, True, ends.low, ends.high)
     rules = list(_rules(data))
     panels = []
     for name, (label, colour, title) in _CURVES.items():
+        low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
+        band = "90 % band of the continuation" if name == FRICTION else ""
         marks: list[chart.Mark] = [
-            chart.ShadedBand(
-                lengths,
-                data[f"{name}_lower"].values,
-                data[f"{name}_upper"].values,
-                colour,
-                "90 % band of the continuation" if name == FRICTION else "",
-            ),
+            chart.ShadedBand(lengths, low, high, colour, band),
             *_curve(data, name, colour, labelled=name == FRICTION),
             *rules,
         ]
@@ -70,7 +58,7 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     slope: list[chart.Mark] = [
         *_curve(data, SLOPE_IN_CONTACT, GREY, labelled=False),
         chart.CrossLine(CONTACT_SLOPE),
-        *(chart.CrossLine(rule.at, rule.colour, "", "dashed", 0.9, upright=True) for rule in rules),
+        *(replace(rule, label="") for rule in rules),
     ]
     panels.append(
         chart.Panel(
@@ -95,15 +83,9 @@ def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Itera
         (below, "dotted", "continued roughness"),
     ):
         if where.any():
-            yield chart.Series(
-                lengths[where],
-                values[where],
-                colour,
-                label if labelled else "",
-                dash,
-                marker="o",
-                size=3.0,
-            )
+            x, y = lengths[where], values[where]
+            words = label if labelled else ""
+            yield chart.Series(x, y, colour, words, dash, marker="o", size=3.0)
 
 
 def _rules(data: xr.Dataset) -> Iterator[chart.CrossLine]:

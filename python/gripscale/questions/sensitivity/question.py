@@ -216,7 +216,7 @@ class Sensitivity(Result):
 
     @property
     def _has_feedback(self) -> bool:
-        return any(str(name).endswith(FEEDBACK) for name in self.data)
+        return f"d_ln_friction_d_ln_speed{FEEDBACK}" in self.data
 
     def _points_column(self) -> Column:
         return Column("point", [text for text, _ in points(self.data)], "")
