@@ -57,6 +57,7 @@ def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
         Note(at, (1.4 + 0.9 * i) * lowest, f" tan δ, {name}", GREY, italic=True)
         for i, (name, at) in enumerate(_rules(data))
     ]
+    frequency = data.frequency.values
     panels = [
         Panel(
             axis,
@@ -68,28 +69,24 @@ def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
         )
     ]
     for name, (symbol, meaning) in _EFFECTS.items():
-        curves: list[Mark] = [
-            Series(
-                data.frequency.values,
-                # bands that are not excited at this point have no derivative
-                each[name].where(each[name] != 0.0).values * int(data.attrs["bands_per_decade"]),
-                colour,
-                text if len(listed) > 1 else "",
-                marker="o",
-                size=2.5,
-            )
-            for (text, each), colour in zip(listed, colours, strict=True)
-            if np.isfinite(each[name].values).any()
-        ]
+        curves: list[Mark] = []
+        for (text, point), colour in zip(listed, colours, strict=True):
+            if not np.isfinite(point[name].values).any():
+                continue
+            # bands that are not excited at this point have no derivative
+            values = point[name].where(point[name] != 0.0).values
+            values = values * int(data.attrs["bands_per_decade"])
+            label = text if len(listed) > 1 else ""
+            curves.append(Series(frequency, values, colour, label, marker="o", size=2.5))
+        letter = symbol.strip("$")
         panels.append(
             Panel(
                 axis,
                 PlotAxis(f"d ln $\\mu$ / d ln {symbol} per decade"),
                 [*curves, *rules, CrossLine(0.0)],
                 name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
-                caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "
-                f"{meaning}.",
-                alt=f"Derivative of friction by {symbol.strip('$')} against angular frequency.",
+                caption=f"Per cent of friction for a per cent of {letter} in a decade: {meaning}.",
+                alt=f"Derivative of friction by {letter} against angular frequency.",
             )
         )
     return panels
