@@ -23,7 +23,6 @@ from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS
-from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.cut_off.charts import cut_off_panels, cut_off_sheet
 from gripscale.questions.cut_off.curve import (
@@ -34,7 +33,6 @@ from gripscale.questions.cut_off.curve import (
     cut_off_curve,
 )
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_name, rerun_section
@@ -81,10 +79,6 @@ class CutOff(Result):
         )
         source = f"below it continued {_source(data)}"
         return [lead, f"measured down to {in_mm(resolved, 3)}: {measured}", source]
-
-    @property
-    def findings(self) -> Sequence[Finding]:
-        return tuple(case_notices(None, InputRecord(self.inputs)))
 
     @property
     def failure(self) -> str:

@@ -26,9 +26,7 @@ from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, on_page, percent
 from gripscale.model import STATUS, STATUS_WORD
 from gripscale.questions.answer.charts import height_figure, height_panels
-from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.sensitivity import charts
 from gripscale.questions.sensitivity.friction_sensitivity import (
@@ -104,10 +102,6 @@ class Sensitivity(Result):
                 between = f"between {low:.2g} and {high:.2g} rad/s"
                 lines.append(f"  half of the effect of E''{where} is {between}")
         return lines
-
-    @property
-    def findings(self) -> Sequence[Finding]:
-        return tuple(case_notices(None, InputRecord(self.inputs)))
 
     @property
     def failures(self) -> Sequence[Failure]:
