@@ -120,7 +120,7 @@ def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
 def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
     result = page_of_folder.read_result(ran)
     assert isinstance(result, RunSource)
-    for excited, drawn in ((None, False), (result.predictions[0], True)):
+    for excited, drawn in ((None, False), (result.predictions[0].data, True)):
         moduli, factor, *_ = rubber_charts(result.inputs, excited)
         assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]
 

@@ -35,8 +35,9 @@ from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
-from gripscale.questions.chain.view import AXIS_TITLES, HEADINGS, SYMBOLS, PredictionView
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.registry import Form
+from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS
 from gripscale.report.elements import Element, Text
 
 POLL = 500

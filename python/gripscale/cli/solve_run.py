@@ -15,19 +15,20 @@ from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.calibration.page_of_measured import measured_lines
 from gripscale.questions.chain import events
+from gripscale.questions.chain.charts import effects_sheet, heat_sheet
 from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
-from gripscale.questions.chain.run import DYNAMIC, ChainRun, title
-from gripscale.questions.chain.run_figures import background_figures, draw_effects, draw_heat
-from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.chain.run import DYNAMIC, ChainRun
+from gripscale.questions.chain.run_figures import background_figures
+from gripscale.questions.chain.view import PredictionView, title
 from gripscale.questions.compare.page import judgement
-from gripscale.questions.cut_off.page import cut_off_basis, rules_table
-from gripscale.questions.cut_off.question import cut_off_result
+from gripscale.questions.cut_off.question import CutOff, cut_off_result
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.result import warning_lines
 from gripscale.questions.summary_table import SUMMARY_FILE
 from gripscale.questions.uncertainty.page import uncertainty_lines
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.vary.effects import EFFECTS_FILE, case_effects
+from gripscale.questions.vary.inputs import effects_asked
 from gripscale.questions.vary.page_side_by_side import effects_table
 from gripscale.report.failures import explained
 
@@ -66,9 +67,9 @@ def solve_run(
 
         def draw_conditions() -> None:
             if heat is not None:
-                draw_heat(heat, figures)
+                figures.save(heat_sheet(heat), "heat")
             if effects is not None:
-                draw_effects([effects], figures)
+                figures.save(effects_sheet(effects), "effects")
 
         terminal.conclude(
             console,
@@ -131,13 +132,14 @@ def _solve(
         case_file.run_case(file, output=target, on_event=on_event, run=chain)
         if answer.is_solved:
             answer.save(target / ANSWER_FILE)
-            emit(events.AnswerSolved.of(answer))
+            converged = answer.status == "converged"
+            emit(events.AnswerSolved(converged, answer.contact_fraction, answer.friction))
             emit(events.FileWritten(str(target / ANSWER_FILE)))
         if answer.curve is not None:
             cut_off_result(answer.curve, case).save(target / "cut_off.nc")
         effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
         if effects is not None:
-            emit(events.EffectsSolved.of(effects))
+            emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
             emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
     return effects
 
@@ -211,5 +213,6 @@ def _parts(
     sampled = stored_uncertainty(target)
     parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
     if answer.curve is not None:
-        parts += ["", *cut_off_basis(answer.curve), rules_table(answer.curve)]
+        curve = CutOff(answer.curve)
+        parts += ["", *curve.basis, curve.rules_table()]
     return parts, heat

@@ -195,12 +195,17 @@ def with_traces(answer: xr.Dataset, traces: Sequence[xr.Dataset]) -> xr.Dataset:
     return answer.assign({f"{PREFIX}{name}": together[name].variable for name in together})
 
 
+def trace_variables(data: xr.Dataset) -> xr.Dataset:
+    """Return the variables of a result that are its traces, named as they are there."""
+    return data[[name for name in map(str, data) if name.startswith(PREFIX)]]
+
+
 def traces_of(data: xr.Dataset) -> list[xr.Dataset]:
     """Return the traces that a result holds over `profile` or `sample`; empty without any."""
-    names = {name: name.removeprefix(PREFIX) for name in map(str, data) if name.startswith(PREFIX)}
-    if not names:
+    traces = trace_variables(data).drop_vars(data.coords, errors="ignore")
+    if not traces:
         return []
-    traces = data[[*names]].drop_vars(data.coords, errors="ignore")
+    names = {name: str(name).removeprefix(PREFIX) for name in traces}
     dims = {dim: str(dim).removeprefix(PREFIX) for dim in traces.dims}
     traces = traces.rename(names | {dim: name for dim, name in dims.items() if dim != name})
     along = "sample" if "sample" in traces.dims else "profile"

@@ -14,13 +14,13 @@ import xarray as xr
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity, sentences
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import HELD_UNITS, estimate_interval, written
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.page_of_measured import residual_table
-from gripscale.questions.chain.view import CONVERGED_WORD
 from gripscale.questions.uncertainty.page import as_elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Facts, Page, Section, Text
@@ -183,7 +183,7 @@ def law_facts(data: xr.Dataset) -> Facts:
 def calibration_failure(data: xr.Dataset) -> Failure | None:
     """Return how many measured points have no prediction and why the first; None if none."""
     statuses = zip(data[STATUS].values, status_words(data).values, strict=True)
-    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED_WORD]
+    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED]
     if not failed:
         return None
     why, word = failed[0]

@@ -25,10 +25,10 @@ from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
-from gripscale.questions.chain.view import AXIS_TITLES
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
+from gripscale.questions.words import AXIS_TITLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -185,9 +185,9 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     third of what the rest of the estimate leaves open.
     """
     samples, names = comparison.samples, comparison.samples["rung"].values.tolist()
-    if not {FINITE_STRAIN.over, FINITE_STRAIN.under} <= set(names):
+    if not set(FINITE_STRAIN) <= set(names):
         return False
-    over, under = (samples.sel(rung=rung) for rung in (FINITE_STRAIN.over, FINITE_STRAIN.under))
+    over, under = (samples.sel(rung=rung) for rung in FINITE_STRAIN)
     if int((under.subject != "").sum()) < comparison.setups[0].windows:
         return False
     best = comparison.data

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core.finding import Finding, Severity, Topic, from_json
+from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
 from gripscale.model import (
@@ -25,12 +26,13 @@ from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, basis_lines
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.findings import comparison_notices
-from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS, PredictionView
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.compare.stored import Compared
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.vary.axis import axis_shown
+from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report import elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -193,7 +195,7 @@ def best_line(comparison: xr.Dataset) -> str:
 def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     """Yield the direct contact of the measured profiles, and how the chain compares with it."""
     status = str(direct.prediction_status.item())
-    if status != CONVERGED_WORD:
+    if status != CONVERGED:
         yield f"The direct contact of the measured profiles has no result: {status}."
         return
     area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
@@ -223,7 +225,7 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
             where = f"{axis.replace('_', ' ')} {value}, "
         words = status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
-            if str(text) != CONVERGED_WORD:
+            if str(text) != CONVERGED:
                 yield f"{where}{label}", Failure(str(text), str(word))
 
 

@@ -25,13 +25,13 @@ from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.findings import answer_notices
 from gripscale.questions.answer.page import answer_lines
-from gripscale.questions.chain.view import SYMBOLS
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import ComparisonOptions, OnStage, solved_ladder
 from gripscale.questions.compare.comparison_dataset import SolvedLadder
 from gripscale.questions.compare.stored import Compared
 from gripscale.questions.result import Result
+from gripscale.questions.words import SYMBOLS
 from gripscale.report.elements import Page
 
 if TYPE_CHECKING:

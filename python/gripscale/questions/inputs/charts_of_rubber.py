@@ -22,7 +22,6 @@ from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORAN
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
-from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.record import band, rubber_variables
 from gripscale.rubber import (
     FiniteStrainFit,
@@ -87,15 +86,15 @@ def master_curve_sheet(
     return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
 
 
-def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
-    """Return moduli, loss factor and, where it was measured, the residuals of the fit.
+def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]:
+    """Return moduli, loss factor and residuals of the fit of the recorded inputs of a result.
 
-    `inputs` are those of a result. `excited` is the prediction whose waves are marked, if any.
+    `excited` is the prediction of the chain whose waves are marked, if any.
     """
     panels = _moduli_panels(inputs, np.empty(0))
     if excited is not None:
-        omega = excited.column("angular_frequency")
-        values = excited.column("modulus") / MEGA, excited.column("loss_factor")
+        omega = excited["angular_frequency"].values
+        values = excited["modulus"].values / MEGA, excited["loss_factor"].values
         labels = "$|E^*|$ of the waves", "waves"
         panels = [
             replace(

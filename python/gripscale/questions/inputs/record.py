@@ -113,34 +113,29 @@ def inputs(
     surface = case.surface
     excitation = excited(case.load.speed, surface.sines)
     rubber = case.measured_rubber
-    of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     left_out = [finding.about("Surface") for finding in surface.extrapolated]
     findings = [f for f in case.findings(surfaces, loads) if f not in left_out]
-    notes = {"findings": to_json([*further, *findings])}
-    parts = [({}, _waves(surface)), (_files(case.origin.files), {}), of_rubber]
-    parts.append(({}, notes | _excited_band(excitation)))
+    series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
+    data = _files(case.origin.files) | series
+    attrs = _waves(surface) | about_series
+    attrs |= {"findings": to_json([*further, *findings])}
+    if excitation.size:
+        attrs["excited_low_rad_per_s"] = float(excitation.min())
+        attrs["excited_high_rad_per_s"] = float(excitation.max())
     if case.friction is not None:
-        parts.append((dict(measured_variables(case.friction, "measurement_of_case")), {}))
+        data |= measured_variables(case.friction, "measurement_of_case")
     if surface.measured is not None and surface.correlation is not None:
-        parts.append((_profiles(surface.measured), {}))
+        data |= _profiles(surface.measured)
         texture = surface.measured.texture.variables
-        parts.append(({str(name): values for name, values in texture.items()}, {}))
-        parts.append(_cut_off(surface, surface.measured))
-        parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
-    data = {name: value for part, _ in parts for name, value in part.items()}
-    attrs = {name: value for _, part in parts for name, value in part.items() if value is not None}
-    return xr.Dataset(data, attrs=attrs)
-
-
-def _excited_band(excitation: Array) -> Variables:
-    """Return the lowest and the highest frequency that the waves excite; nothing at rest."""
-    if not excitation.size:
-        return {}
-    return {
-        "excited_low_rad_per_s": float(excitation.min()),
-        "excited_high_rad_per_s": float(excitation.max()),
-    }
+        data |= {str(name): values for name, values in texture.items()}
+        for variables, about in (
+            _cut_off(surface, surface.measured),
+            _correlation(surface.correlation, surface.measured, surface.sines),
+        ):
+            data |= variables
+            attrs |= about
+    return xr.Dataset(data, attrs={k: value for k, value in attrs.items() if value is not None})
 
 
 def _files(files: Sequence[NamedFile]) -> Variables:

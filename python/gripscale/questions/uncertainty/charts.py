@@ -12,11 +12,12 @@ from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Serie
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
-from gripscale.questions.chain.view import ANSWER, AXIS_TITLES, PredictionView
+from gripscale.questions.answer.reliance import answer_interval, answer_number
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import MODELS
 from gripscale.questions.vary.charts import varied_axis
+from gripscale.questions.words import ANSWER, AXIS_TITLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -113,7 +114,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            answer = PredictionView(data).answer(name)
+            answer = answer_number(data, name), *answer_interval(data, name)
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(

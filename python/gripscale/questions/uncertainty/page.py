@@ -13,6 +13,7 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic
+from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
 from gripscale.questions.answer.best_estimate import DIRECT
@@ -25,7 +26,6 @@ from gripscale.questions.answer.page import (
     number_and_interval,
 )
 from gripscale.questions.answer.reliance import has_answer, is_measured
-from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.propagation import (
     FIRST_ORDER,
@@ -37,6 +37,7 @@ from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, RO
 from gripscale.questions.uncertainty.sources import SOURCE_LABELS, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
+from gripscale.questions.words import SYMBOLS
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
@@ -383,7 +384,7 @@ def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
     """Return sentence and word of what did not converge."""
     words = status_words(data, sentences).values.ravel()
     pairs = zip(data[sentences].values.ravel(), words, strict=True)
-    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED_WORD]
+    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED]
 
 
 def uncertainty_lines(

@@ -22,7 +22,6 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW, RowFlags
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
-from gripscale.questions.chain.view import AXIS_TITLES, believed
 from gripscale.questions.vary.axis import (
     WORDS,
     axis_label,
@@ -34,6 +33,7 @@ from gripscale.questions.vary.axis import (
 )
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
 from gripscale.questions.vary.words import is_evidence, telling, words_of
+from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
