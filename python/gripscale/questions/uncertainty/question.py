@@ -15,6 +15,7 @@ from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask
 from gripscale.io.table import Table
 from gripscale.questions.answer.answer import NumbersWithIntervals
+from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.uncertainty import page
 from gripscale.questions.uncertainty.propagation import propagate
 from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
@@ -31,8 +32,12 @@ class SampledAnswer(NumbersWithIntervals):
 
     @property
     def lines(self) -> Sequence[str]:
-        """The answer with its interval; over a varied input the range of the answers."""
-        return tuple(page.answer_lines_of(self.data))
+        """The answer with what its interval holds; at several loads what the intervals hold."""
+        held = page.interval_sentence(self.data)
+        if page.axis_of(self.data):
+            return (held,)
+        first, *below = answer_lines(self.data)
+        return (first, f"  {held}", *below)
 
     @property
     def findings(self) -> Sequence[Finding]:
@@ -45,8 +50,15 @@ class SampledAnswer(NumbersWithIntervals):
         return str(page.sampling_failure(self.data)) if page.too_many_failed(self.data) else ""
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the parts of the interval, the samples and the shares of the sources."""
-        yield from page.uncertainty_parts(self.data)
+        """Yield what matters most to the answer, the quantiles of the models, then warnings."""
+        if axis := page.axis_of(self.data):
+            yield page.answer_table(self.data, axis)
+        yield from page.part_tables(self.data)
+        yield page.quantile_table(self.data)
+        yield from page.share_parts(self.data)
+        yield from page.grid_sentences(self.data)
+        yield from page.left_out_sentences(self.data)
+        yield from map(str, filter(None, [page.sampling_failure(self.data)]))
 
     def table(self) -> Table:
         """Return the parts of the interval, the largest first."""

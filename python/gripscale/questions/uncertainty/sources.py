@@ -473,7 +473,3 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
         return replace(inputs, fit=fit), [float(number), first]
 
     return draw
-
-
-SOURCE_LABELS = {name: source.label for name, source in SOURCES.items()}
-"""Names of the sources in words."""
