@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -20,20 +20,11 @@ from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.best_estimate import (
-    ESTIMATED,
-    FINITE_STRAIN,
-    Factor,
-)
+from gripscale.questions.answer.best_estimate import ESTIMATED, FINITE_STRAIN, Factor
 from gripscale.questions.answer.intervals import half_width
-from gripscale.questions.calibration import measured_comparison
+from gripscale.questions.calibration import measured_comparison as friction
 from gripscale.questions.compare.comparison_dataset import SolvedLadder
-from gripscale.questions.compare.ladder import (
-    WINDOWS,
-    ComparisonSetup,
-    Rung,
-    chosen,
-)
+from gripscale.questions.compare.ladder import WINDOWS, ComparisonSetup, Rung, chosen
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import Study
 from gripscale.rubber.extrapolation import require_measured
@@ -59,52 +50,28 @@ OnStage = Callable[[SolvedLadder], None]
 """Called with the comparison as it stands, while more samples are solved."""
 
 
-class ComparisonOptions(NamedTuple):
-    """What is compared, how finely, and beside what."""
-
-    seeds: int = 3
-    tolerance: float = 0.05
-    rungs: Sequence[str] = ()
-    measured: MeasuredFriction | None = None
-    factors: Sequence[Factor] = ()
-    accuracy: float = 0.1
-    on_stage: OnStage | None = None
-
-
 def solved_ladder(
-    case: Case, vary: Mapping[str, Any] | None, choice: ComparisonOptions, bench: Bench
-) -> SolvedLadder:
-    """Return the rungs of a case with their samples, under its load or over a varied input.
-
-    Raises `InputError` if an input cannot be used by a model, the case refuses extrapolation and a
-    wave excites the rubber beyond the measured band, or other than one input of numbers is varied.
-    """
-    if vary is None:
-        task = Task(case.rubber, case.surface, case.load, case.chain)
-        return _compared(case, {"": task}, [case.measured_rubber], choice, None, bench)
-    study = Study(case, vary, static=False, model=Chain.name)
-    axis = study.axes[0]
-    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
-        names = ", ".join(other.name for other in study.axes)
-        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
-    if not axis.numeric:
-        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
-    if len(axis.values) < 2:
-        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    tasks = {point.label: point.task for point in study.points}
-    return _compared(case, tasks, study.measured_rubbers, choice, axis, bench)
-
-
-def _compared(
     case: Case,
-    tasks: Mapping[str, Task],
-    rubbers: Sequence[MeasuredRubber],
-    choice: ComparisonOptions,
-    axis: Axis | None,
+    vary: Mapping[str, Any] | None,
     bench: Bench,
+    *,
+    seeds: int,
+    tolerance: float,
+    rungs: Sequence[str],
+    measured: MeasuredFriction | None,
+    factors: Sequence[Factor],
+    accuracy: float,
+    on_stage: OnStage | None,
 ) -> SolvedLadder:
-    """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
-    measured = choice.measured or case.friction
+    """Return the rungs of a case with their samples; arguments and errors as of `compare`."""
+    tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
+    rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
+    axis: Axis | None = None
+    if vary is not None:
+        study = Study(case, vary, static=False, model=Chain.name)
+        axis = _axis(study)
+        tasks = {point.label: point.task for point in study.points}
+        rubbers = study.measured_rubbers
     setups = []
     for task in tasks.values():
         chain = checks.instance("model", task.model, Chain)
@@ -113,8 +80,8 @@ def _compared(
             task.surface,
             task.load,
             chain.solver,
-            checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
-            checks.positive("tolerance", choice.tolerance),
+            checks.whole("seeds", seeds, least=1, most=MOST_SEEDS),
+            checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
             chain.pressure_classes,
             continuation=case.continuation(),
@@ -125,30 +92,43 @@ def _compared(
         for setup in setups:
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
-    wanted = chosen(choice.rungs)
+    wanted = chosen(rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
-    make = partial(
-        SolvedLadder, case, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
-    )
-    rungs: Sequence[Rung] = quick or wanted
+    asked: Sequence[Rung] = quick or wanted
     while True:
-        design, rungs = _design(setups, list(tasks), rungs, axis)
-        if not rungs:
+        design, solved = _design(setups, list(tasks), asked, axis)
+        if not solved:
             raise InputError(
-                f"no rung of {', '.join(choice.rungs)} applies to this case; windows and maps "
+                f"no rung of {', '.join(rungs)} applies to this case; windows and maps "
                 "need measured profiles, klueppel_heinrich the parameters of [compare]"
             )
         numbers = partial(reduce.sample_numbers, conditions=setups[0].conditions)
-        comparison = make(setups=setups, rungs=rungs, samples=solve_design(design, bench, numbers))
-        if choice.on_stage is not None:
-            choice.on_stage(comparison)
-        if quick and len(quick) < len(wanted):
-            quick, rungs = [], wanted
-        elif _windows_left(comparison, choice.accuracy):
+        samples = solve_design(design, bench, numbers)
+        ladder = SolvedLadder(
+            case, setups, solved, samples, axis, measured or case.friction, factors, rubbers
+        )
+        if on_stage is not None:
+            on_stage(ladder)
+        if len(asked) < len(wanted):
+            asked = wanted
+        elif _windows_left(ladder, accuracy):
             setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
         else:
-            return comparison
+            return ladder
         bench = replace(bench, on_task=_of_new_tasks(bench.on_task))
+
+
+def _axis(study: Study) -> Axis:
+    """Return the varied input of a comparison; raise `InputError` unless it is one of numbers."""
+    axis = study.axes[0]
+    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
+        names = ", ".join(other.name for other in study.axes)
+        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
+    if not axis.numeric:
+        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
+    if len(axis.values) < 2:
+        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
+    return axis
 
 
 def _design(
@@ -246,7 +226,6 @@ def at_measured(
     if measured is None:
         return None
     designs: dict[str, list[Design]] = {}
-    tasks: dict[str, Task] = {}
     for rung in ladder.rungs:
         if rung.name not in PREDICTING:
             continue
@@ -255,18 +234,18 @@ def at_measured(
         for number, (model, surface, _) in enumerate(specs, start=1):
             label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
             met = setup.rubber_for(model)
-            design = measured_comparison.measured_design(
-                measured, model, met, surface, setup.load, label
-            )
+            design = friction.measured_design(measured, model, met, surface, setup.load, label)
             designs[rung.name].append(design)
-            tasks |= design.tasks
     if not designs:
         return None
+    tasks = {
+        key: task for parts in designs.values() for d in parts for key, task in d.tasks.items()
+    }
     answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
-    predicted = {}
-    for name, parts in designs.items():
-        samples = [measured_comparison.predicted_of(part.dataset(answers)) for part in parts]
-        predicted[name] = measured_comparison.averaged(samples)
+    predicted = {
+        name: friction.averaged([friction.predicted_of(d.dataset(answers)) for d in parts])
+        for name, parts in designs.items()
+    }
     law = None if setup.conditions is None else setup.conditions.shear_stress
-    data = measured_comparison.residuals(measured, predicted, law)
+    data = friction.residuals(measured, predicted, law)
     return data.assign_attrs(ladder.case.attributes, measured_source=measured.source)

@@ -29,7 +29,7 @@ from gripscale.questions.chain.findings import friction_notices
 from gripscale.questions.chain.view import SYMBOLS
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
-from gripscale.questions.compare.comparison import ComparisonOptions, OnStage, solved_ladder
+from gripscale.questions.compare.comparison import OnStage, solved_ladder
 from gripscale.questions.compare.comparison_dataset import SolvedLadder
 from gripscale.questions.compare.stored import Compared
 from gripscale.questions.result import Result
@@ -161,9 +161,19 @@ def compare(
     """
     if vary is None:
         factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
-    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     with bench_in(folder, workers, client, on_task) as bench:
-        ladder = solved_ladder(case, vary, choice, bench)
+        ladder = solved_ladder(
+            case,
+            vary,
+            bench,
+            seeds=seeds,
+            tolerance=tolerance,
+            rungs=rungs,
+            measured=measured,
+            factors=factors,
+            accuracy=accuracy,
+            on_stage=on_stage,
+        )
     data = ladder.data
     if doubts := friction_doubts(ladder.measured, case.load.speed):
         data = data.assign_attrs({FRICTION_DOUBTS: "\n".join(doubts)})
