@@ -60,12 +60,8 @@ class Points:
 def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
     """Return the points that have an answer, in the order of the measurement.
 
-    Raises
-    ------
-    InputError
-        If no point has an answer, a prediction has another number of points or other pressures,
-        spreads or temperatures are known of some points only, a spread is zero, or the hysteresis
-        alone exceeds what was measured at more than half of the points.
+    Raises `InputError` for points that do not fit the measurement or cannot all be weighed alike,
+    and if the hysteresis alone exceeds what was measured at more than half of them.
     """
     predicted.require_points_of(measured)
     answered = predicted.has_answer
@@ -188,13 +184,8 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
 
     An activation energy is free only where temperatures differ; without one the law has none. Its
     reference temperature is held: by default the median of the temperatures, a whole number of
-    degrees Celsius.
-
-    Raises
-    ------
-    InputError
-        If the kind is none of `KINDS`, a fixed name is no parameter of it, its value cannot be
-        used, nothing is left to be fitted, or there are not more points than free parameters.
+    degrees Celsius. Raises `InputError` for names and values that cannot be held, and for fewer
+    points than parameters.
     """
     check_names(kind, fixed)
     every = _parameters(kind, points)

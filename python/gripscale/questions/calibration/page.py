@@ -14,10 +14,15 @@ import xarray as xr
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.measured_friction import MEASURED
 from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
-from gripscale.questions.calibration.calibration_text import HELD_UNITS, estimate_interval, written
+from gripscale.questions.calibration.calibration_text import (
+    PARAMETERS,
+    estimate_interval,
+    written,
+)
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.page_of_measured import residual_table
 from gripscale.questions.chain.view import CONVERGED_WORD
@@ -30,24 +35,14 @@ _CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
 )
-PARAMETERS = {
-    "stress_0": "shear stress τ_0",
-    "width": "width factor c",
-    "speed_0": "speed v_0 of the largest stress",
-    "activation_energy": "activation energy",
-    "ratio": "gain of stress at high speed",
-    "critical_speed": "critical speed v_c",
-    "exponent": "exponent n of the speed",
-}
-"""Words for the parameters of the laws, which a case states by their names."""
 
 
 def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the fitted area term with its intervals, and what it does to friction."""
     values = [
-        f"{PARAMETERS[e.name]} = {written(e.value, e.unit, 3)} ({estimate_interval(e)})"
+        f"{PARAMETERS[e.name].words} = {written(e.value, e.unit, 3)} ({estimate_interval(e)})"
         if e.determined
-        else f"{PARAMETERS[e.name]} not determined by the data"
+        else f"{PARAMETERS[e.name].words} not determined by the data"
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
@@ -86,7 +81,7 @@ def misfit_table(data: xr.Dataset) -> Table:
     """Return the fitted friction beside the measured one, point by point."""
     names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
     model = str(data.attrs.get("model", "fit"))
-    table = data[[*names, *(n for n in data.data_vars if str(n).startswith("measured_"))]]
+    table = data[[*names, *(f"measured_{name}" for name in MEASURED)]]
     table = table.assign({name: data[name].expand_dims(model=[model]) for name in names})
     rms = {f"rms_{n}": np.sqrt((table[n] ** 2).mean("measurement")) for n in names[3:]}
     return residual_table(table.assign(rms))
@@ -155,7 +150,10 @@ def calibration_cards(data: xr.Dataset) -> list[Card]:
     """Return a card for each parameter, with its interval."""
     return [
         Card(
-            PARAMETERS[e.name], written(e.value, e.unit, 3), estimate_interval(e), not e.determined
+            PARAMETERS[e.name].words,
+            written(e.value, e.unit, 3),
+            estimate_interval(e),
+            not e.determined,
         )
         for e in estimates(data)
     ]
@@ -165,7 +163,7 @@ def law_facts(data: xr.Dataset) -> Facts:
     """Return the law, what was held and how well it fits."""
     attrs = data.attrs
     law, values = json.loads(attrs["law"]), json.loads(attrs["held"])
-    held = [f"{name} = {written(x, HELD_UNITS.get(name, ''))}" for name, x in values.items()]
+    held = [f"{name} = {written(x, PARAMETERS[name].unit)}" for name, x in values.items()]
     pairs = [
         ("Law", str(law.get("kind", "")).replace("_", " ")),
         ("Held", ", ".join(held).replace("_", " ") or "nothing"),
