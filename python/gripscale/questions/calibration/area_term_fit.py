@@ -330,17 +330,6 @@ def fit_area_term(
     if hold_out is not None:
         groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
         groups = groups[predicted.has_answer]
-
-    def intervals(optimum: fit.FittedLaw) -> list[tuple[float, float]]:
-        threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
-        profiles = [
-            likelihood.LikelihoodProfile(problem, optimum, at)
-            for at in range(len(problem.family.free))
-        ]
-        return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
-
-    optimum, ends = likelihood.settled(problem, fit.best(problem), intervals)
+    optimum, ends = likelihood.intervals(problem)
     groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
-    return AreaTermFit(
-        measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
-    )
+    return AreaTermFit(measured, predicted, problem, optimum, ends, groups_out, hold_out or "")

@@ -14,7 +14,7 @@ its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,14 +23,8 @@ import scipy
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.questions.calibration.calibration_law import (
-    CalibrationProblem,
-    FittedLaw,
-    Points,
-    best,
-    family_of,
-    refined,
-)
+from gripscale.questions.calibration import calibration_law as fit
+from gripscale.questions.calibration.calibration_law import CalibrationProblem, FittedLaw
 from gripscale.questions.calibration.measured_comparison import rms
 
 LIKELIHOOD_LEVEL = 0.9
@@ -74,7 +68,7 @@ class LikelihoodProfile:
         """
         held = self.problem.holding(self.index, scaled)
         others = np.delete(self.optimum.theta, self.index) if start is None else start
-        optimum = refined(held, others)
+        optimum = fit.refined(held, others)
         apart = optimum.sum_of_squares - self.optimum.sum_of_squares
         if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
             raise BetterMinimumFound(np.insert(optimum.theta, self.index, scaled))
@@ -159,17 +153,22 @@ def covariance(jacobian: Array) -> Array:
     return np.asarray(scaled.T @ scaled)
 
 
-def settled(
+def intervals(
     problem: CalibrationProblem,
-    optimum: FittedLaw,
-    find: Callable[[FittedLaw], list[tuple[float, float]]],
-) -> tuple[FittedLaw, list[tuple[float, float]]]:
-    """Return the optimum and what `find` makes of it, begun again where a better one is met."""
+) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:
+    """Return the optimum and both ends of the interval of each free parameter.
+
+    Begun again where a profile meets a better optimum.
+    """
+    optimum = fit.best(problem)
     while True:
+        threshold = threshold_of(optimum, spread_known=problem.points.spread is not None)
+        free = range(len(problem.family.free))
+        profiles = [LikelihoodProfile(problem, optimum, at) for at in free]
         try:
-            return optimum, find(optimum)
+            return optimum, tuple((p.end(-1, threshold), p.end(1, threshold)) for p in profiles)
         except BetterMinimumFound as better:
-            optimum = refined(problem, better.theta)
+            optimum = fit.refined(problem, better.theta)
 
 
 WAYS = ("temperature", "speed")
@@ -198,7 +197,7 @@ class HeldOut:
 
 
 def held_out(
-    points: Points, groups: Array, kind: str, fixed: Mapping[str, float]
+    points: fit.Points, groups: Array, kind: str, fixed: Mapping[str, float]
 ) -> tuple[HeldOut, ...]:
     """Return what each group of points is predicted to be by the others.
 
@@ -210,14 +209,14 @@ def held_out(
         raise InputError(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
-    wanted = {parameter.name for parameter in family_of(kind, points, fixed).free}
+    wanted = {parameter.name for parameter in fit.family_of(kind, points, fixed).free}
     results = []
     for value in values:
         chosen = groups == value
         count, rest, some = int(chosen.sum()), points.only(~chosen), points.only(chosen)
         unknown = HeldOut(float(value), count, math.nan, math.nan, math.nan)
         try:
-            family = family_of(kind, rest, fixed)
+            family = fit.family_of(kind, rest, fixed)
         except InputError as error:
             results.append(replace(unknown, why_not=str(error)))
             continue
@@ -226,7 +225,7 @@ def held_out(
             why = f"the other points do not determine {', '.join(sorted(missing))}"
             results.append(replace(unknown, why_not=why))
             continue
-        theta = best(CalibrationProblem(rest, family)).theta
+        theta = fit.best(CalibrationProblem(rest, family)).theta
         inside, outside = (
             CalibrationProblem(part, family).friction(theta) - part.difference
             for part in (rest, some)

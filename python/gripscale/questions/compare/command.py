@@ -8,15 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import (
-    CasePath,
-    Cluster,
-    MeasuredPath,
-    OwnFolder,
-    Workers,
-    command,
-    option,
-)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,27 +16,27 @@ if TYPE_CHECKING:
     from gripscale.questions.compare.comparison_dataset import SolvedLadder
 
 
-@command
+@terminal.command
 def compare_command(
-    case: CasePath,
+    case: terminal.CasePath,
     vary: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
             "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, "
             "top_height_fraction, waves.",
             metavar="NAME=VALUES",
         ),
     ] = None,
-    measured: MeasuredPath = None,
+    measured: terminal.MeasuredPath = None,
     rungs: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Models wanted, by name or group (waves, measured, theory, windows, map), such "
             "as 'chain,measured'; windows and map take a minute or two. By default all."
         ),
     ] = None,
-    output: OwnFolder = None,
+    output: terminal.OwnFolder = None,
     seeds: Annotated[int, typer.Option(help="Random phases drawn of each surface.")] = 3,
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
@@ -57,8 +48,8 @@ def compare_command(
             "finite strain adds no more than a third of it."
         ),
     ] = 0.1,
-    workers: Workers = None,
-    cluster: Cluster = None,
+    workers: terminal.Workers = None,
+    cluster: terminal.Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.case_file import read_case, read_case_file

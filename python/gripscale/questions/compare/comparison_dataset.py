@@ -11,21 +11,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.case import Case
 from gripscale.core import provenance
 from gripscale.core.labels import labelled
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import resolved_wavelength
-from gripscale.model import (
-    ADHESIVE_FRICTION,
-    BASIS,
-    CUT_OFF_EXPONENTS,
-    OUTSIDE_BAND,
-    TOTALS,
-    WHY_NO_EXPONENT,
-    input_doubts,
-)
+from gripscale.model import input_doubts
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import BASIS_SHARES, Factor, best_estimate
 from gripscale.questions.compare.ladder import ComparisonSetup, Rung
@@ -89,11 +82,11 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         add(name, xr.DataArray(array, dims=(*outer, *dims)), long_name, *dims, unit=unit)
 
     for name in reduce.SAMPLED_QUANTITIES:
-        text = f"{TOTALS[f'total_{name}']}, mean of the samples"
+        text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
     reach = upper_height_of(setups[0].surface)
     best = best_estimate(samples, comparison.factors, upper_height=reach)
-    for name, text in zip(BASIS_SHARES, list(BASIS.values())[-2:], strict=True):
+    for name, text in zip(BASIS_SHARES, list(model.BASIS.values())[-2:], strict=True):
         add(f"best_{name}", best[f"best_{name}"], text)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
@@ -128,12 +121,12 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
     adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
     if adhesive.notnull().any():
-        add(ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term", "rung")
+        add(model.ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term", "rung")
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
-    for name, (_, text) in (OUTSIDE_BAND | CUT_OFF_EXPONENTS).items():
+    for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
         add(name, (beyond if name in beyond else exponents)[name], text, "rung")
     text = "why an exponent of the cut-off is not known"
-    add(WHY_NO_EXPONENT, exponents[WHY_NO_EXPONENT], text, "rung")
+    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text, "rung")
     add_by_load(
         "outside_band",
         [

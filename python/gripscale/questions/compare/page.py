@@ -10,15 +10,10 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
-from gripscale.model import (
-    CUT_OFF_EXPONENTS,
-    FRICTION_OUTSIDE_BAND,
-    status_words,
-    with_adhesive,
-)
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
@@ -52,7 +47,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     Spread and error are relative to the number, the factor is from the model before. `comparison`
     has no axis but `rung`.
     """
-    beyond = comparison[FRICTION_OUTSIDE_BAND].values
+    beyond = comparison[model.FRICTION_OUTSIDE_BAND].values
     good, count = comparison.converged_samples.values, comparison.samples.values
     samples = [str(n) if k == n else f"{k}/{n}" for k, n in zip(good, count, strict=True)]
     marks = [" *" if share > WORTH_SAYING else "" for share in beyond]
@@ -63,7 +58,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         if name == "friction":
             lost = comparison.total_friction_from_dissipation.values
             columns.append(Column("friction_from_dissipation", lost, "μ", "losses", group=group))
-            both = with_adhesive(comparison)
+            both = model.with_adhesive(comparison)
             if both is not None:
                 total = both.values
                 columns.append(Column("with_area_term", total, "μ", "+ area term", group=group))
@@ -76,7 +71,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         factors = comparison[f"{name}_factor"].values
         columns.append(Column(f"{name}_factor", factors, "×", group=group))
     columns.append(Column("samples", samples, "n", words=False))
-    for name, symbol in zip(CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
+    for name, symbol in zip(model.CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
         missing = np.full(len(samples), np.nan)
         values = comparison[name].values if name in comparison else missing
         columns.append(Column(name, values, symbol, group="exponents", format=fixed(2)))
@@ -109,7 +104,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     display_unit = axis_shown(comparison, axis)
     data = comparison.transpose(axis, ...)
     failed = (data.converged_samples < data.samples).values
-    beyond = data[FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
+    beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
     columns = [
         Column(
             axis,
@@ -200,7 +195,7 @@ def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     words = f"A_r/A_0 = {significant(area)}"
     if chain.moving:
         words += f", mu = {significant(friction)}"
-        both = with_adhesive(direct)
+        both = model.with_adhesive(direct)
         if both is not None:
             words += f", with the area term {significant(float(both))}"
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
@@ -221,7 +216,7 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
         if at is not None:
             value = axis_shown(comparison, axis).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
-        words = status_words(data, "status").values
+        words = model.status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
             if str(text) != CONVERGED_WORD:
                 yield f"{where}{label}", Failure(str(text), str(word))

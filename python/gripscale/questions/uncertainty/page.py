@@ -15,23 +15,13 @@ from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
+from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
-from gripscale.questions.answer.page import (
-    answer_cards,
-    basis_lines,
-    interval_text,
-    number_and_interval,
-)
 from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
+from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.propagation import (
-    FIRST_ORDER,
-    LEVELS,
-    PROPAGATED_QUANTITIES,
-    of_same_inputs,
-)
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
@@ -40,7 +30,7 @@ from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
-HEADS = {name: SYMBOLS[name] for name in PROPAGATED_QUANTITIES}
+HEADS = {name: SYMBOLS[name] for name in propagation.PROPAGATED_QUANTITIES}
 """Symbols of the quantities, in their order."""
 OF_ANOTHER = (
     "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
@@ -112,8 +102,8 @@ def interval_sentence(data: xr.Dataset) -> str:
     of_run = data.assign(
         {f"best_{name}_half_width": data[f"best_{name}_{OF_RUN}"] for name in HEADS}
     )
-    ranges = ", ".join(f"{symbol} {interval_text(of_run, name)}" for name, symbol in HEADS.items())
-    return f"{text}; `gripscale run`, without them: {ranges}"
+    ranges = [f"{symbol} {answer.interval_text(of_run, name)}" for name, symbol in HEADS.items()]
+    return f"{text}; `gripscale run`, without them: {', '.join(ranges)}"
 
 
 def not_stated(data: xr.Dataset) -> list[str]:
@@ -167,7 +157,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
 
 def first_order_of(data: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the error that each source carries to a quantity by derivatives, by its label."""
-    name = FIRST_ORDER.format(quantity)
+    name = propagation.FIRST_ORDER.format(quantity)
     if name not in data:
         return {}
     pairs = zip(data.label.values.tolist(), data[name].values.tolist(), strict=True)
@@ -228,9 +218,7 @@ def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def quantile_table(data: xr.Dataset) -> Table:
     """Return the quantiles of friction and contact fraction of each model and load."""
-    rows = [
-        (title, part, name) for title, part in model_places(data) for name in PROPAGATED_QUANTITIES
-    ]
+    rows = [(title, part, name) for title, part in model_places(data) for name in HEADS]
     quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
     columns = [
         Column("model", [title for title, _, _ in rows]),
@@ -238,7 +226,7 @@ def quantile_table(data: xr.Dataset) -> Table:
         Column("case", [float(part[f"{name}_case"]) for _, part, name in rows], "the case"),
         *(
             Column(f"quantile_{level:g}", quantiles[:, at], f"{level:.0%}")
-            for at, level in enumerate(LEVELS)
+            for at, level in enumerate(propagation.LEVELS)
         ),
         Column("samples", [part.sizes["sample"] for _, part, _ in rows], format="{:.0f}".format),
         Column("failed", [int(part.failed) for _, part, _ in rows], format="{:.0f}".format),
@@ -345,12 +333,14 @@ def uncertainty_lines(
     """
     if data is None:
         return []
-    if not of_same_inputs(data, text, digests):
+    if not propagation.of_same_inputs(data, text, digests):
         return [OF_ANOTHER]
     if axis := axis_of(data):
         return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
     lines = []
-    answered = [f"{head} = {number_and_interval(data, name)}" for name, head in _widened(data)]
+    answered = [
+        f"{head} = {answer.number_and_interval(data, name)}" for name, head in _widened(data)
+    ]
     if answered:
         count = _samples(data.isel(model=0))
         lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
@@ -369,7 +359,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
     count = _samples(data.isel(model=0))
     detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
     cards = [
-        Card(f"{head}, inputs sampled", interval_text(data, name), detail)
+        Card(f"{head}, inputs sampled", answer.interval_text(data, name), detail)
         for name, head in _widened(data)
     ]
     return cards or [
@@ -382,7 +372,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
 def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield name and symbol of each number whose interval holds errors of the inputs."""
     if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from ((name, head) for name, head in HEADS.items() if interval_text(data, name))
+        yield from (pair for pair in HEADS.items() if answer.interval_text(data, pair[0]))
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
@@ -430,7 +420,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
         f"{data.sizes['sample']} samples; {models}",
         page_notices(data),
-        answer_cards(data) if answered else uncertainty_cards(data),
+        answer.answer_cards(data) if answered else uncertainty_cards(data),
         [
             Section(
                 "answer",
@@ -442,5 +432,5 @@ def uncertainty_page(data: xr.Dataset) -> Page:
             Section("shares", "What matters most to the samples", shares, folded=True),
             rerun_section(data.attrs),
         ],
-        basis_lines(data),
+        answer.basis_lines(data),
     )

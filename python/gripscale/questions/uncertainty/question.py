@@ -17,6 +17,7 @@ from gripscale.io.table import Table
 from gripscale.questions.answer.answer import NumbersWithIntervals
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.uncertainty import page
+from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.propagation import propagate
 from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
 from gripscale.report.elements import Page
@@ -34,7 +35,7 @@ class SampledAnswer(NumbersWithIntervals):
     def lines(self) -> Sequence[str]:
         """The answer with what its interval holds; at several loads what the intervals hold."""
         held = page.interval_sentence(self.data)
-        if page.axis_of(self.data):
+        if axis_of(self.data):
             return (held,)
         first, *below = answer_lines(self.data)
         return (first, f"  {held}", *below)
@@ -51,7 +52,7 @@ class SampledAnswer(NumbersWithIntervals):
 
     def parts(self) -> Iterator[str | Table]:
         """Yield what matters most to the answer, the quantiles of the models, then warnings."""
-        if axis := page.axis_of(self.data):
+        if axis := axis_of(self.data):
             yield page.answer_table(self.data, axis)
         yield from page.part_tables(self.data)
         yield page.quantile_table(self.data)
@@ -66,8 +67,6 @@ class SampledAnswer(NumbersWithIntervals):
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
         """Yield what matters most, and how friction and contact area scatter."""
-        from gripscale.questions.uncertainty.charts import uncertainty_pictures
-
         for picture in uncertainty_pictures(self.data):
             yield picture.name, picture.figure
 

@@ -24,17 +24,11 @@ from gripscale.model import Load, LoadTime, Model
 from gripscale.questions.vary.axis import plain_number
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.surface import (
-    HeightDifference,
-    Measured,
-    Profile,
-    Surface,
-    SurfacePart,
-    fit_sines,
-    height_difference,
-)
+from gripscale.surface import Profile, fit_sines
+from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.resampling import fill_gaps_smoothly
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
+from gripscale.surface.surface import Measured, Surface, SurfacePart
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult

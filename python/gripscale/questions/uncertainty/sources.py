@@ -18,12 +18,7 @@ from gripscale.core.errors import InputError
 from gripscale.questions.uncertainty import sampled_inputs as quantities
 from gripscale.questions.uncertainty.options import pressure_error
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
-from gripscale.questions.uncertainty.sampled_inputs import (
-    CleanedProfiles,
-    Inputs,
-    Measurement,
-    Range,
-)
+from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inputs, Measurement
 from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
@@ -54,9 +49,11 @@ class SourceOptions:
     block_length: float | None = None
     models: Sequence[str] = ()
 
-    def range_of(self, name: str, quantity: Callable[[Any], float], usual: Range) -> Range:
+    def range_of(
+        self, name: str, quantity: Callable[[Any], float], usual: quantities.Range
+    ) -> quantities.Range:
         """Return the values the user states, else the usual range."""
-        return usual if self.values is None else Range.read(name, self.values, quantity)
+        return usual if self.values is None else quantities.Range.read(name, self.values, quantity)
 
     def standard_error(self, name: str, quantity: Callable[[Any], float]) -> float:
         """Return the standard error the user states [SI]; raise `InputError` for what is none."""
@@ -150,7 +147,7 @@ into blocks, the waves are fitted last."""
 
 
 def _source(
-    label: str, models: tuple[str, ...] = _BOTH, **coordinates: Coordinate
+    label: str, models: tuple[str, ...] = _BOTH, /, **coordinates: Coordinate
 ) -> Callable[[Prepare], Prepare]:
     """Enter what prepares a source in `SOURCES`, by its name without the underscore."""
 
@@ -244,7 +241,7 @@ def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
     scale = usual["spike_slope"] / USUAL_SPIKE
     if options.values is None and not usual["remove_spikes"]:
         raise SourceNotApplicable("the case leaves spikes in")
-    usual_range = Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
+    usual_range = quantities.Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
     levels = options.range_of("cleaning", quantities.factor, usual_range).levels(SPIKE_LEVELS)
     raw = [line for line, _ in measured.profiles]
 
@@ -342,7 +339,7 @@ BULK_MODULUS_FACTOR = 1.5
 @_source("bulk modulus", bulk_modulus=Coordinate("bulk modulus", "Pa", False))
 def _bulk_modulus(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the bulk modulus, hardly ever measured together with a master curve."""
-    usual = Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
+    usual = quantities.Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
     return _number(
         options.range_of("bulk_modulus", quantities.modulus, usual).at,
         lambda inputs, value: replace(inputs, rubber=replace(inputs.rubber, bulk_modulus=value)),
@@ -365,7 +362,7 @@ def _equilibrium_modulus(measurement: Measurement, options: SourceOptions) -> Dr
         rubber = replace(inputs.rubber, equilibrium_modulus=value, admissible=None)
         return replace(inputs, rubber=rubber)
 
-    values = Range.read("equilibrium_modulus", options.values, quantities.modulus)
+    values = quantities.Range.read("equilibrium_modulus", options.values, quantities.modulus)
     return _number(values.at, applied)
 
 
@@ -403,7 +400,7 @@ def _load_time(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable("at rest it is infinite")
     if options.values is None and measurement.load_time != "passage":
         raise SourceNotApplicable("the case states it")
-    usual = Range.about(1.0, LOAD_TIME_FACTOR)
+    usual = quantities.Range.about(1.0, LOAD_TIME_FACTOR)
     values = options.range_of("load_time", quantities.factor, usual)
     return _number(values.at, lambda inputs, value: replace(inputs, load_time_factor=value))
 
@@ -419,7 +416,7 @@ def _cut_off(measurement: Measurement, options: SourceOptions) -> Draw:
     """
     if not measurement.fitted:
         raise SourceNotApplicable("the waves are stated by hand")
-    usual = Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0))
+    usual = quantities.Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0))
     return _number(options.range_of("cut_off", quantities.length, usual).at, Inputs.ended_at)
 
 
@@ -451,7 +448,7 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
     stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
     good: Sequence[SineStack] = stacks
     if options.values is not None:
-        values = Range.read("waves", options.values, quantities.count)
+        values = quantities.Range.read("waves", options.values, quantities.count)
         wanted: Sequence[int] = [int(value) for value in values.values]
         wanted = range(wanted[0], wanted[-1] + 1) if values.between else wanted
         good = [stack for stack in stacks if len(stack) in wanted]
