@@ -114,7 +114,7 @@ def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group:
         assert next(name for name, _ in comparison_figures(octaves)) == "comparison"
         labels = [row.label for row in rows_of(octaves, "friction")]
         assert labels[0].startswith(str(data.label.item(0)))
-        assert len(page_of(Compared.holding([octaves])).charts) >= 2
+        assert len(page_of(Compared([octaves])).charts) >= 2
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(

@@ -17,7 +17,7 @@ from gripscale.core import checks
 from gripscale.core.errors import InputError
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction
-from gripscale.experiment.solve import Bench, OnTask
+from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import Store, Task
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import ESTIMATED, FINITE_STRAIN, Factor
@@ -92,6 +92,13 @@ def solved_ladder(
         for setup in setups:
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
+
+    shown = bench.on_task
+
+    def of_new_tasks(progress: Progress) -> None:
+        if shown is not None and not progress.stored:
+            shown(progress)
+
     wanted = chosen(rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
     asked: Sequence[Rung] = quick or wanted
@@ -115,7 +122,7 @@ def solved_ladder(
             setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
         else:
             return ladder
-        bench = replace(bench, on_task=_of_new_tasks(bench.on_task))
+        bench = replace(bench, on_task=of_new_tasks)
 
 
 def _axis(study: Study) -> Axis:
@@ -179,13 +186,6 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
         ):
             return True
     return False
-
-
-def _of_new_tasks(on_task: OnTask | None) -> OnTask | None:
-    """Return `on_task` without the tasks that were solved before."""
-    if on_task is None:
-        return None
-    return lambda progress: None if progress.stored else on_task(progress)
 
 
 PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")

@@ -29,7 +29,7 @@ from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import Failure, explained, first_of
+from gripscale.report.failures import Failure, explained
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 TINY = 0.05
@@ -47,6 +47,10 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     Spread and error are relative to the number, the factor is from the model before. `comparison`
     has no axis but `rung`.
     """
+
+    def per_cent(value: float) -> str:
+        return "0" if value < TINY else significant(value, 2)
+
     beyond = comparison[model.FRICTION_OUTSIDE_BAND].values
     good, count = comparison.converged_samples.values, comparison.samples.values
     samples = [str(n) if k == n else f"{k}/{n}" for k, n in zip(good, count, strict=True)]
@@ -66,7 +70,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
             with np.errstate(divide="ignore", invalid="ignore"):
                 share = np.where(value == 0.0, np.nan, comparison[f"{name}_{part}"].values / value)
             columns.append(
-                Column(f"{name}_{part}", share, part, "%", 0.01, format=_share, group=group)
+                Column(f"{name}_{part}", share, part, "%", 0.01, format=per_cent, group=group)
             )
         factors = comparison[f"{name}_factor"].values
         columns.append(Column(f"{name}_factor", factors, "×", group=group))
@@ -93,10 +97,6 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     return Table(
         "ladder", columns, "The ladder of models", [_NOTE], bad=flawed(comparison), strong=strong
     )
-
-
-def _share(value: float) -> str:
-    return "0" if value < TINY else significant(value, 2)
 
 
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
@@ -127,18 +127,6 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         columns.append(Column("best", texts, "best estimate", words=False))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
     return Table(f"over-{axis}-{name}", columns, caption)
-
-
-def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the tables of a comparison and the sentences below them."""
-    axis = varied(comparison)
-    if axis:
-        yield from (axis_table(comparison, axis, name) for name in SYMBOLS)
-        yield from (f"* {notice.sentence}" for notice in comparison_notices(comparison))
-        yield from temperature_only(comparison)
-        return
-    yield comparison_table(comparison)
-    yield from remarks(comparison)
 
 
 def remarks(comparison: xr.Dataset) -> Iterator[str]:
@@ -238,7 +226,7 @@ _LADDER = (
 
 def comparison_page(compared: Compared) -> Page:
     """Return the report of a comparison alone."""
-    first = compared.parts[0]
+    first, ladder = compared.parts[0], compared.ladder
     case = case_name(first.attrs) or "case.toml"
     elements = comparison_elements(compared)
     sampled = compared.own_uncertainty
@@ -248,24 +236,17 @@ def comparison_page(compared: Compared) -> Page:
         str(first.attrs.get("title", "")),
         [
             *friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
-            *_of_ladder(compared.ladder),
+            *([*no_answer_notices(ladder), *answer_notices(ladder)] if ladder is not None else ()),
             *(element for element in elements if isinstance(element, Finding)),
             *([Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)] if stale else []),
         ],
-        [*ladder_cards(compared.ladder), *uncertainty_cards(sampled)],
+        [*ladder_cards(ladder), *uncertainty_cards(sampled)],
         [
             Section("comparison", "Models side by side", elements),
             rerun_section(first.attrs),
         ],
-        () if compared.ladder is None else basis_lines(compared.ladder),
+        () if ladder is None else basis_lines(ladder),
     )
-
-
-def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Finding]:
-    """Yield what is to be known of the answer of a comparison of one load."""
-    if ladder is not None:
-        yield from no_answer_notices(ladder)
-        yield from answer_notices(ladder)
 
 
 def comparison_elements(compared: Compared) -> list[Element]:
@@ -292,17 +273,3 @@ def comparison_elements(compared: Compared) -> list[Element]:
         elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
         elements += axis_charts(data)
     return elements
-
-
-def failed_models(data: xr.Dataset) -> str:
-    """Return which models failed; empty if the best estimate stands without them.
-
-    A failed sample is named in its row.
-    """
-    if bool(data.best_contact_fraction.notnull().all()):
-        return ""
-    failed = [
-        replace(failure, sentence=f"{where} did not converge: {failure}")
-        for where, failure in comparison_failures(data)
-    ]
-    return first_of(failed, data.status.size, "models with all their samples")

@@ -21,39 +21,32 @@ OVER = "over_*.nc"
 class Compared:
     """The comparisons of one case: under its own load, and over varied inputs."""
 
-    ladder: xr.Dataset | None = None
-    over: list[xr.Dataset] = field(default_factory=list)
+    parts: list[xr.Dataset] = field(default_factory=list)
     uncertainty: xr.Dataset | None = None
     """What was sampled of the case, or of another."""
 
     @property
-    def parts(self) -> list[xr.Dataset]:
-        """All of them."""
-        return [*([] if self.ladder is None else [self.ladder]), *self.over]
+    def ladder(self) -> xr.Dataset | None:
+        """The comparison under the load of the case; None without one."""
+        return next((data for data in self.parts if not varied(data)), None)
 
     @property
-    def case(self) -> str:
-        """The text of the case."""
-        return str(self.parts[0].attrs.get("case", ""))
+    def over(self) -> list[xr.Dataset]:
+        """The comparisons over varied inputs."""
+        return [data for data in self.parts if varied(data)]
 
     @property
     def own_uncertainty(self) -> xr.Dataset | None:
         """What was sampled of this very case, or None."""
-        data = self.uncertainty
-        return data if data is not None and of_same_inputs(data, self.case) else None
+        data, case = self.uncertainty, str(self.parts[0].attrs.get("case", ""))
+        return data if data is not None and of_same_inputs(data, case) else None
 
     def of(self, case: object) -> Compared:
         """Return those of just this text of a case."""
-        return Compared.holding([data for data in self.parts if data.attrs.get("case") == case])
-
-    @classmethod
-    def holding(cls, parts: list[xr.Dataset]) -> Compared:
-        """Return the comparisons, of which at most one has no axis."""
-        ladders = [data for data in parts if not varied(data)]
-        return cls(ladders[0] if ladders else None, [data for data in parts if varied(data)])
+        return Compared([data for data in self.parts if data.attrs.get("case") == case])
 
 
 def stored_comparisons(folder: Path) -> Compared:
     """Read the comparisons in `folder`."""
     paths = [folder / f"{COMPARISON}.nc", *sorted(folder.glob(OVER))]
-    return Compared.holding([predicted_tree(path).to_dataset() for path in paths if path.is_file()])
+    return Compared([predicted_tree(path).to_dataset() for path in paths if path.is_file()])
