@@ -18,11 +18,7 @@ from gripscale.experiment.measured_friction import MEASURED
 from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
-from gripscale.questions.calibration.calibration_text import (
-    PARAMETERS,
-    estimate_interval,
-    written,
-)
+from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.page_of_measured import residual_table
 from gripscale.questions.chain.view import CONVERGED_WORD

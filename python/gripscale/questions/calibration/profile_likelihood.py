@@ -153,9 +153,7 @@ def covariance(jacobian: Array) -> Array:
     return np.asarray(scaled.T @ scaled)
 
 
-def intervals(
-    problem: CalibrationProblem,
-) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:
+def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:
     """Return the optimum and both ends of the interval of each free parameter.
 
     Begun again where a profile meets a better optimum.

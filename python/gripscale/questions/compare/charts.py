@@ -252,10 +252,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
             marks.append(ShadedBand(x, low, values + spread, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"best_{name}_factor"]).any():
         best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
-        ends = {
-            "low": best * np.exp(-np.arcsinh(width)),
-            "high": best * np.exp(np.arcsinh(width)),
-        }
+        ends = {"low": best * np.exp(-np.arcsinh(width)), "high": best * np.exp(np.arcsinh(width))}
         marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
     adhesive = with_adhesive(comparison) if name == "friction" else None
     for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,

@@ -169,10 +169,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     conditions = setups[0].conditions
     return xr.Dataset(
         data,
-        {
-            "rung": [rung.name for rung in comparison.rungs],
-            **coords,
-        },
+        {"rung": [rung.name for rung in comparison.rungs], **coords},
         {
             "title": "Contact and friction by model",
             **comparison.case.attributes,

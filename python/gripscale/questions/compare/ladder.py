@@ -243,11 +243,7 @@ def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
 
 
 @_rung(
-    DIRECT,
-    "direct contact, measured surface",
-    "measured",
-    "the measured phases",
-    "random_phases",
+    DIRECT, "direct contact, measured surface", "measured", "the measured phases", "random_phases"
 )
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]

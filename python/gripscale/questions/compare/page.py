@@ -241,10 +241,7 @@ def comparison_page(compared: Compared) -> Page:
             *([Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)] if stale else []),
         ],
         [*ladder_cards(ladder), *uncertainty_cards(sampled)],
-        [
-            Section("comparison", "Models side by side", elements),
-            rerun_section(first.attrs),
-        ],
+        [Section("comparison", "Models side by side", elements), rerun_section(first.attrs)],
         () if ladder is None else basis_lines(ladder),
     )
 

@@ -216,10 +216,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             ]  # fmt: skip
         best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
         low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
-        marks += [
-            ShadedBand(x, low, high, INK, alpha=0.12),
-            Series(x, best, INK, ANSWER),
-        ]
+        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, best, INK, ANSWER)]
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return Sheet(panels, keys=[case]).on_paper()

@@ -175,11 +175,7 @@ def _log_ratio(adjoint: FrictionAdjoint, rubber: Rubber) -> ComplexArray:
 
 
 def first_order(
-    case: Case,
-    uncertainty: Uncertainty | None = None,
-    *,
-    count: int = DRAWS,
-    seed: int = 0,
+    case: Case, uncertainty: Uncertainty | None = None, *, count: int = DRAWS, seed: int = 0
 ) -> xr.Dataset:
     """Return the errors of friction and contact area of a case by each source.
 
