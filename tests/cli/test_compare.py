@@ -34,8 +34,7 @@ from gripscale.questions.compare.charts import (
 )
 from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
-from gripscale.questions.compare.page import comparison_table, judgement, remarks
-from gripscale.questions.compare.stored import Compared
+from gripscale.questions.compare.page import Compared, comparison_table, judgement, remarks
 from gripscale.report.source import page_of
 from tests.samples import Shell
 

@@ -293,7 +293,7 @@ def _parts(
 ) -> tuple[list[str | Table], xr.Dataset | None]:
     """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
     from gripscale.questions.answer.page import slopes_table
-    from gripscale.questions.calibration.page_of_measured import measured_lines
+    from gripscale.questions.calibration.page import measured_lines
     from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
     from gripscale.questions.chain.run import DYNAMIC
     from gripscale.questions.chain.view import PredictionView

@@ -6,6 +6,7 @@ Everything is read from the result, for the terminal and for the page alike.
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -13,15 +14,23 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity
-from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.measured_friction import MEASURED
-from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
+from gripscale.experiment import measured_friction
+from gripscale.io.table import (
+    Column,
+    Table,
+    digits,
+    fixed,
+    least_to_most,
+    percent,
+    significant,
+)
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written
 from gripscale.questions.calibration.charts import calibration_pictures
-from gripscale.questions.calibration.page_of_measured import residual_table
 from gripscale.questions.chain.view import CONVERGED_WORD
+from gripscale.questions.compare.charts_of_ladder import measured
 from gripscale.questions.uncertainty.page import as_elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Facts, Page, Section, Text
@@ -77,7 +86,7 @@ def misfit_table(data: xr.Dataset) -> Table:
     """Return the fitted friction beside the measured one, point by point."""
     names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
     model = str(data.attrs.get("model", "fit"))
-    table = data[[*names, *(f"measured_{name}" for name in MEASURED)]]
+    table = data[[*names, *(f"measured_{name}" for name in measured_friction.MEASURED)]]
     table = table.assign({name: data[name].expand_dims(model=[model]) for name in names})
     rms = {f"rms_{n}": np.sqrt((table[n] ** 2).mean("measurement")) for n in names[3:]}
     return residual_table(table.assign(rms))
@@ -207,3 +216,71 @@ def calibration_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
         ],
         (line.strip() for line in calibration_lines(data)),
     )
+
+
+def residual_table(data: xr.Dataset) -> Table:
+    """Return measured and predicted friction, their difference, and it over the spread.
+
+    `data` is what `gripscale.questions.residuals` answers; its root mean squares stand below.
+    """
+    speeds, pressures = (display_unit_of(data.attrs, name) for name in ("speed", "pressure"))
+    spread = bool(np.isfinite(data.measured_spread).any())
+    points = [
+        Column("speed", data.measured_speed.values, "v", speeds.unit, speeds.divisor),
+        Column(
+            "temperature",
+            data.measured_temperature.values,
+            "T",
+            "°C",
+            zero=ZERO_CELSIUS,
+            format=fixed(1),
+        ),
+        Column("pressure", data.measured_pressure.values, "p", pressures.unit, pressures.divisor),
+        Column("measured_friction", data.measured_friction.values, "μ", format=fixed(3)),
+        Column("measured_spread", data.measured_spread.values, "spread", format=fixed(3)),
+    ]
+    points = [column for column in points if np.isfinite(column.values).any()]
+    columns, notes = [column.of(column.values, group="measured") for column in points], []
+    for name in data.model.values.tolist():
+        model = data.sel(model=name).transpose("measurement", ...)
+        group = str(name).replace("_", " ")
+        parts = [
+            Column("hysteresis", heading="μ hyst.", format=fixed(3)),
+            Column("friction", heading="μ", format=fixed(3)),
+            Column("difference", heading="Δμ", format=fixed(3, "+")),
+            Column("difference_in_spread", heading="Δμ / spread", format=fixed(1, "+")),
+        ]
+        wanted = {"hysteresis": "area_term" in data, "difference_in_spread": spread}
+        columns += [
+            part.of(model[part.name].values, name=f"{name}_{part.name}", group=group)
+            for part in parts
+            if wanted.get(part.name, True)
+        ]
+        rms = f"{float(model.rms_difference):.3f}"
+        if spread:
+            rms += f", {float(model.rms_difference_in_spread):.1f} times the spread"
+        notes.append(f"Root mean square of Δμ, {group}: {rms}.")
+    return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
+
+
+def measured_lines(
+    friction: measured_friction.MeasuredFriction, speed: float, speed_unit: DisplayUnit
+) -> Iterator[str]:
+    """Yield what was measured at `speed` [m/s], interpolated in its logarithm, by temperature.
+
+    Speeds are shown as `speed_unit` says.
+    """
+    for series in measured(xr.Dataset(measured_friction.measured_variables(friction))):
+        at = series.at(speed)
+        where = f"{series.label[0].upper()}{series.label[1:]}"
+        if at is None:
+            low, high = (significant(float(speed_unit.of(series.speed[end]))) for end in (0, -1))
+            range_measured = f"from {low} to {high} {speed_unit.unit}"
+            yield f"{where}: nothing at {speed_unit.text(speed)}, only {range_measured}."
+            continue
+        value, spread = at
+        about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
+        yield (
+            f"{where}: mu = {significant(value)}{about} at {speed_unit.text(speed)}; "
+            "`gripscale compare` puts every model beside every measured point."
+        )

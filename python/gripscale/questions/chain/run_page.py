@@ -8,7 +8,7 @@ from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io.table import Table
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.reliance import has_answer
-from gripscale.questions.calibration.page_of_measured import measured_lines
+from gripscale.questions.calibration.page import measured_lines
 from gripscale.questions.chain import findings as notices
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image

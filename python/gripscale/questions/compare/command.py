@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from gripscale.model import Model
-    from gripscale.questions.compare.comparison_dataset import SolvedLadder
+    from gripscale.questions.compare.comparison import SolvedLadder
 
 
 @terminal.command
@@ -60,7 +60,7 @@ def compare_command(
     from gripscale.io import netcdf
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.answer.reliance import has_answer
-    from gripscale.questions.calibration.page_of_measured import residual_table
+    from gripscale.questions.calibration.page import residual_table
     from gripscale.questions.chain.charts import effects_figure
     from gripscale.questions.compare.charts import at_measured_figure
     from gripscale.questions.compare.comparison import COMPARED_OVER, at_measured

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -23,14 +24,56 @@ from gripscale.questions.chain.findings import comparison_notices, friction_noti
 from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS, PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
-from gripscale.questions.compare.stored import Compared
+from gripscale.questions.result import predicted_tree
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
+from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.report import elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 from gripscale.rubber.extrapolation import WORTH_SAYING
+
+COMPARISON = "comparison"
+"""Folder of a comparison in that of the run, and the name of its file."""
+OVER = "over_*.nc"
+"""Files of comparisons over a varied input."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """The comparisons of one case: under its own load, and over varied inputs."""
+
+    parts: list[xr.Dataset] = field(default_factory=list)
+    uncertainty: xr.Dataset | None = None
+    """What was sampled of the case, or of another."""
+
+    @property
+    def ladder(self) -> xr.Dataset | None:
+        """The comparison under the load of the case; None without one."""
+        return next((data for data in self.parts if not varied(data)), None)
+
+    @property
+    def over(self) -> list[xr.Dataset]:
+        """The comparisons over varied inputs."""
+        return [data for data in self.parts if varied(data)]
+
+    @property
+    def own_uncertainty(self) -> xr.Dataset | None:
+        """What was sampled of this very case, or None."""
+        data, case = self.uncertainty, str(self.parts[0].attrs.get("case", ""))
+        return data if data is not None and of_same_inputs(data, case) else None
+
+    def of(self, case: object) -> Compared:
+        """Return those of just this text of a case."""
+        return Compared([data for data in self.parts if data.attrs.get("case") == case])
+
+
+def stored_comparisons(folder: Path) -> Compared:
+    """Read the comparisons in `folder`."""
+    paths = [folder / f"{COMPARISON}.nc", *sorted(folder.glob(OVER))]
+    return Compared([predicted_tree(path).to_dataset() for path in paths if path.is_file()])
+
 
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""

@@ -30,9 +30,7 @@ from gripscale.questions.chain.findings import comparison_notices, friction_noti
 from gripscale.questions.chain.view import SYMBOLS
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
-from gripscale.questions.compare.comparison import OnStage, solved_ladder
-from gripscale.questions.compare.comparison_dataset import SolvedLadder
-from gripscale.questions.compare.stored import Compared
+from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
 from gripscale.questions.result import Result
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
@@ -113,7 +111,7 @@ class Comparison(Result):
 
     def page_content(self) -> Page:
         """Return the models side by side."""
-        return page.comparison_page(Compared([self.data]))
+        return page.comparison_page(page.Compared([self.data]))
 
 
 def compare(
