@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
@@ -70,16 +70,6 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
         f"  Friction with it misses the measured friction by {significant(missed, 2)} (rms), "
         f"without it by {significant(without, 2)}."
     )
-
-
-def calibration_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield tables and sentences of a calibration."""
-    yield misfit_table(data)
-    yield parameter_table(data)
-    yield from filter(None, [correlations(data)])
-    if "left_out" in data.coords:
-        yield held_out_table(data)
-    yield from str(data.attrs.get("notes", "")).splitlines()
 
 
 def misfit_table(data: xr.Dataset) -> Table:
@@ -151,19 +141,6 @@ def held_out_table(data: xr.Dataset) -> Table:
     return Table("held-out", columns, "The law at points that were left out")
 
 
-def calibration_cards(data: xr.Dataset) -> list[Card]:
-    """Return a card for each parameter, with its interval."""
-    return [
-        Card(
-            PARAMETERS[e.name].words,
-            written(e.value, e.unit, 3),
-            estimate_interval(e),
-            not e.determined,
-        )
-        for e in estimates(data)
-    ]
-
-
 def law_facts(data: xr.Dataset) -> Facts:
     """Return the law, what was held and how well it fits."""
     attrs = data.attrs
@@ -197,17 +174,23 @@ def calibration_failure(data: xr.Dataset) -> Failure | None:
     )
 
 
-def calibration_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
+def calibration_page(
+    data: xr.Dataset, findings: Sequence[Finding], parts: Iterable[str | Table]
+) -> Page:
     """Return the page of a calibration: the law, the points, and the profiles of parameters."""
     case, failed = case_name(data.attrs), calibration_failure(data)
-    points, *tables = as_elements(calibration_parts(data))
+    points, *tables = as_elements(parts)
     fit, residuals, profiles = map(image, calibration_pictures(data))
+    cards = []
+    for e in estimates(data):
+        value, words = written(e.value, e.unit, 3), PARAMETERS[e.name].words
+        cards.append(Card(words, value, estimate_interval(e), not e.determined))
     errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
     return Page.of(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
         [*errors, *findings],
-        calibration_cards(data),
+        cards,
         [
             Section("law", "The law", [Text(_CALIBRATION), law_facts(data), *tables]),
             Section("points", "Point by point", [fit, residuals, points]),

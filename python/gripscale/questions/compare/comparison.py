@@ -213,13 +213,10 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     Enough are three that converged, with a factor known to a third of the accuracy wanted, or to a
     third of what the rest of the estimate leaves open.
     """
-    samples, names = comparison.samples, comparison.samples["rung"].values.tolist()
-    if not {estimates.FINITE_STRAIN.over, estimates.FINITE_STRAIN.under} <= set(names):
+    samples, windows = comparison.samples, estimates.FINITE_STRAIN
+    if not {windows.over, windows.under} <= set(samples["rung"].values.tolist()):
         return False
-    over, under = (
-        samples.sel(rung=rung)
-        for rung in (estimates.FINITE_STRAIN.over, estimates.FINITE_STRAIN.under)
-    )
+    over, under = (samples.sel(rung=rung) for rung in (windows.over, windows.under))
     if int((under.subject != "").sum()) < comparison.setups[0].windows:
         return False
     best = comparison.data
@@ -276,10 +273,10 @@ def at_measured(
             continue
         specs = rung.draws(setup)
         designs[rung.name] = []
-        for number, (model, surface, _) in enumerate(specs, start=1):
+        for number, (predicting, surface, _) in enumerate(specs, start=1):
             label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
-            met = setup.rubber_for(model)
-            design = friction.measured_design(measured, model, met, surface, setup.load, label)
+            met = setup.rubber_for(predicting)
+            design = friction.measured_design(measured, predicting, met, surface, setup.load, label)
             designs[rung.name].append(design)
     if not designs:
         return None
@@ -341,14 +338,14 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         add(f"sample_{name}", values, f"{text} by sample", "rung", "sample")
         curves = reduce.running(samples, name, wavelength)
         add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
-        add(f"best_{name}", best[f"best_{name}"], f"best estimate of the {text}")
-        add(f"best_{name}_uncertainty", best[f"best_{name}_uncertainty"], f"{about} best estimate")
         for part, long_name in (
-            ("sampling_error", f"{about} {text}, from the sampling of the road"),
-            ("grid_error", f"{about} {text}, from the grid of the direct contact"),
-            ("half_width", f"relative half width of the 90 % interval of the {text}"),
+            ("", f"best estimate of the {text}"),
+            ("_uncertainty", f"{about} best estimate"),
+            ("_sampling_error", f"{about} {text}, from the sampling of the road"),
+            ("_grid_error", f"{about} {text}, from the grid of the direct contact"),
+            ("_half_width", f"relative half width of the 90 % interval of the {text}"),
         ):
-            add(f"best_{name}_{part}", best[f"best_{name}_{part}"], long_name)
+            add(f"best_{name}{part}", best[f"best_{name}{part}"], long_name)
         text = f"factor on the {text}, NaN if not included"
         add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
         uncertainty = best[f"best_{name}_factor_uncertainty"]
@@ -393,11 +390,8 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     labels, text = best.factor_label.values, "factors of the best estimate"
     data["factor_label"] = labelled("factor", labels, "1", text, _SOURCE)
     measured = comparison.measured
-    if measured is not None:
-        data |= measured_variables(measured)
-    coords: dict[str, Any] = {}
-    if axis is not None:
-        coords |= coordinates([axis], comparison.case.units)
+    data |= {} if measured is None else measured_variables(measured)
+    coords = {} if axis is None else coordinates([axis], comparison.case.units)
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
     conditions = setups[0].conditions
