@@ -20,7 +20,7 @@ from gripscale.core.checks import Checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
 from gripscale.experiment.task import Task
-from gripscale.model import Load, LoadTime, Model
+from gripscale.model import Load, Model
 from gripscale.questions.vary.axis import plain_number
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
@@ -88,34 +88,21 @@ class Measurement:
 
     surface: Surface
     rubber: Rubber
+    load: Load
     master: MasterCurve | None = None
     fit: PronyFit | None = None
-    speed: float = 0.0
-    """Sliding speed of the case [m/s]."""
-    pressure: float = math.nan
-    """Nominal pressure of the case [Pa]."""
     temperature: float | None = None
     """Before the contact [K]; None where it is not known."""
-    load_time: LoadTime = "passage"
     cleaning: Mapping[str, Any] = field(default_factory=dict)
     """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
 
     @classmethod
     def of(cls, case: Case) -> Measurement:
         """Return what a prepared case is known from."""
-        rubber, load = case.measured_rubber, case.load
-        kelvin = (case.conditions or Conditions()).temperature_of(rubber.rubber)
-        return cls(
-            case.surface,
-            rubber.rubber,
-            rubber.master,
-            rubber.fit,
-            load.speed,
-            load.pressure,
-            kelvin,
-            load.load_time,
-            case.cleaning,
-        )
+        measured = case.measured_rubber
+        rubber, master, fit = measured.rubber, measured.master, measured.fit
+        kelvin = (case.conditions or Conditions()).temperature_of(rubber)
+        return cls(case.surface, rubber, case.load, master, fit, kelvin, case.cleaning)
 
     @property
     def profiles(self) -> list[Profile]:
@@ -223,7 +210,11 @@ class Inputs:
         """
         surface = self.surface
         if self.warming:
-            model = self._warmed(model)
+            conditions = model.conditions or Conditions()
+            kelvin = conditions.temperature_of(self.rubber)
+            assert kelvin is not None  # the source has asked for it
+            warmed = replace(conditions, temperature=kelvin + self.warming)
+            model = model.with_conditions(warmed)
         if "waves" not in model.needs:
             return Surface(None, surface.source, measured=self.measured, end=self.end), model
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
@@ -247,12 +238,6 @@ class Inputs:
     def under(self, load: Load) -> Load:
         """Return a load with the pressure of this sample."""
         return replace(load, pressure=load.pressure * math.exp(self.log_pressure))
-
-    def _warmed(self, model: Model) -> Model:
-        conditions = model.conditions or Conditions()
-        kelvin = conditions.temperature_of(self.rubber)
-        assert kelvin is not None  # the source has asked for it
-        return model.with_conditions(replace(conditions, temperature=kelvin + self.warming))
 
 
 class Range(Checked):

@@ -316,7 +316,7 @@ def _log_ratios(rubber: Rubber, omega: Array) -> Array:
 )
 def _modulus(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw a series the measured moduli leave open, see `SeriesScatter`; series have no order."""
-    master, fit, speed = measurement.master, measurement.fit, measurement.speed
+    master, fit, speed = measurement.master, measurement.fit, measurement.load.speed
     if master is None or fit is None:
         raise SourceNotApplicable("no moduli were measured")
     series = SeriesScatter.of(master, fit, measurement.rubber.bulk_modulus)
@@ -379,7 +379,7 @@ def _temperature(measurement: Measurement, options: SourceOptions) -> Draw:
 @_source("nominal pressure", log_pressure=Coordinate("ln of the pressure over that of the case"))
 def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the nominal pressure, normally in its logarithm about that of the case."""
-    of_load = partial(pressure_error, pressure=measurement.pressure)
+    of_load = partial(pressure_error, pressure=measurement.load.pressure)
     normal = NormalDist(0.0, options.standard_error("pressure", of_load))
     return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, log_pressure=value))
 
@@ -396,9 +396,9 @@ contacts are shorter and longer than their mean."""
 )
 def _load_time(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw how long the mean state of a wave has had to relax, over the passage."""
-    if measurement.speed == 0.0:
+    if measurement.load.speed == 0.0:
         raise SourceNotApplicable("at rest it is infinite")
-    if options.values is None and measurement.load_time != "passage":
+    if options.values is None and measurement.load.load_time != "passage":
         raise SourceNotApplicable("the case states it")
     usual = quantities.Range.about(1.0, LOAD_TIME_FACTOR)
     values = options.range_of("load_time", quantities.factor, usual)
