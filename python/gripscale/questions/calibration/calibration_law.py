@@ -87,20 +87,14 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
 
 
 def refuse_unfit(measured: MeasuredFriction, kind: str, fixed: Mapping[str, float]) -> None:
-    """Raise `InputError` for a law that no prediction can fit to the measurement.
-
-    A missing temperature, which a case may know, counts as one that was measured.
-    """
+    """Raise `InputError` for a law that no prediction can fit to the measurement."""
+    # a missing temperature, which a case may know, counts as one that was measured
     kelvin = measured.temperature
     missing = np.isnan(kelvin)
     mean = ZERO_CELSIUS if missing.all() else kelvin[~missing].mean()
     kelvin = np.where(missing, mean, kelvin)
-    unit = np.ones_like(measured.friction)
-    family_of(
-        kind,
-        Points(measured.speed, kelvin, measured.friction, unit, _spread(measured.spread)),
-        fixed,
-    )
+    unit, spread = np.ones_like(measured.friction), _spread(measured.spread)
+    family_of(kind, Points(measured.speed, kelvin, measured.friction, unit, spread), fixed)
 
 
 def _spread(spread: Array) -> Array | None:

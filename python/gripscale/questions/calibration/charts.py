@@ -48,11 +48,7 @@ def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 
 def fitted_figure(data: xr.Dataset) -> Figure:
-    """Draw measured friction with its spread, the hysteresis alone, and the total with its band.
-
-    One panel for each temperature and pressure; points where the model has no answer are left out
-    of its lines.
-    """
+    """Draw measured friction with its spread, the hysteresis alone, and the total with its band."""
     level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
 
     def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
@@ -93,10 +89,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
 
 
 def profiles_figure(data: xr.Dataset) -> Figure:
-    """Draw by how much the sum of squares rises where each parameter is held elsewhere.
-
-    The interval is where the curve is below the line; an end that is not determined has none.
-    """
+    """Draw by how much the sum of squares rises where each parameter is held elsewhere."""
     count = data.sizes["parameter"]
     columns = 2 if count == 4 else min(count, 3)
     panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]

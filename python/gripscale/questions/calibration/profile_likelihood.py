@@ -62,10 +62,7 @@ class LikelihoodProfile:
         return float(self.optimum.theta[self.index])
 
     def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
-        """Return E at a value, and what the others are there.
-
-        Raises `BetterMinimumFound` where E is below zero.
-        """
+        """Return E at a value and the others there; raise `BetterMinimumFound` if E < 0."""
         held = self.problem.holding(self.index, scaled)
         others = np.delete(self.optimum.theta, self.index) if start is None else start
         optimum = fit.refined(held, others)
@@ -199,8 +196,7 @@ def held_out(
 ) -> tuple[HeldOut, ...]:
     """Return what each group of points is predicted to be by the others.
 
-    `groups` holds the value by which each point belongs to a group; `kind` and `fixed` are of the
-    law, as for `family_of`. Raises `InputError` if there is only one group.
+    `groups` holds a value for each point; `kind` and `fixed` are of the law, as for `family_of`.
     """
     values = np.unique(groups)
     if values.size < 2:
@@ -235,10 +231,7 @@ def held_out(
 
 
 def groups_of(way: str, speed: Array, temperature: Array) -> Array:
-    """Return the group of each point: its temperature to the kelvin, or its decade of speed.
-
-    Raises `InputError` if `way` is none of `WAYS`, or a temperature is not known.
-    """
+    """Return the group of each point: its temperature to the kelvin, or its decade of speed."""
     if checks.one_of("hold_out", way, WAYS) == "speed":
         return np.asarray(10.0 ** np.floor(np.log10(speed) + 1e-9))
     if np.isnan(temperature).any():

@@ -55,12 +55,9 @@ _LINE = 24
 def comparison_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of each rung and the factor from the rung it follows.
 
-    A bar runs from one rung to the next: blue where the number falls, orange where it rises, the
-    factor beside it. Marks carry one standard uncertainty of the mean, dots are the samples. The
-    direct contact of the measured surface judges the others; below it stand the theories,
-    the factors of the best estimate and the estimate itself, and what was measured at this speed. A
-    rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
-    band.
+    Below the direct contact, which judges the others, stand the theories, the factors of the best
+    estimate and the estimate itself, and what was measured at this speed. Dots are the samples. A
+    rung with failed samples is open.
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
@@ -169,7 +166,6 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
 def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of each rung down to each wavelength.
 
-    Wavelengths that excite the rubber beyond its measured band are dashed.
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
@@ -216,13 +212,7 @@ def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of all rungs over the axis of a comparison.
-
-    Bands are the standard deviation over the samples. Dashed is what rests on the rubber beyond its
-    measured band. Where a sample failed the mark is open. The
-    best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
-    with its own.
-    """
+    """Draw area and friction of all rungs over the axis of a comparison, with what was measured."""
     return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
@@ -291,10 +281,7 @@ LEAST_WIDTH = 4.5
 
 
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
-    """Draw measured friction with its spread, and the total of every model at the same points.
-
-    `data` is what `comparison` answers; `labels` are the models in words.
-    """
+    """Draw measured friction with its spread, and the total of every model at the same points."""
     names = [str(name) for name in data.model.values]
 
     def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
@@ -310,9 +297,9 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
 def measured_sheet(
     data: xr.Dataset, marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]], head: float
 ) -> Sheet:
-    """Return a panel for each measured series of `data`, its points over the marks of `marks_of`.
+    """Return a panel for each measured series, its points over the marks of `marks_of`.
 
-    Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
+    `head` is the height of the legend [inch].
     """
     speed_unit = display_unit_of(data.attrs, "speed")
     panels = []

@@ -210,8 +210,8 @@ def _design(
 def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     """Return whether more windows would narrow the estimate, and there are more.
 
-    Enough are three that converged, with a factor known to a third of the accuracy wanted, or to a
-    third of what the rest of the estimate leaves open.
+    Enough are three that converged, with a factor known to a third of the accuracy wanted, or of
+    what the rest of the estimate leaves open.
     """
     samples, windows = comparison.samples, estimates.FINITE_STRAIN
     if not {windows.over, windows.under} <= set(samples["rung"].values.tolist()):

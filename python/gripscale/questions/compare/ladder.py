@@ -127,11 +127,7 @@ LADDER: list[Rung] = []
 
 
 def chosen(names: Iterable[str]) -> list[Rung]:
-    """Return the rungs of the given names and groups in the order of the ladder.
-
-    Without names, return all but the roughness below the measurement. Raises `InputError` for an
-    unknown name.
-    """
+    """Return the rungs of names and groups; without names all but those below the measurement."""
     wanted = set(names)
     groups = dict.fromkeys(rung.group for rung in LADDER)
     checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
@@ -311,8 +307,7 @@ def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
 def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
     """Return windows of the profiles that are long enough for one, with waves down to `end`.
 
-    They are in the order first, middle, quarters, ...: the first few of them are spread over the
-    profiles as well as all are.
+    The first, the middle, the quarters, ...: the first few are spread over the profiles as all are.
     """
     enough = [line for line in lines if line.length > length]
     if not enough:

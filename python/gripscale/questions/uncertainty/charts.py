@@ -100,11 +100,7 @@ def parts_figure(data: xr.Dataset) -> Figure:
 
 
 def distribution_figure(data: xr.Dataset) -> Figure:
-    """Draw how friction and contact fraction are distributed, a row for each model.
-
-    Lines are the median and the ends of the 90 % interval, the triangle is the model with the
-    inputs as stated, the star is the answer with its interval.
-    """
+    """Draw how friction and contact fraction are distributed, a row for each model."""
     panels = []
     for model, colour in zip(data.model.values, COLOURS, strict=False):
         samples = data.sel(model=model)
@@ -159,9 +155,8 @@ def _distribution(
 def tornado_figure(data: xr.Dataset) -> Figure:
     """Draw what each source does to the friction of one model at one load, most on top.
 
-    Bars go from 5 to 95 % of what a source does to friction, the others in their middle. Beside
-    them is its share of the variance with its standard error; grey is an effect that is not
-    significant with so many samples.
+    Bars go from 5 to 95 % of what a source does alone. Beside them is its share of the variance;
+    grey is an effect that is not significant with so many samples.
     """
     shares, errors = data.friction_share.values, data.friction_share_error.values
     ranked = np.argsort(shares, kind="stable")

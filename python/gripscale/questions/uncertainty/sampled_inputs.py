@@ -41,12 +41,11 @@ def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
     """Return the solver for waves loaded `factor` [-] times as long: t_i = factor A_(i-1) / v.
 
     The load time is that of a mean contact; contacts are shorter and longer than their mean, and
-    the modulus of the mean state goes with it. Raises `InputError` if the factor is not above zero.
+    the modulus of the mean state goes with it.
     """
-    times = checks.positive("factor", factor)
     if isinstance(solver, RefinableSolver):
-        return RefinableLongerLoaded(solver, times)
-    return LongerLoaded(solver, times)
+        return RefinableLongerLoaded(solver, factor)
+    return LongerLoaded(solver, factor)
 
 
 @dataclass(frozen=True)
@@ -136,7 +135,7 @@ class CleanedProfiles:
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """The inputs of one sample, before any model is asked: as prepared, or as drawn."""
+    """The inputs of one sample: as prepared, or as drawn."""
 
     surface: Surface
     rubber: Rubber
@@ -193,10 +192,7 @@ class Inputs:
         return next((float(end) for end in ends if end), self.surface.cutoff_wavelength)
 
     def ended_at(self, wavelength: float) -> Inputs:
-        """Return the inputs with the end of the waves at a wavelength [m].
-
-        It is the cut-off where the case states one, else the last wave.
-        """
+        """Return the inputs with a cut-off [m], or a last wave where the case states none."""
         name = "cut_off" if self.fit.get("cut_off") is not None else "smallest_wavelength"
         fit = {**self.fit, **dict.fromkeys(END_KEYS), name: wavelength}
         if fit.get("s_wavelength") is not None:
@@ -226,10 +222,7 @@ class Inputs:
         return replace(surface, waves=fit_sines(correlation, **self.fit)), model
 
     def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
-        """Return what has to be solved under each load; a refusal of the model is an answer.
-
-        Raises `InputError` as `for_model` does.
-        """
+        """Return what has to be solved under each load; a refusal of the model is an answer."""
         surface, changed = self.for_model(model)
         relevant = surface.only(changed.needs)
         solved = FailSafeModel(changed)
@@ -281,8 +274,7 @@ class Range(Checked):
     def read(cls, name: str, text: Any, quantity: Callable[[Any], float]) -> Range:
         """Return the range of a text such as `1 GPa:3 GPa` or `1 GPa,2 GPa`, a number or several.
 
-        Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units and
-        raises `InputError` for one that cannot be used.
+        Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units.
         """
         if isinstance(text, Range):
             return text
@@ -340,10 +332,7 @@ kelvins = partial(_quantity, kind="temperature difference", unit="K")
 
 @dataclass(frozen=True)
 class FailSafeModel(Model):
-    """Another model, whose refusal of an input is an answer without totals that says why.
-
-    So one sample of many does not end them all.
-    """
+    """Another model, whose refusal of an input is an answer that says why, and ends no others."""
 
     model: Model
 
