@@ -101,17 +101,17 @@ def profiles_figure(data: xr.Dataset) -> Figure:
 def _profile_panel(data: xr.Dataset) -> Panel:
     threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
     unit = str(data.unit.item())
-    shown = WRITTEN.get(unit, DisplayUnit("-" if unit == "1" else unit))
+    display = WRITTEN.get(unit, DisplayUnit("-" if unit == "1" else unit))
     rows = np.isfinite(data.profile_excess.values)
-    value, excess = shown.of(data.profile_value.values[rows]), data.profile_excess.values[rows]
-    low, high, best = (float(shown.of(data[name])) for name in ("low", "high", "estimate"))
+    value, excess = display.of(data.profile_value.values[rows]), data.profile_excess.values[rows]
+    low, high, best = (float(display.of(data[name])) for name in ("low", "high", "estimate"))
     least, most = float(value.min()), float(value.max())
     ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
     name = str(data.parameter.item())
     missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
     title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
     return Panel(
-        PlotAxis(f"{PARAMETERS[name].label} [{shown.unit}]", low=least, high=most,
+        PlotAxis(f"{PARAMETERS[name].label} [{display.unit}]", low=least, high=most,
              log=name != "activation_energy" and most > 5.0 * least),
         PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
         [

@@ -135,11 +135,11 @@ def solved_ladder(
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
 
-    shown = bench.on_task
+    on_task = bench.on_task
 
     def of_new_tasks(progress: Progress) -> None:
-        if shown is not None and not progress.stored:
-            shown(progress)
+        if on_task is not None and not progress.stored:
+            on_task(progress)
 
     wanted = chosen(rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]

@@ -334,11 +334,11 @@ def propagate(
     InputError, FileError
         If an argument or a file cannot be used, or a result cannot be written.
     """
-    stated = sampling.stated_options(case)
-    choice = Uncertainty.of_case(stated) if uncertainty is None else uncertainty
-    number = stated.samples if samples is None else samples
-    start = stated.seed if seed is None else seed
-    accuracy = stated.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    defaults = sampling.stated_options(case)
+    choice = Uncertainty.of_case(defaults) if uncertainty is None else uncertainty
+    number = defaults.samples if samples is None else samples
+    start = defaults.seed if seed is None else seed
+    accuracy = defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
     plan = Plan(
         case,
         choice,

@@ -123,8 +123,8 @@ def measured_answer(
         for name, measure in ESTIMATED.items():
             values = direct[measure]
             if GRID_PLACE in direct and f"{measure}_grid_error" in direct:
-                place, error = direct[GRID_PLACE], direct[f"{measure}_grid_error"]
-                values = values / np.exp(place * error.fillna(0.0))
+                error = direct[f"{measure}_grid_error"].fillna(0.0)
+                values = values / np.exp(direct[GRID_PLACE] * error)
             usual = float(direct[f"{measure}_case"])
             errors[name] = sampled_error(values.values, usual, drawn, freedom)
         sampled = {name: error.errors for name, error in errors.items()}
