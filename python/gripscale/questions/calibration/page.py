@@ -16,15 +16,7 @@ from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
 from gripscale.experiment import measured_friction
-from gripscale.io.table import (
-    Column,
-    Table,
-    digits,
-    fixed,
-    least_to_most,
-    percent,
-    significant,
-)
+from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written

@@ -17,17 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import (
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-)
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
@@ -109,7 +99,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     theories = int((comparison.group == "theory").sum())
     rungs = ladder.on_the_surface(comparison).sizes["rung"]
     borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
-    marks: list[Mark] = [CrossLine(at, FAINT, order=0.0) for at in borders]
+    marks: list[Mark] = [chart.CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
         if math.isfinite(follower.before) and follower.before == row.value:
             marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
@@ -141,15 +131,15 @@ def _words(name: str) -> tuple[str, str]:
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     if not (math.isfinite(row.value) and row.value > 0.0):
-        yield Note(0.03, at, row.note, GREY, frame="x", italic=True)
+        yield chart.Note(0.03, at, row.note, GREY, frame="x", italic=True)
         return
     factor = ""
     if math.isfinite(row.before):
         shade = ORANGE if row.value > row.before else BLUE
         least, most = sorted((row.before, row.value))
-        yield Bars(least, most, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
+        yield chart.Bars(least, most, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
         factor = f"×{row.factor:.2f}"
-        yield Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
+        yield chart.Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
     if row.samples:
         yield Series(row.samples, [at] * len(row.samples), GREY, dash="", width=0.8, marker="|",
                      size=6.0)  # fmt: skip
@@ -160,7 +150,7 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     numbers = (*row.samples, *row.ends, row.before, row.value)
     rightmost = max(end for end in numbers if math.isfinite(end))
     text = f"{row.value:#.2g}".rstrip(".")  # two significant digits, zeros too
-    yield Note(rightmost, at, text, offset=(5.0, 0.0))
+    yield chart.Note(rightmost, at, text, offset=(5.0, 0.0))
 
 
 def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:

@@ -74,10 +74,7 @@ class Tangent:
 
     @classmethod
     def of(cls, case: Case) -> Tangent:
-        """Solve the direct contact of a case on the grid with four points in the smallest wave.
-
-        Raises `InputError` if the case is at rest, or a contact has no result.
-        """
+        """Solve the direct contact of a case; raise `InputError` at rest or without a result."""
         contacts: list[RoughContact] = []
         answer = _model(case).predict(
             case.rubber, case.surface, case.load, on_progress=contacts.append
@@ -208,8 +205,7 @@ def first_order(
     drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
     errors = {each.name: _scatter(tangent, each, count, seed) for each in sources}
-    if ROAD not in asked.without:
-        errors[ROAD] = tangent.sampling_errors
+    errors |= {ROAD: tangent.sampling_errors} if ROAD not in asked.without else {}
     labels = np.array([SOURCES[name].label for name in errors], dtype=object)
     text = "relative standard error of {}, by first order"
     return xr.Dataset(
