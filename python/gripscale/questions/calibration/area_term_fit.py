@@ -95,7 +95,7 @@ class AreaTermFit:
     @property
     def law(self) -> InterfacialShearStress:
         """The law with the best parameters."""
-        return self.problem.family.law(self.optimum.theta)
+        return self.problem.law(self.optimum.theta)
 
     @property
     def spread_known(self) -> bool:
@@ -105,7 +105,7 @@ class AreaTermFit:
     @property
     def freedom(self) -> int:
         """Degrees of freedom: points less parameters."""
-        return self.problem.points.speed.size - len(self.problem.family.free)
+        return self.problem.points.speed.size - len(self.problem.free)
 
     @property
     def scatter(self) -> float:
@@ -134,7 +134,7 @@ class AreaTermFit:
     def estimates(self) -> list[Estimate]:
         """The free parameters."""
         estimates = []
-        for at, parameter in enumerate(self.problem.family.free):
+        for at, parameter in enumerate(self.problem.free):
             value = parameter.value(float(self.optimum.theta[at]))
             error = float(self._errors[at]) * (value if parameter.log else 1.0)
             low, high = (
@@ -187,7 +187,7 @@ class AreaTermFit:
         factor of 20 where an end is not determined.
         """
         profiles = {}
-        for at, parameter in enumerate(self.problem.family.free):
+        for at, parameter in enumerate(self.problem.free):
             centre, limits = float(self.optimum.theta[at]), parameter.limits
             ends = []
             for way, end in zip((-1, 1), self.ends[at], strict=True):
@@ -273,7 +273,7 @@ class AreaTermFit:
             attrs={
                 "title": "Area term fitted to measured friction",
                 "law": json.dumps(shear_stress_to_dict(self.law)),
-                "held": json.dumps(dict(self.problem.family.held)),
+                "held": json.dumps(dict(self.problem.held)),
                 "measured_source": self.measured.source,
                 "level": likelihood.LIKELIHOOD_LEVEL,
                 "threshold": self.threshold,
@@ -325,7 +325,7 @@ def fit_area_term(
     checks.instance("predicted", predicted, Predicted)
     held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
     points = fit.points_of(measured, predicted)
-    problem = fit.CalibrationProblem(points, fit.family_of(law, points, held))
+    problem = fit.problem_of(law, points, held)
     groups = None
     if hold_out is not None:
         groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)

@@ -90,7 +90,7 @@ def notes(calibration: AreaTermFit) -> Iterator[str]:
         "The intervals hold for the spread of the measurement alone: an error of the predicted "
         "contact area is an error of the shear stress."
     )
-    held = calibration.problem.family.held
+    held = calibration.problem.held
     if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
         yield (
             "No activation energy: the temperatures in the contact are only "

@@ -77,14 +77,14 @@ class LikelihoodProfile:
         Infinite where it does not before the limit of the search, or only because another
         parameter is held back by its own.
         """
-        limit = self.problem.family.free[self.index].limits[(way + 1) // 2]
+        limit = self.problem.free[self.index].limits[(way + 1) // 2]
         near, others = self.centre, np.delete(self.optimum.theta, self.index)
         below = 0.0
         if way * (limit - near) <= 0.0:
             return way * math.inf
         # how far the end would be on a parabola, within reason
         error = np.sqrt(np.diag(covariance(self.optimum.jacobian)))[self.index]
-        low, high = self.problem.family.free[self.index].limits
+        low, high = self.problem.free[self.index].limits
         step = float(np.clip(error * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
         while True:
             far = near + way * step
@@ -158,7 +158,7 @@ def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float
     optimum = fit.best(problem)
     while True:
         threshold = threshold_of(optimum, spread_known=problem.points.spread is not None)
-        free = range(len(problem.family.free))
+        free = range(len(problem.free))
         profiles = [LikelihoodProfile(problem, optimum, at) for at in free]
         try:
             return optimum, tuple((p.end(-1, threshold), p.end(1, threshold)) for p in profiles)
@@ -196,33 +196,32 @@ def held_out(
 ) -> tuple[HeldOut, ...]:
     """Return what each group of points is predicted to be by the others.
 
-    `groups` holds a value for each point; `kind` and `fixed` are of the law, as for `family_of`.
+    `groups` holds a value for each point; `kind` and `fixed` are of the law, as for `problem_of`.
     """
     values = np.unique(groups)
     if values.size < 2:
         raise InputError(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
-    wanted = {parameter.name for parameter in fit.family_of(kind, points, fixed).free}
+    wanted = {parameter.name for parameter in fit.problem_of(kind, points, fixed).free}
     results = []
     for value in values:
         chosen = groups == value
         count, rest, some = int(chosen.sum()), points.only(~chosen), points.only(chosen)
         unknown = HeldOut(float(value), count, math.nan, math.nan, math.nan)
         try:
-            family = fit.family_of(kind, rest, fixed)
+            problem = fit.problem_of(kind, rest, fixed)
         except InputError as error:
             results.append(replace(unknown, why_not=str(error)))
             continue
-        missing = wanted - {parameter.name for parameter in family.free}
+        missing = wanted - {parameter.name for parameter in problem.free}
         if missing:
             why = f"the other points do not determine {', '.join(sorted(missing))}"
             results.append(replace(unknown, why_not=why))
             continue
-        theta = fit.best(CalibrationProblem(rest, family)).theta
+        theta = fit.best(problem).theta
         inside, outside = (
-            CalibrationProblem(part, family).friction(theta) - part.difference
-            for part in (rest, some)
+            replace(problem, points=part).friction(theta) - part.difference for part in (rest, some)
         )
         relative = np.full(count, np.nan) if some.spread is None else outside / some.spread
         within, beyond, over = (float(rms(errors)) for errors in (inside, outside, relative))
