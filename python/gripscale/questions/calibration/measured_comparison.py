@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from gripscale import model as models
 from gripscale.conditions.area_term import InterfacialShearStress
@@ -28,11 +29,7 @@ from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.model import Load, Model
 from gripscale.rubber import Rubber
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from gripscale.surface import Surface
+from gripscale.surface import Surface
 
 
 class Predicted(Checked, eq=False):
@@ -281,8 +278,6 @@ def residuals(
         If a prediction has another number of points or other pressures than the measurement, there
         is none, or the law needs a temperature that is not known.
     """
-    import xarray as xr
-
     checks.instance("measured", measured, MeasuredFriction)
     if not isinstance(predicted, Mapping) or not predicted:
         short = checks.short_repr(predicted)

@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from gripscale import model
 from gripscale.case import Case
@@ -20,7 +21,7 @@ from gripscale.core.checks import Checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
 from gripscale.experiment.task import Task
-from gripscale.model import Load, Model
+from gripscale.model import Load, Model, OnProgress
 from gripscale.questions.vary.axis import plain_number
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
@@ -32,9 +33,6 @@ from gripscale.surface.surface import Measured, Surface, SurfacePart
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
@@ -346,31 +344,10 @@ class FailSafeModel(Model):
         """Parts of a surface that the model within depends on."""
         return self.model.needs
 
-    @property
-    def takes_conditions(self) -> bool:
-        """Whether the model within takes conditions."""
-        return self.model.takes_conditions
-
-    @property
-    def conditions(self) -> Conditions | None:
-        """Conditions of the model within."""
-        return self.model.conditions
-
-    def with_conditions(self, conditions: Conditions | None) -> FailSafeModel:
-        """Return the model within under other conditions."""
-        return FailSafeModel(self.model.with_conditions(conditions))
-
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer of the model within, or why there is none as `prediction_status`."""
-        import xarray as xr
-
         try:
             return self.model.predict(rubber, surface, load, on_progress=on_progress)
         except InputError as refusal:
