@@ -77,7 +77,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
     for number, series in enumerate(measured(data)):
         marks.append(Series(
             speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
-            series.label.removeprefix("measured").removeprefix(", "), "",
+            series.state, "",
             marker=MARKERS[number % len(MARKERS)],
         ))  # fmt: skip
     label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"

@@ -300,7 +300,7 @@ def measured_sheet(
             PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
             PlotAxis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
             [*marks_of(values, speed_unit), points],
-            title=values.label.removeprefix("measured").removeprefix(", "),
+            title=values.state,
         ))  # fmt: skip
     columns = min(len(panels), MOST_COLUMNS)
     return Sheet(

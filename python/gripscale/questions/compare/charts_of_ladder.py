@@ -96,12 +96,18 @@ MARKERS = "osD^v"
 class MeasuredSeries(NamedTuple):
     """Measured friction at one temperature and pressure over rising speed [m/s]."""
 
-    label: str
+    state: str
+    """Temperature, and pressure if there are several; empty if unknown."""
     speed: Array
     friction: Array
     spread: Array
     rows: NDArray[np.intp]
     """Their places among the points of the measurement, which are in any order."""
+
+    @property
+    def label(self) -> str:
+        """What figures and tables call it."""
+        return f"measured, {self.state}" if self.state else "measured"
 
     def at(self, speed: float) -> tuple[float, float] | None:
         """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
@@ -128,7 +134,7 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
             if not here.any():
                 continue
             rows = by_speed[here[by_speed]]
-            words = ["measured"]
+            words = []
             if not math.isnan(temperature):
                 words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
             if several and not math.isnan(pressure):
