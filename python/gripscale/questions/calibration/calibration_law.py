@@ -186,7 +186,7 @@ class CalibrationProblem:
         return apart if self.points.spread is None else apart / self.points.spread
 
     def at_limit(self, theta: Array) -> bool:
-        """Return whether a parameter has gone as far as it is sought; zero itself is no limit."""
+        """Return whether a parameter is at a limit of the search; zero itself is none."""
         pairs = zip(self.free, theta, strict=True)
         return any(
             abs(x - end) < _AT_LIMIT * (parameter.limits[1] - parameter.limits[0])

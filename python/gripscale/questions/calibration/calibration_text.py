@@ -147,7 +147,7 @@ def shear_stress_table(calibration: AreaTermFit) -> str:
 
 
 def written(value: float, unit: str, digits: int | None = None) -> str:
-    """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
+    """Return a number of the law with its unit, of up to six digits or just `digits`."""
     display_unit = WRITTEN.get(unit, DisplayUnit(unit))
     number = float(display_unit.of(value))
     text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")

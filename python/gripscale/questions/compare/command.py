@@ -79,7 +79,7 @@ def compare_command(
     stages: list[SolvedLadder] = []
 
     def print_stage(solved: SolvedLadder) -> None:
-        """Print the answer as far as it goes, once, while windows are solved."""
+        """Print the answer so far, once, while windows are solved."""
         if axes is None and staged and has_answer(solved.data) and not stages:
             stages.append(solved)
             console.print()

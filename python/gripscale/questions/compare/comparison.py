@@ -59,7 +59,7 @@ class SolvedLadder:
     factors: Sequence[Factor] = ()
     """Factors of the best estimate known from elsewhere."""
     rubbers: Sequence[MeasuredRubber] = ()
-    """What the rubbers of the setups come from, and what is doubtful of them."""
+    """The rubbers of the setups with their sources and doubts."""
 
     @property
     def converged(self) -> bool:

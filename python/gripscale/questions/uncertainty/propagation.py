@@ -51,7 +51,7 @@ from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
-"""The quantiles that are told."""
+"""Quantiles of the samples that a result holds."""
 
 PROPAGATED_QUANTITIES = {
     "friction": ("mu", "friction coefficient"),
@@ -230,7 +230,7 @@ _FILES = "file_sha256"
 
 
 def stored_uncertainty(results: Path) -> xr.Dataset | None:
-    """Return the uncertainty in the results folder of a case, or None if there is none whole."""
+    """Return the uncertainty in the results folder of a case, or None without a whole one."""
     return load_stored(results / FOLDER / _RESULT)
 
 

@@ -32,8 +32,8 @@ NOT_STATED = "standard error not stated"
 class Coordinate(NamedTuple):
     """A number that says what a source drew: its unit and meaning.
 
-    A factor is told by its logarithm, and is `logarithm` then, as is a number of either sign; of
-    any other, above zero, the logarithm is taken where the effect of a source is estimated.
+    A factor is given by its logarithm and is `logarithm`, and so is a number of either sign. Of
+    other numbers, above zero, the logarithm is taken where the effect of a source is estimated.
     """
 
     long_name: str
