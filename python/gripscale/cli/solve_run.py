@@ -13,7 +13,7 @@ from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
 from gripscale.questions.answer.page import slopes_table
-from gripscale.questions.calibration.page_of_measured import measured_lines
+from gripscale.questions.calibration.page import measured_lines
 from gripscale.questions.chain import events
 from gripscale.questions.chain.charts import effects_sheet, heat_sheet
 from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table

@@ -18,8 +18,8 @@ from .chain.charts import effects_figure as effects_figure
 from .chain.charts import heat_figure as heat_figure
 from .chain.charts_of_blocks import block_figure as block_figure
 from .chain.charts_of_blocks import blocks_figure as blocks_figure
+from .compare.comparison import SolvedLadder as SolvedLadder
 from .compare.comparison import at_measured as at_measured
-from .compare.comparison_dataset import SolvedLadder as SolvedLadder
 from .compare.ladder import LADDER as LADDER
 from .compare.ladder import ComparisonSetup as ComparisonSetup
 from .compare.ladder import Rung as Rung

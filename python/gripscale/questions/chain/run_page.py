@@ -19,7 +19,7 @@ from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, no_answer
-from gripscale.questions.calibration.page_of_measured import measured_lines
+from gripscale.questions.calibration.page import measured_lines
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
 from gripscale.questions.chain.findings import (

@@ -102,11 +102,7 @@ def parts_figure(data: xr.Dataset) -> Figure:
 
 
 def distribution_figure(data: xr.Dataset) -> Figure:
-    """Draw how friction and contact fraction are distributed, a row for each model.
-
-    Lines are the median and the ends of the 90 % interval, the triangle is the model with the
-    inputs as stated, the star is the answer with its interval.
-    """
+    """Draw how friction and contact fraction are distributed, a row for each model."""
     panels = []
     for model, colour in zip(data.model.values, COLOURS, strict=False):
         samples = data.sel(model=model)
@@ -161,9 +157,8 @@ def _distribution(
 def tornado_figure(data: xr.Dataset) -> Figure:
     """Draw what each source does to the friction of one model at one load, most on top.
 
-    Bars go from 5 to 95 % of what a source does to friction, the others in their middle. Beside
-    them is its share of the variance with its standard error; grey is an effect that is not
-    significant with so many samples.
+    Bars go from 5 to 95 % of what a source does alone. Beside them is its share of the variance;
+    grey is an effect that is not significant with so many samples.
     """
     shares, errors = data.friction_share.values, data.friction_share_error.values
     ranked = np.argsort(shares, kind="stable")
@@ -218,10 +213,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             ]  # fmt: skip
         best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
         low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
-        marks += [
-            ShadedBand(x, low, high, INK, alpha=0.12),
-            Series(x, best, INK, ANSWER),
-        ]
+        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, best, INK, ANSWER)]
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return Sheet(panels, keys=[case]).on_paper()
