@@ -45,12 +45,7 @@ def design_figure(data: xr.Dataset) -> Figure:
     `data` is that of `gripscale.design`.
     """
     points = _drawn_points(data)
-    panels = [
-        _trade_off_panel(data, points),
-        _moduli_panel(data, points),
-        _loss_factor_panel(data, points),
-        _change_panel(data, points),
-    ]
+    panels = [_trade_off_panel(data, points), *_master_curve_panels(data, points)]
     return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
 
 
@@ -61,18 +56,15 @@ def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:
     same = at_todays_rolling(data)
     answer = last if same is None else int(np.abs(ratio - float(same.rolling_ratio)).argmin())
     colours = {0: BLUE, last: ORANGE, answer: GREEN}
-    return [
-        (at, colours[at], _label(float(ratio[at])))
-        for at in sorted(colours)
-        if at == answer or abs(ratio[at] - ratio[answer]) > _APART
-    ]
-
-
-def _label(ratio: float) -> str:
-    """Return what a point of this rolling resistance over today's is called."""
-    if abs(ratio - 1.0) < SAME:
-        return "same rolling resistance"
-    return f"rolling resistance {PERCENT * (ratio - 1.0):+.0f} %"
+    points = []
+    for at in sorted(colours):
+        if at != answer and abs(ratio[at] - ratio[answer]) <= _APART:
+            continue
+        label = f"rolling resistance {PERCENT * (ratio[at] - 1.0):+.0f} %"
+        if abs(ratio[at] - 1.0) < SAME:
+            label = "same rolling resistance"
+        points.append((at, colours[at], label))
+    return points
 
 
 def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
@@ -108,55 +100,44 @@ def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Pa
     )
 
 
-def _shades(data: xr.Dataset) -> list[Mark]:
-    """Return the frequencies that change at today's rolling resistance, and those excited."""
+def _master_curve_panels(data: xr.Dataset, points: list[tuple[int, str, str]]) -> list[Panel]:
+    """Return moduli, loss factor, and moduli over today's.
+
+    Shaded are the frequencies that change at today's rolling resistance; dotted lines enclose those
+    excited.
+    """
     chosen = at_todays_rolling(data)
     chosen = data.isel(point=-1) if chosen is None else chosen
-    marks: list[Mark] = [
+    shades: list[Mark] = [
         CrossLine(low, FAINT, "changed by more than 20 %" if not at else "", upright=True, to=high)
         for at, (low, high) in enumerate(changed_frequencies(data, chosen))
     ]
     for at, end in enumerate((float(data.excited_low), float(data.excited_high))):
         label = "98 % of the friction between" if not at else ""
-        marks.append(CrossLine(end, GREY, label, "dotted", upright=True))
-    return marks
-
-
-def _moduli_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
-    """Return storage and loss modulus."""
-    frequency, marks = data.frequency.values, _shades(data)
-    for name in ("storage", "loss"):
+        shades.append(CrossLine(end, GREY, label, "dotted", upright=True))
+    frequency = data.frequency.values
+    moduli, change = [*shades], [CrossLine(1.0), *shades]
+    for name, symbol in (("storage", "$E'$"), ("loss", "$E''$")):
         today = data[f"today_{name}"].values / MEGA
-        marks.append(Series(frequency, today, INK, width=1.6))
+        moduli.append(Series(frequency, today, INK, width=1.6))
         for at, colour, _ in points:
-            marks.append(
-                Series(frequency, data[name].values[at] / MEGA, colour, width=1.0, order=3.0)
-            )
-        marks.append(
-            Note(frequency[0], today[0], "$E'$" if name == "storage" else "$E''$", offset=(3, 6))
-        )
-    return Panel(_FREQUENCY, PlotAxis("modulus [MPa]", log=True), marks)
-
-
-def _loss_factor_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
-    """Return the loss factor."""
-    frequency, marks = data.frequency.values, _shades(data)
-    marks.append(Series(frequency, (data.today_loss / data.today_storage).values, INK, width=1.6))
+            values = data[name].values[at] / MEGA
+            moduli.append(Series(frequency, values, colour, width=1.0, order=3.0))
+        moduli.append(Note(frequency[0], today[0], symbol, offset=(3, 6)))
+    tangent = (data.today_loss / data.today_storage).values
+    factor = [*shades, Series(frequency, tangent, INK, width=1.6)]
     for at, colour, _ in points:
         ratio = data.loss.values[at] / data.storage.values[at]
-        marks.append(Series(frequency, ratio, colour, width=1.0, order=3.0))
-    return Panel(_FREQUENCY, PlotAxis("loss factor tan δ [-]", low=0.0), marks)
-
-
-def _change_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
-    """Return the moduli over those of today."""
-    frequency, marks = data.frequency.values, _shades(data)
-    for at, colour, _ in points:
+        factor.append(Series(frequency, ratio, colour, width=1.0, order=3.0))
         for name, dash in (("storage", "dashdot"), ("loss", "solid")):
             ratio = data[name].values[at] / data[f"today_{name}"].values
-            marks.append(Series(frequency, ratio, colour, "", dash, width=1.2))
-    keys = [
+            change.append(Series(frequency, ratio, colour, "", dash, width=1.2))
+    change += [
         Series([], [], INK, "$E''$ over today's", width=1.2),
         Series([], [], INK, "$E'$ over today's", "dashdot", width=1.2),
     ]
-    return Panel(_FREQUENCY, PlotAxis("modulus over today's [-]"), [CrossLine(1.0), *marks, *keys])
+    return [
+        Panel(_FREQUENCY, PlotAxis("modulus [MPa]", log=True), moduli),
+        Panel(_FREQUENCY, PlotAxis("loss factor tan δ [-]", low=0.0), factor),
+        Panel(_FREQUENCY, PlotAxis("modulus over today's [-]"), change),
+    ]

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
@@ -40,7 +40,6 @@ from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.design.compound_limits import rubber_at
 from gripscale.questions.design.goal_friction import GoalFriction
-from gripscale.rubber import Rubber
 
 ERROR_RATIO = 0.4
 """Error after halving the spacing over the change by it, as in `grid_sequence`."""
@@ -54,8 +53,6 @@ class Gain:
 
     log_ratio: float
     """G [-]."""
-    by_goal: Array = field(repr=False)
-    """ln(mu_k / mu_k,0) [-]."""
     twice_cut_off: float
     """G with twice the cut-off of the road [-]."""
     sampling: float
@@ -64,21 +61,13 @@ class Gain:
     """Degrees of freedom of the sampling error."""
     grid: float
     """Largest error of G from the grids [-]."""
-    rubber: float = math.nan
-    """Standard error of G from the measurement of the rubber [-]; NaN where not known."""
 
     @property
     def interval(self) -> tuple[float, float]:
         """Interval of the gain, exp(G) - 1, that holds it 9 times in 10; NaN if not known."""
-        certain = xr.DataArray(math.inf)
-        rubber = 0.0 if math.isnan(self.rubber) else self.rubber
-        error = combined(
-            [
-                LogError(xr.DataArray(self.sampling), xr.DataArray(self.freedom)),
-                LogError(xr.DataArray(self.grid / math.sqrt(3.0)), certain),
-                LogError(xr.DataArray(rubber), certain),
-            ]
-        )
+        sampling = LogError(xr.DataArray(self.sampling), xr.DataArray(self.freedom))
+        grid = LogError(xr.DataArray(self.grid / math.sqrt(3.0)), xr.DataArray(math.inf))
+        error = combined([sampling, grid])
         width = math.asinh(float(half_width(error)))
         return math.expm1(self.log_ratio - width), math.expm1(self.log_ratio + width)
 
@@ -90,44 +79,31 @@ def gain(
 
     Both are lists of `GoalFriction.contacts`, on grids that are fine enough for a friction.
     """
-    by_goal = _log_ratios(friction, before, after, _dissipation)
-    traction = _log_ratios(friction, before, after, lambda contact: contact.friction)
-    coarser = _log_ratios(friction, before, after, _on_coarser_grid)
-    doubled = _log_ratios(friction, before, after, _at_twice_the_cut_off)
     weights = friction.weights
-    total = float(weights @ by_goal)
+
+    def log_ratio(measure: Callable[[RoughContact], float]) -> float:
+        """Return G of a friction of the contacts."""
+        low, high = (
+            friction.averaged([measure(contact) for contact in c]) for c in (before, after)
+        )
+        return float(weights @ np.log(high / low))
+
+    def on_coarser_grid(contact: RoughContact) -> float:
+        """Return the friction on the grid before the last of the same surface, or on the last."""
+        same = [grid for grid in contact.grids if grid.cut_off == contact.grids[-1].cut_off]
+        return same[-2:][0].friction_from_dissipation
+
+    def at_twice_the_cut_off(contact: RoughContact) -> float:
+        octave = float(2.0**contact.cut_off_exponents.friction)
+        return contact.friction_from_dissipation * octave
+
+    total = log_ratio(lambda contact: contact.friction_from_dissipation)
     grid = max(
-        ERROR_RATIO * abs(total - float(weights @ coarser)),
-        abs(total - float(weights @ traction)),
+        ERROR_RATIO * abs(total - log_ratio(on_coarser_grid)),
+        abs(total - log_ratio(lambda contact: contact.friction)),
     )
     sampling, freedom = _sampling(friction, before, after)
-    return Gain(total, by_goal, float(weights @ doubled), sampling, freedom, grid)
-
-
-def _dissipation(contact: RoughContact) -> float:
-    return contact.friction_from_dissipation
-
-
-def _on_coarser_grid(contact: RoughContact) -> float:
-    """Return the friction on the grid before the last of the same surface, or on the last."""
-    same = [grid for grid in contact.grids if grid.cut_off == contact.grids[-1].cut_off]
-    return same[-2:][0].friction_from_dissipation
-
-
-def _at_twice_the_cut_off(contact: RoughContact) -> float:
-    octave = float(2.0**contact.cut_off_exponents.friction)
-    return contact.friction_from_dissipation * octave
-
-
-def _log_ratios(
-    friction: GoalFriction,
-    before: Sequence[RoughContact],
-    after: Sequence[RoughContact],
-    measure: Callable[[RoughContact], float],
-) -> Array:
-    """Return the logarithm of after over before at each goal."""
-    low, high = (friction.averaged([measure(contact) for contact in c]) for c in (before, after))
-    return np.asarray(np.log(high / low))
+    return Gain(total, log_ratio(at_twice_the_cut_off), sampling, freedom, grid)
 
 
 def _shares(friction: GoalFriction, contacts: Sequence[RoughContact]) -> Array:
@@ -177,23 +153,18 @@ def series_derivatives(friction: GoalFriction, contacts: Sequence[RoughContact])
     slopes = []
     for part, contact in zip(friction.parts, contacts, strict=True):
         today = rubber_at(friction.rubber, friction.goals[part.goal].temperature)
-        slopes.append(_along_series(contact, today) / contact.friction_from_dissipation)
+        if today.admissible is None:
+            slopes.append(np.zeros(0))
+            continue
+        adjoint, grid = FrictionAdjoint.of(contact), contact.grid
+        modulus, relative = relative_change(contact)
+        omega = contact.speed * grid.along
+        others = today.admissible.complex_moduli(np.abs(omega))
+        others.imag *= np.sign(omega)
+        ratios = np.log(others / today.complex_modulus(omega))
+        along = [float(adjoint.by_modulus(relative * modulus * ratio).sum()) for ratio in ratios]
+        slopes.append(np.array(along) / contact.friction_from_dissipation)
     return np.asarray(_shares(friction, contacts) @ np.array(slopes))
-
-
-def _along_series(contact: RoughContact, today: Rubber) -> Array:
-    """Return d mu of a contact along ln(E*_k/E*_0) of the admissible series of `today`."""
-    if today.admissible is None:
-        return np.zeros(0)
-    adjoint, grid = FrictionAdjoint.of(contact), contact.grid
-    modulus, relative = relative_change(contact)
-    omega = contact.speed * grid.along
-    others = today.admissible.complex_moduli(np.abs(omega))
-    others.imag *= np.sign(omega)
-    ratios = np.log(others / today.complex_modulus(omega))
-    return np.array(
-        [float(adjoint.by_modulus(relative * modulus * ratio).sum()) for ratio in ratios]
-    )
 
 
 def series_error(today: Array, design: Array) -> float:

@@ -82,10 +82,7 @@ class PointLimit(Checked):
         return f"{self.frequency:g} Hz and {where}"
 
     def within_shift(self, rubber: Rubber) -> PointLimit:
-        """Return the limit at the nearest temperature to which the rubber can be shifted.
-
-        Raises `InputError` if it is at another temperature than that of a rubber without a shift.
-        """
+        """Return the limit at the nearest temperature to which the rubber can be shifted."""
         kelvin = self.temperature
         if kelvin is None or rubber.shift is None:
             require_shift(rubber, kelvin, f"the limit on the {self.quantity}")
@@ -95,6 +92,19 @@ class PointLimit(Checked):
         if abs(reached - kelvin) <= EDGE:
             return self
         return replace(self, temperature=reached, wanted=kelvin)
+
+    def modulus_parts(self, rubber: Rubber) -> tuple[Array, Array]:
+        """Return what each modulus of a rubber adds to E' and E'' [Pa], E_inf first."""
+        body = rubber_at(rubber, self.temperature)
+        return modulus_parts(body, np.array(2.0 * math.pi * self.frequency))
+
+    def value(self, rubber: Rubber) -> float:
+        """Return E' [Pa] or tan(delta) [-] of a rubber."""
+        body = rubber_at(rubber, self.temperature)
+        modulus = complex(body.complex_modulus(2.0 * math.pi * self.frequency))
+        if self.quantity == "storage_modulus":
+            return modulus.real
+        return modulus.imag / modulus.real
 
     def __str__(self) -> str:
         symbol = "E'" if self.quantity == "storage_modulus" else "tan δ"
@@ -184,10 +194,7 @@ def changed(rubber: Rubber, ratio: Array, name: str = "") -> Rubber:
 
 
 def modulus_parts(rubber: Rubber, omega: Array) -> tuple[Array, Array]:
-    """Return what each modulus adds to E' and E'' [Pa] at `omega` [rad/s], (frequency, terms + 1).
-
-    E_inf first.
-    """
+    """Return what each modulus, E_inf first, adds to E' and E'' [Pa], (frequency, terms + 1)."""
     phase = np.multiply.outer(np.asarray(omega, dtype=float), rubber.relaxation_times)
     relaxed = np.full((*phase.shape[:-1], 1), rubber.equilibrium_modulus)
     storage = np.concatenate([relaxed, storage_shape(phase) * rubber.moduli], axis=-1)
@@ -207,11 +214,7 @@ class AdmissibleChanges:
     def of(
         cls, rubber: Rubber, limits: CompoundLimits, further: Sequence[PointLimit] = ()
     ) -> AdmissibleChanges:
-        """Return the changes within `limits` and `further` limits on moduli.
-
-        Each is at the nearest temperature that the shift reaches. Raises `InputError` if one is at
-        another temperature than that of a rubber without a shift.
-        """
+        """Return the changes within `limits` and `further` limits on moduli."""
         points = limits.points
         if points is None:
             kelvin = None if rubber.shift is None else HANDLING
@@ -253,18 +256,15 @@ class AdmissibleChanges:
 
     def point_rows(self, point: PointLimit) -> list[tuple[Array, float]]:
         """Return rows whose product with r is at most a number, for one limit of the moduli."""
-        body = rubber_at(self.rubber, point.temperature)
-        storage, loss = modulus_parts(body, np.array(2.0 * math.pi * point.frequency))
+        storage, loss = point.modulus_parts(self.rubber)
         storage, loss = storage / storage.sum(), loss / storage.sum()
-        rows = []
         if point.quantity == "storage_modulus":
-            rows = [(-storage, -point.low), (storage, point.high)]
+            low, high = (-storage, -point.low), (storage, point.high)
         else:
             today = float(loss.sum())
-            rows = [(point.low * today * storage - loss, 0.0)]
-            if math.isfinite(point.high):
-                rows.append((loss - point.high * today * storage, 0.0))
-        return [(row, most) for row, most in rows if math.isfinite(most)]
+            low = point.low * today * storage - loss, 0.0
+            high = loss - point.high * today * storage, 0.0
+        return [low, high] if math.isfinite(point.high) else [low]
 
     @cached_property
     def rows(self) -> tuple[Array, Array]:
@@ -313,11 +313,8 @@ class AdmissibleChanges:
 
         E''/E' over a polytope is a linear fraction: its level is moved until no admissible
         change has a lower one (W. Dinkelbach, Manag. Sci. 13 (1967) 492).
-
-        Raises `InputError` if nothing is admissible.
         """
-        body = rubber_at(self.rubber, point.temperature)
-        storage, loss = modulus_parts(body, np.array(2.0 * math.pi * point.frequency))
+        storage, loss = point.modulus_parts(self.rubber)
         self.require_some()
         today = level = float(loss.sum() / storage.sum())
         for _ in range(50):

@@ -35,7 +35,6 @@ from gripscale.questions.design.compound_limits import (
     AdmissibleChanges,
     CompoundLimits,
     PointLimit,
-    rubber_at,
 )
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
 from gripscale.questions.vary.inputs import surface_of
@@ -92,14 +91,9 @@ class DesignProblem:
         rolling = replace(self.rolling, high=level)
         return AdmissibleChanges.of(self.rubber, self.limits, [rolling])
 
-    def rolling_loss_factor(self, rubber: Rubber) -> float:
-        """Return tan(delta) of a compound at the rolling condition [-]."""
-        body = rubber_at(rubber, self.rolling.temperature)
-        return float(body.loss_factor(2.0 * math.pi * self.rolling.frequency))
-
     def rolling_ratio(self, rubber: Rubber) -> float:
         """Return tan(delta) of a compound at the rolling condition over today's [-]."""
-        return self.rolling_loss_factor(rubber) / self.rolling_loss_factor(self.rubber)
+        return self.rolling.value(rubber) / self.rolling.value(self.rubber)
 
     def worth_of_limits(self, level: float, slope: Array) -> dict[str, float]:
         """Return what a tenth more room gives in ln mu [-], by what is limited, to first order.
@@ -109,13 +103,9 @@ class DesignProblem:
         """
         limits, narrow = self.limits, self.admissible(level)
         *points, rolling = narrow.points
-        wider = {
-            LARGEST_FACTOR: (replace(limits, largest_factor=WIDER * limits.largest_factor), points),
-            PER_DECADE: (
-                replace(limits, factor_per_decade=WIDER * limits.factor_per_decade),
-                points,
-            ),
-        }
+        larger = replace(limits, largest_factor=WIDER * limits.largest_factor)
+        steeper = replace(limits, factor_per_decade=WIDER * limits.factor_per_decade)
+        wider = {LARGEST_FACTOR: (larger, points), PER_DECADE: (steeper, points)}
         for i, point in enumerate(points):
             room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
             wider[str(point)] = (limits, [*points[:i], room, *points[i + 1 :]])
@@ -155,17 +145,23 @@ class CompoundOptimum:
 def best_change(
     friction: GoalFriction, admissible: AdmissibleChanges, start: Array
 ) -> CompoundOptimum:
-    """Return the admissible change with the largest friction, sought from `start`.
+    """Return the admissible change with the largest friction, sought from `start`."""
+    from scipy.optimize import minimize
 
-    Raises `InputError` if no change is admissible.
-    """
     admissible.require_some()
     optimum = _corner_steps(friction, admissible, start)
-    if optimum.gap > LEAST_GAP:
-        inside = _quadratic_steps(friction, admissible, optimum.ratio)
-        further = _corner_steps(friction, admissible, inside)
-        optimum = max(optimum, further, key=lambda end: end.log_friction)
-    return optimum
+    if optimum.gap <= LEAST_GAP:
+        return optimum
+
+    def negative(ratio: Array) -> tuple[float, Array]:
+        value, slope = friction.log_friction(ratio)
+        return -value, -slope
+
+    settings = _programme(admissible, *admissible.rows)
+    solved = minimize(negative, optimum.ratio, jac=True, **settings)
+    inside = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+    further = _corner_steps(friction, admissible, inside)
+    return max(optimum, further, key=lambda end: end.log_friction)
 
 
 def nearest_design(
@@ -186,7 +182,7 @@ def nearest_design(
         logarithm = np.log(ratio)
         return float(logarithm @ logarithm), 2.0 * logarithm / ratio
 
-    settings = _programme(admissible, matrix, most, PRECISION)
+    settings = _programme(admissible, matrix, most)
     solved = minimize(distance, optimum.ratio, jac=True, **settings)
     ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
     if admissible.violation(ratio) > _ROUNDING:
@@ -199,9 +195,7 @@ def nearest_design(
     return optimum
 
 
-def _programme(
-    admissible: AdmissibleChanges, matrix: Array, most: Array, precision: float
-) -> dict[str, Any]:
+def _programme(admissible: AdmissibleChanges, matrix: Array, most: Array) -> dict[str, Any]:
     """Return the arguments of scipy's SLSQP for matrix . r <= most and the bounds."""
 
     def margin(ratio: Array) -> Array:
@@ -211,7 +205,7 @@ def _programme(
         "method": "SLSQP",
         "bounds": [admissible.bounds] * matrix.shape[1],
         "constraints": {"type": "ineq", "fun": margin, "jac": lambda _: -matrix},
-        "options": {"ftol": precision, "maxiter": MOST_STEPS},
+        "options": {"ftol": PRECISION, "maxiter": MOST_STEPS},
     }
 
 
@@ -242,19 +236,6 @@ def _corner_steps(
         else:
             step *= 0.25
     return CompoundOptimum(ratio, value, slope, gap)
-
-
-def _quadratic_steps(friction: GoalFriction, admissible: AdmissibleChanges, start: Array) -> Array:
-    """Return the end of sequential quadratic programming."""
-    from scipy.optimize import minimize
-
-    def negative(ratio: Array) -> tuple[float, Array]:
-        value, slope = friction.log_friction(ratio)
-        return -value, -slope
-
-    settings = _programme(admissible, *admissible.rows, PRECISION)
-    solved = minimize(negative, start, jac=True, **settings)
-    return np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
 
 
 def default_goal(case: Case) -> CompoundGoal:

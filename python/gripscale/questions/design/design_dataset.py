@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,6 @@ from gripscale.questions.design.compound_limits import (
     PointLimit,
     changed,
     modulus_parts,
-    rubber_at,
 )
 from gripscale.questions.design.compound_search import (
     FREQUENCY,
@@ -36,81 +35,47 @@ FREQUENCIES_PER_DECADE = 8
 """Frequencies of a stored master curve in a decade."""
 
 
-def scalars(values: Mapping[str, tuple[float, str]]) -> xr.Dataset:
-    """Return numbers with what they are as variables without a dimension."""
-    return xr.Dataset(
-        {name: ((), value, variable_attributes(text)) for name, (value, text) in values.items()}
-    )
+def variable(
+    values: Any, text: str, unit: str = "1", dim: str = ""
+) -> tuple[tuple[str, ...], Any, dict[str, str]]:
+    """Return a variable over `dim`, or without a dimension, as xarray takes it."""
+    return (dim,) if dim else (), values, variable_attributes(text, unit)
 
 
 def of_change(admissible: AdmissibleChanges, ratio: Array) -> dict[str, Any]:
     """Return the change of each modulus, and of what is limited at a point of frequency."""
+    today, design = admissible.rubber, changed(admissible.rubber, ratio)
     points = admissible.points[:-1]  # the last is the rolling condition
-    values = []
-    for point in points:
-        today, design = (
-            _point_value(point, rubber)
-            for rubber in (admissible.rubber, changed(admissible.rubber, ratio))
-        )
-        values.append(design / today)
+    limited = np.array([point.value(design) / point.value(today) for point in points])
     return {
-        "modulus_ratio": ("term", ratio, variable_attributes("modulus over today's, E_inf first")),
-        "limited_ratio": (
-            "limit",
-            np.array(values),
-            variable_attributes("limited modulus over today's"),
-        ),
+        "modulus_ratio": variable(ratio, "modulus over today's, E_inf first", dim="term"),
+        "limited_ratio": variable(limited, "limited modulus over today's", dim="limit"),
     }
-
-
-def _point_value(point: PointLimit, rubber: Rubber) -> float:
-    body, omega = rubber_at(rubber, point.temperature), 2.0 * math.pi * point.frequency
-    modulus = complex(body.complex_modulus(omega))
-    return modulus.real if point.quantity == "storage_modulus" else modulus.imag / modulus.real
 
 
 def of_compound(
     problem: DesignProblem, rubber: Rubber, contacts: Sequence[RoughContact]
 ) -> dict[str, Any]:
     """Return friction and contact at the goals, moduli and master curve of a compound."""
-    friction = problem.friction
     omega = 2.0 * math.pi * _frequencies(problem.rubber)
     storage, loss = (parts.sum(axis=-1) for parts in modulus_parts(rubber, omega))
     moduli = np.concatenate([[rubber.equilibrium_modulus], rubber.moduli])
     lost, traction, area = (
-        friction.averaged([getattr(contact, name) for contact in contacts])
+        problem.friction.averaged([getattr(contact, name) for contact in contacts])
         for name in ("friction_from_dissipation", "friction", "contact_fraction")
     )
-    wet = math.nan
-    if rubber.shift is not None:
-        body = rubber_at(rubber, WET.within_shift(rubber).temperature)
-        wet = float(body.loss_factor(2.0 * math.pi * WET.frequency))
-    rolling = problem.rolling_loss_factor(rubber)
+    rolling = problem.rolling.value(rubber)
+    wet = math.nan if rubber.shift is None else WET.within_shift(rubber).value(rubber)
+    text = "E_inf, and moduli of the Prony series"
     return {
-        "friction": (
-            "goal",
-            lost,
-            variable_attributes("friction coefficient from the energy lost"),
-        ),
-        "friction_from_traction": (
-            "goal",
-            traction,
-            variable_attributes("the same from the traction"),
-        ),
-        "contact_fraction": ("goal", area, variable_attributes("real over nominal contact area")),
-        "modulus": (
-            "term",
-            moduli,
-            variable_attributes("E_inf, and moduli of the Prony series", "Pa"),
-        ),
-        "storage": ("frequency", storage, variable_attributes("storage modulus", "Pa")),
-        "loss": ("frequency", loss, variable_attributes("loss modulus", "Pa")),
-        "rolling_loss_factor": (
-            (),
-            rolling,
-            variable_attributes("tan(delta) at the rolling condition"),
-        ),
-        "wet_loss_factor": ((), wet, variable_attributes("tan(delta) of the rule for wet grip")),
+        "friction": variable(lost, "friction coefficient from the energy lost", dim="goal"),
+        "friction_from_traction": variable(traction, "the same from the traction", dim="goal"),
+        "contact_fraction": variable(area, "real over nominal contact area", dim="goal"),
+        "modulus": variable(moduli, text, "Pa", "term"),
+        "storage": variable(storage, "storage modulus", "Pa", "frequency"),
+        "loss": variable(loss, "loss modulus", "Pa", "frequency"),
+        "rolling_loss_factor": variable(rolling, "tan(delta) at the rolling condition"),
+        "wet_loss_factor": variable(wet, "tan(delta) of the rule for wet grip"),
     }
 
 
@@ -128,26 +93,21 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     data = {
         f"today_{name}": values for name, values in of_compound(problem, rubber, contacts).items()
     }
-    excited = [_excited(contact) for contact in contacts]
+    low, high = zip(*map(_excited, contacts), strict=True)
     times = np.concatenate([[math.inf], rubber.relaxation_times])
     goals = [str(goal) for goal in friction.goals]
     limits = [str(point) for point in problem.admissible().points[:-1]]
     widened = [LARGEST_FACTOR, PER_DECADE, *limits, ROLLING_LEVEL]
     data |= {
-        "excited_low": (
-            (),
-            min(low for low, _ in excited),
-            variable_attributes("excited from", "Hz"),
-        ),
-        "excited_high": ((), max(high for _, high in excited), variable_attributes("up to", "Hz")),
-        "goal_weight": ("goal", friction.weights, variable_attributes("weight of the goal")),
+        "excited_low": variable(min(low), "excited from", "Hz"),
+        "excited_high": variable(max(high), "up to", "Hz"),
+        "goal_weight": variable(friction.weights, "weight of the goal", dim="goal"),
     }
+    names = {"goal": goals, "limit": limits, "widened": widened}
     coordinates = {
-        "goal": ("goal", np.array(goals, dtype=object)),
-        "limit": ("limit", np.array(limits, dtype=object)),
-        "widened": ("widened", np.array(widened, dtype=object)),
-        "relaxation_time": ("term", times, variable_attributes("relaxation time", "s")),
-        "frequency": ("frequency", _frequencies(rubber), variable_attributes("frequency", "Hz")),
+        **{dim: (dim, np.array(texts, dtype=object)) for dim, texts in names.items()},
+        "relaxation_time": variable(times, "relaxation time", "s", "term"),
+        "frequency": variable(_frequencies(rubber), "frequency", "Hz", "frequency"),
     }
     kelvin = rubber.reference_temperature
     about = {

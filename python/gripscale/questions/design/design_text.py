@@ -19,8 +19,8 @@ from gripscale.questions.design.compound_limits import LIMITED_QUANTITIES, Point
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
-GOAL_KEYS = {"speed": "speed", "pressure": "pressure", "temperature": "temperature"}
-"""What a goal may state, with the kind of quantity; beside `weight` and `road`."""
+GOAL_QUANTITIES = ("speed", "pressure", "temperature")
+"""What a goal may state beside `weight` and `road`."""
 LEAST_CHANGE = 0.2
 """Change of E' or E'' from which a frequency counts as changed."""
 
@@ -30,10 +30,10 @@ def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
 
     What it does not state is that of `default`. Raises `InputError` if it cannot be understood.
     """
-    values: dict[str, Any] = {name: getattr(default, name) for name in GOAL_KEYS}
+    values: dict[str, Any] = {name: getattr(default, name) for name in GOAL_QUANTITIES}
     for part in text.split(","):
         name, sign, value = (word.strip() for word in part.partition("="))
-        if not sign or name not in (*GOAL_KEYS, "weight", "road"):
+        if not sign or name not in (*GOAL_QUANTITIES, "weight", "road"):
             raise InputError(
                 'goal must be such as "speed=3 m/s, temperature=20 C, pressure=2 bar, weight=1, '
                 f'road=case"; got {checks.short_repr(part.strip())}'
@@ -42,9 +42,7 @@ def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
             values[name] = value
             continue
         try:
-            values[name] = (
-                float(value) if name == "weight" else parse_quantity(value, GOAL_KEYS[name])
-            )
+            values[name] = float(value) if name == "weight" else parse_quantity(value, name)
         except ValueError as error:
             raise InputError(f"goal {name} = {value!r}: {error}") from error
     return CompoundGoal(**values)
@@ -116,11 +114,8 @@ def designed_rubber(data: xr.Dataset, point: int) -> Rubber:
     """Return the rubber that a point of a design asks for."""
     today = Rubber.from_dict(json.loads(data.attrs["rubber_parameters"]))
     chosen = data.isel(point=point)
-    return changed(today, np.asarray(chosen.modulus_ratio.values), name=_name(chosen))
-
-
-def _name(point: xr.Dataset) -> str:
-    return f"target_{round(100.0 * float(point.rolling_ratio)):03d}"
+    name = f"target_{round(100.0 * float(chosen.rolling_ratio)):03d}"
+    return changed(today, np.asarray(chosen.modulus_ratio.values), name=name)
 
 
 def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
@@ -128,8 +123,6 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
 
     The number in the name is tan(delta) at the rolling condition in per cent of today's. The JSON
     file is what `gripscale export rubber` takes. Returns the paths.
-
-    Raises `FileError` if a file cannot be written.
     """
     target = Path(folder)
     make_folder(target)

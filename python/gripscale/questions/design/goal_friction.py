@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from threading import Event
 from typing import TypeVar
 
 import numpy as np
@@ -93,8 +92,6 @@ class GoalFriction:
     goals: Sequence[CompoundGoal]
     parts: Sequence[MeasuredPart] = field(repr=False)
     workers: int = 1
-    solutions: int = 0
-    """Contacts solved so far."""
     _before: dict[int, RoughContact] = field(default_factory=dict, repr=False)
 
     @classmethod
@@ -121,7 +118,8 @@ class GoalFriction:
                 )
             longest = float(road.sines.wavelength[0])
             surfaces: list[Profile | HeightMap] = list(road.measured.surfaces)
-            lengths = [_length(surface) for surface in surfaces]
+            # the period of a line of n points is n spacings
+            lengths = [float((s.x[-1] - s.x[0]) * len(s.x) / (len(s.x) - 1)) for s in surfaces]
             for surface, length in zip(surfaces, lengths, strict=True):
                 shortest = smallest_wavelength(road, surface)
                 parts.append(MeasuredPart(index, surface, shortest, longest, length / sum(lengths)))
@@ -159,7 +157,6 @@ class GoalFriction:
             return contact
 
         solved = self._each(solve)
-        self.solutions += len(solved)
         if warm and tolerance is None:
             self._before = dict(enumerate(solved))
         return solved
@@ -169,11 +166,6 @@ class GoalFriction:
         rows = [part.weight * np.asarray(v) for part, v in zip(self.parts, values, strict=True)]
         of_goal = np.array([part.goal for part in self.parts])
         return np.array([sum(np.array(rows)[of_goal == i]) for i in range(len(self.goals))])
-
-    def friction(self, ratio: Array) -> Array:
-        """Return the friction from the energy lost at each goal [-], of moduli times `ratio`."""
-        solved = self.contacts(changed(self.rubber, ratio))
-        return self.averaged([contact.friction_from_dissipation for contact in solved])
 
     def log_friction(self, ratio: Array) -> tuple[float, Array]:
         """Return the weighted mean of ln mu [-] of moduli times `ratio`, and its gradient."""
@@ -187,16 +179,7 @@ class GoalFriction:
         """Return the work of each part, on all threads; the parts are independent."""
 
         def job(index: int) -> Job[_T]:
-            def run(_: Event) -> _T:
-                return work(index)
-
-            return run
+            return lambda _: work(index)
 
         done = dict(in_threads([job(i) for i in range(len(self.parts))], self.workers))
         return [done[index] for index in range(len(self.parts))]
-
-
-def _length(surface: Profile | HeightMap) -> float:
-    """Return the period of a measurement along the sliding direction [m]."""
-    count = len(surface.x)
-    return float((surface.x[-1] - surface.x[0]) * count / (count - 1))

@@ -44,7 +44,10 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
             f"friction {_gain(lowest)}"
         )
     chosen = data.isel(point=-1) if same is None else same
-    decided = "the limits decide" if _decide(chosen) else "the limits do not decide"
+    pairs = zip(chosen.widened.values.tolist(), chosen.limit_worth.values.tolist(), strict=True)
+    worths = {name: math.expm1(worth) for name, worth in pairs}
+    decide = any(worth > DECIDES for name, worth in worths.items() if name != ROLLING_LEVEL)
+    decided = "the limits decide" if decide else "the limits do not decide"
     answer = "; or ".join(answers) or "no more friction for less rolling resistance"
     yield f"Answer: {answer}; {decided}"
     if json.loads(data.attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
@@ -66,8 +69,8 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         f"({data.attrs['largest_factor']:g}) or as far from a neighbour as they may be (a factor "
         f"of {data.attrs['factor_per_decade']:g} a decade)"
     )
-    worths = [f"{name}, {_percent(worth)}" for name, worth in _worths(chosen).items()]
-    yield f"  a limit relaxed by a tenth gives, to first order: {'; '.join(worths)}"
+    relaxed = [f"{name}, {_percent(worth)}" for name, worth in worths.items()]
+    yield f"  a limit relaxed by a tenth gives, to first order: {'; '.join(relaxed)}"
     yield f"  {_interval_sources(chosen)}"
     yield from (f"note: {note}" for note in data.attrs.get("notes", "").splitlines())
 
@@ -99,17 +102,6 @@ def _at_rolling(point: xr.Dataset) -> str:
 
 def _percent(value: float) -> str:
     return f"{100.0 * value:+.0f} %" if abs(value) > 0.0995 else f"{100.0 * value:+z.1f} %"
-
-
-def _worths(point: xr.Dataset) -> dict[str, float]:
-    """Return what a tenth more room is worth, by what limits the friction of a point."""
-    pairs = zip(point.widened.values.tolist(), point.limit_worth.values.tolist(), strict=True)
-    return {name: math.expm1(worth) for name, worth in pairs}
-
-
-def _decide(point: xr.Dataset) -> bool:
-    """Return whether a limit other than the rolling resistance holds the friction back."""
-    return any(worth > DECIDES for name, worth in _worths(point).items() if name != ROLLING_LEVEL)
 
 
 def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
@@ -149,9 +141,13 @@ def _interval_sources(point: xr.Dataset) -> str:
 
 def design_table(data: xr.Dataset) -> Table:
     """Return the points of a design as a table."""
+
+    def unsigned_zero(value: float) -> str:
+        return change(round(value, 4) + 0.0)
+
     columns = [
         Column("rolling_loss_factor", data.rolling_loss_factor.values, "tan δ rolling"),
-        Column("rolling_change", data.rolling_ratio.values - 1.0, "change", format=_rolling),
+        Column("rolling_change", data.rolling_ratio.values - 1.0, "change", format=unsigned_zero),
         Column("gain", data.gain.values, "friction gained", format=change),
         Column(
             "gain_interval",
@@ -172,7 +168,9 @@ def design_table(data: xr.Dataset) -> Table:
         columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
         wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
         notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
-    columns.append(Column("limited_share", data.limited_share.values, "at a limit", format=_share))
+    columns.append(
+        Column("limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format)
+    )
     columns.append(Column("gap", data.gap.values, "left to gain", format=change))
     return Table("design", columns, _TITLE, notes)
 
@@ -197,15 +195,6 @@ def designed_compounds_table(data: xr.Dataset) -> Table | None:
         ],
         "Other compounds beside today's",
     )
-
-
-def _rolling(value: float) -> str:
-    """Return a change of the rolling resistance; today's has no sign."""
-    return change(round(value, 4) + 0.0)
-
-
-def _share(value: float) -> str:
-    return f"{100.0 * value:.0f} %"
 
 
 def design_tables(data: xr.Dataset) -> list[Table]:

@@ -6,25 +6,48 @@ result.data.gain
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import xarray as xr
+
 from gripscale.case import Case
-from gripscale.core.finding import Finding
+from gripscale.core import checks
+from gripscale.core.finding import Finding, doubt
+from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.design import page
-from gripscale.questions.design.compound_design import OnPoint, solved_design
+from gripscale.questions.design.compound_design import (
+    DESIGN_FILE,
+    DESIGN_TOLERANCE,
+    FRUITLESS,
+    Reference,
+    design_key,
+    left_out,
+    other_compounds,
+    rising_levels,
+    solved_point,
+    stored_points,
+)
 from gripscale.questions.design.compound_limits import CompoundLimits
+from gripscale.questions.design.compound_search import design_problem
+from gripscale.questions.design.design_dataset import today
 from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
+from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
 from gripscale.report.elements import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+OnPoint = Callable[[xr.Dataset], object]
 
 
 class CompoundDesign(Result):
@@ -118,15 +141,52 @@ def design(
     target = None if folder is None else Path(folder)
     if target is not None:
         make_folder(target)
-    data, inputs = solved_design(
-        case,
-        target,
-        goals=goals,
-        limits=limits,
-        levels=levels,
-        rubbers=rubbers,
-        roads=roads,
-        workers=workers,
-        on_point=on_point,
+    problem = design_problem(case, goals, limits, workers, roads)
+    wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
+    named = rubbers or {}
+    key = design_key(case, problem, wanted, named)
+    stored, fruitless = stored_points(target, key)
+    reference = Reference.of(problem.friction)
+    compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
+    others, notes = other_compounds(
+        problem, reference, {name: each.rubber for name, each in compounds.items()}
     )
+    base = today(problem, reference.contacts, DESIGN_TOLERANCE)
+    base = base.merge(others).assign_attrs(
+        {**base.attrs, **case.attributes},
+        case_file=case.origin.name,
+        kind=CompoundDesign.kind,
+        design_key=key,
+        rubber_parameters=json.dumps(problem.rubber.to_dict()),
+        notes="\n".join([*notes, *left_out(case)]),
+    )
+    loads = [
+        replace(case.load, speed=goal.speed, pressure=goal.pressure)
+        for goal in problem.friction.goals
+    ]
+    of_compounds = [doubt(text) for text in reading_notes(named.values())]
+    of_compounds += [d.about(name) for name, each in compounds.items() for d in each.doubts]
+    inputs = record.inputs(case, problem.roads.values(), loads, of_compounds)
+    points: list[xr.Dataset] = []
+    rising = rising_levels(wanted, problem)
+    for level in rising:
+        if level in fruitless:
+            continue
+        point = stored.get(level)
+        if point is None:
+            point = solved_point(problem, reference, level, points[-1:])
+        rises = not points or float(point.gain) > float(points[-1].gain)
+        if rises:
+            points.append(point)
+        else:
+            fruitless.add(level)
+        if not bool(point.rolling_reached):
+            fruitless |= {higher for higher in rising if higher > level}
+        curve = xr.concat(points, "point", combine_attrs="override").sortby("rolling_level")
+        attributes = {**base.attrs, FRUITLESS: json.dumps(sorted(fruitless))}
+        data = base.merge(curve).assign_attrs(attributes)
+        if target is not None:
+            netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
+        if rises and on_point is not None:
+            on_point(point)
     return CompoundDesign(data, inputs)
