@@ -8,7 +8,7 @@ import textwrap
 import time
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
-from functools import wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
 
@@ -120,7 +120,7 @@ def conclude(
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,
-    page: str = "",
+    page: Callable[[], Path] | None = None,
     failure: str = "",
 ) -> None:
     """End a command: print and write what it found, draw its figures, set the exit code.
@@ -129,8 +129,8 @@ def conclude(
     `lead`, the answer, the first of the ranked `warnings` and `parts` are printed. The file `text`,
     with lines of `width`, has `lead`, all warnings, then `opening`, which the screen shows already,
     then `parts`; `files` are further texts by name.
-    `closing` says what is in the folder. `page` is the result whose page is written, where the
-    libraries for it are installed; `failure` is what has no result, and sets the exit code.
+    `closing` says what is in the folder. `page` writes a page, where the libraries for it are
+    installed; `failure` is what has no result, and sets the exit code.
     """
     from gripscale.io.folders import write_text
     from gripscale.io.table import as_text
@@ -149,11 +149,9 @@ def conclude(
         draw()
     console.print()
     print_wrapped(console, f"{closing} {target}")
-    if page:
-        from gripscale.questions.page_of_folder import write_report
-
+    if page is not None:
         try:
-            print_wrapped(console, f"Page: {write_report(target / page)}")
+            print_wrapped(console, f"Page: {page()}")
         except InputError as error:  # the extra is not installed
             print_wrapped(console, f"note: no page; {error}")
     if failure:
@@ -207,7 +205,7 @@ def finish(
         opening=opening,
         files=files,
         draw=draw,
-        page=result.file if page else "",
+        page=partial(result.page, target / "report.html") if page else None,
         failure=result.failure,
     )
 

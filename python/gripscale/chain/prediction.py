@@ -322,10 +322,10 @@ class ChainResult:
         return gripscale.questions.contact_figure({"chain": self.to_dataset()})
 
     def report(self, output: str | Path) -> Path:
-        """Write a page of this prediction at `output`; see `gripscale.report.write_report`."""
+        """Write a page of this prediction at `output`; see `gripscale.questions.write_report`."""
         with TemporaryDirectory() as folder:
             stored = netcdf.save(self.to_dataset(), Path(folder) / "prediction.nc")
-            return Path(gripscale.report.write_report(stored, output))
+            return Path(gripscale.questions.write_report(stored, output))
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> ChainResult:

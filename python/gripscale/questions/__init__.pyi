@@ -38,6 +38,7 @@ from .inputs.charts_of_rubber import superposition_figure as superposition_figur
 from .inputs.charts_of_rubber import superposition_tests_figure as superposition_tests_figure
 from .inputs.charts_of_surface import correlation_figure as correlation_figure
 from .inputs.charts_of_surface import profile_figure as profile_figure
+from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity
 from .uncertainty.first_order import first_order as first_order

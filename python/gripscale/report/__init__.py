@@ -8,23 +8,15 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gripscale.core.errors import using_extra
 
 if TYPE_CHECKING:
     from gripscale.report.elements import Page
 
-__all__ = ["write_page", "write_report"]
-
-
-def __getattr__(name: str) -> Any:
-    """Lead to `write_report`, which stands above this room: it knows the questions."""
-    if name == "write_report":
-        return import_module("gripscale.questions.page_of_folder").write_report
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__all__ = ["write_page"]
 
 
 def write_page(page: Callable[[], Page], output: str | Path) -> Path:
