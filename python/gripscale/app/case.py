@@ -214,9 +214,7 @@ class CaseState(param.Parameterized):
         try:
             self.file()
         except GripscaleError as error:
-            sentence = self.visit.short(error)
-            table = re.search(r"\[(\w+)[].]|^(\w+) file \"", sentence)
-            return CaseProblem("" if table is None else table[1] or table[2], sentence)
+            return CaseProblem(error.table.partition(".")[0], self.visit.short(error))
         return None
 
     @contextmanager

@@ -14,6 +14,8 @@ class GripscaleError(Exception):
 
     see = ""
     """A chapter of the documentation or a command that explains it, or empty."""
+    table = ""
+    """Table of a case whose keys it is about, such as "conditions.heat", or empty."""
 
     def __init__(self, message: str = "", *, missing: str = "", key: str = "") -> None:
         self.words = Words(CaseKey(key), message) if key else Words(message)
@@ -70,6 +72,7 @@ def about_keys(table: str) -> Iterator[None]:
         yield
     except GripscaleError as error:
         error.see = error.see or f"`{f'gripscale keys {table}'.strip()}`"
+        error.table = error.table or table
         raise
 
 
@@ -86,5 +89,5 @@ def about_file(
         yield
     except InputError as error:
         located = kind(Words(f"{path}: ", error.words), missing=error.missing)
-        located.see = error.see
+        located.see, located.table = error.see, error.table
         raise located from error
