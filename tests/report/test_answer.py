@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.core.finding import Finding, Severity, Topic, ranked
+from gripscale.core.finding import Finding, Severity, Topic, doubt, ranked, to_json
 from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
@@ -182,8 +182,12 @@ def test_inputs_know_what_they_change() -> None:
         "cut_off_beyond_measurement": 1,
         "cut_off_m": 1e-4,
         "cut_off_carried_m": 2e-4,
-        "load_notes": "The footprint is short.",
-        "surface_notes": "road: heights jump",
+        "findings": to_json(
+            [
+                doubt("The footprint is short.", topic=Topic.LOAD),
+                Finding(Severity.WARNING, "Surface: road: heights jump.", topic=Topic.SURFACE),
+            ]
+        ),
     }
     record = InputRecord(
         xr.Dataset(

@@ -17,6 +17,7 @@ import xarray as xr
 import gripscale as gs
 from gripscale.charts.page_elements import Chart
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.finding import Finding, Severity, from_json, sentences, to_json
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
@@ -252,9 +253,7 @@ def test_doubts_about_the_rubber_are_warned_of(changed_run: Callable[..., Path])
     run = read_result(changed_run(edit, "dynamic"))
     assert isinstance(run, RunSource)
     run.inputs.attrs["bulk_modulus_Pa"] = 1e9
-    run.inputs.attrs["prony_findings"] = "no plateau at the slow end\nno plateau at the fast end"
     texts = [notice.sentence for notice in notices(run)]
-    assert "Rubber: no plateau at the fast end." in texts
     text = next(text for text in texts if "Poisson" in text)
     assert "Wave 3: Poisson's ratio is down to 0.227, less than 0.3" in text
 
@@ -282,13 +281,16 @@ def test_ends_of_the_band_are_marked_in_both_units(page: Page) -> None:
 
 def test_notes_on_the_surface_are_warnings(run_folder: Path, tmp_path: Path) -> None:
     data, groups = read(run_folder / "dynamic.nc")
-    assert "no smallest wavelength is stated" in groups["inputs"].attrs["surface_notes"]
-    groups["inputs"].attrs["surface_notes"] = "road: heights jump\nthe largest wave is long"
+    findings = from_json(groups["inputs"].attrs["findings"])
+    assert "no smallest wavelength is stated" in sentences(findings)
+    texts = ("Surface: road: heights jump.", "Rubber: no plateau at the fast end.")
+    jumps = [Finding(Severity.WARNING, text) for text in texts]
+    groups["inputs"].attrs["findings"] = to_json([*findings, *jumps])
     netcdf.save(data, tmp_path / "dynamic.nc", groups)
     run = read_result(tmp_path)
     assert isinstance(run, RunSource)
     warned = [notice.sentence for notice in notices(run) if notice.severity == "warning"]
-    assert {"Surface: road: heights jump.", "Surface: the largest wave is long."} <= set(warned)
+    assert set(texts) <= set(warned)
 
 
 def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:

@@ -86,7 +86,13 @@ def prepare_surface(
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     raw = raw_surface(surface, resolve) if raw is None else raw
-    measured = _cleaned(surface, raw, resolve)
+    return _described(surface, _cleaned(surface, raw, resolve), resolve)
+
+
+def _described(
+    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
+) -> surfaces.Surface:
+    """Return a cleaned measurement with its correlation and waves, as the keys of `surface` ask."""
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
@@ -108,8 +114,8 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
         return prepare_surface(table, file.resolve)
     if table.map is not None:
         raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
-    raw = raw_surface(table, file.resolve)
-    lines = _cleaned(table, raw, file.resolve).cleaned
+    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
+    lines = measured.cleaned
     load = file.case.load.nominal
     curve = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
@@ -130,7 +136,8 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
             "continues the roughness below it)"
         )
     solved = replace(rule, wavelength=wavelength)
-    return prepare_surface(table.model_copy(update={"cut_off": solved}), file.resolve, raw)
+    with about_keys("surface"):
+        return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
 
 
 @about_keys("surface")

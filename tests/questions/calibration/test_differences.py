@@ -9,6 +9,7 @@ import pytest
 
 from gripscale.conditions import ConstantStress
 from gripscale.core.errors import InputError
+from gripscale.core.units import DISPLAY_UNITS
 from gripscale.experiment import MeasuredFriction
 from gripscale.io.table import as_text
 from gripscale.questions import Predicted, residuals
@@ -46,7 +47,7 @@ def test_an_area_term_is_added() -> None:
 def test_the_table_shows_every_number() -> None:
     """In the units of the case it is compared with: here bar."""
     beside = residuals(MEASURED, {"near": NEAR}, ConstantStress(1e6))
-    text = as_text(residual_table(beside.assign_attrs(case='[load]\npressure = "3 bar"')))
+    text = as_text(residual_table(beside.assign_attrs({DISPLAY_UNITS: '{"pressure": "bar"}'})))
     rows = [line.split() for line in text.splitlines()]
     assert ["0.100", "20.0", "2.00", "0.500", "0.100", "0.400", "0.600", "+0.100", "+1.0"] in rows
     assert ["1.00", "20.0", "3.00", "0.600", "-", "0.600", "0.700", "+0.100", "-"] in rows

@@ -115,11 +115,11 @@ def inputs(
     rubber = case.measured_rubber
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     left_out = [finding.about("Surface") for finding in surface.extrapolated]
-    findings = [f for f in case.findings(surfaces, loads) if f not in left_out]
+    findings = [*further, *(f for f in case.findings(surfaces, loads) if f not in left_out)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
     data = _files(case.origin.files) | series
     attrs = _waves(surface) | about_series
-    attrs |= {"findings": to_json([*further, *findings])}
+    attrs |= {"findings": to_json(findings) if findings else None}
     if excitation.size:
         attrs["excited_low_rad_per_s"] = float(excitation.min())
         attrs["excited_high_rad_per_s"] = float(excitation.max())
