@@ -77,10 +77,12 @@ class VisitFolder:
         """Raise `InputError` if the case names a file outside this folder."""
         for role, name in file.case.named_files():
             if not self._holds(partial(file.resolve, name)):
-                raise InputError(
+                refusal = InputError(
                     f'{role} file "{name}" lies outside the folder of this page; '
                     "drop the file itself on the page"
                 )
+                refusal.table = role
+                raise refusal
 
     def require_name_inside(self, name: str, role: str) -> None:
         """Raise `InputError` if `name` is a file outside this folder; a plain word may be known."""
