@@ -79,7 +79,7 @@ def test_the_page_begins_with_the_gain(case, data):
 
 def test_the_promised_friction_is_that_of_a_new_contact(case, data):
     """Solved by the model of every comparison, from nothing, for the rubber of the files."""
-    surface = compound_design.design_problem(read_case(case)).friction.parts[0].surface
+    surface = design_problem(read_case(case)).friction.parts[0].surface
     for at in range(data.sizes["point"]):
         rubber = designed_rubber(data, at)
         contact = gs.solve_rough_contact(

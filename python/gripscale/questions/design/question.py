@@ -148,11 +148,11 @@ def design(
     stored, fruitless = stored_points(target, key)
     reference = Reference.of(problem.friction)
     compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
-    beside, notes = other_compounds(
+    others, notes = other_compounds(
         problem, reference, {name: each.rubber for name, each in compounds.items()}
     )
     base = today(problem, reference.contacts, DESIGN_TOLERANCE)
-    base = base.merge(beside).assign_attrs(
+    base = base.merge(others).assign_attrs(
         {**base.attrs, **case.attributes},
         case_file=case.origin.name,
         kind=CompoundDesign.kind,
