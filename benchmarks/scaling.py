@@ -14,7 +14,8 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale.charts.chart import Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, WIDE
 from gripscale.core.parallel import cores

@@ -10,15 +10,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from gripscale.charts.chart import (
-    CrossLine,
-    Mark,
-    Panel,
-    PlotAxis,
-    Series,
-    Sheet,
-    wavelength_axis,
-)
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, wavelength_axis
+from gripscale.charts.draw import Sheet
 from gripscale.charts.style import COLOURS, GREY, INK, NARROW, ORANGE, WIDE, colours
 from gripscale.core.units import MEGA, MILLI, SQUARE_MM
 from gripscale.rubber import MasterCurve, Rubber

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import COLOURS, GREY
 from reproduction.inputs import read_inputs

@@ -23,17 +23,8 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.charts.chart import (
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-)
+from gripscale.charts.chart import Bars, CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
 from gripscale.core.units import MEGA, MILLI

@@ -24,8 +24,8 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile
+from gripscale.wave.block import solve_profile
 from gripscale.wave.problem import SampledProfile
-from gripscale.wave.profile import solve_profile
 from gripscale.wave.result import ScaleResult
 
 if TYPE_CHECKING:

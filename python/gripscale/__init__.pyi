@@ -1,5 +1,6 @@
 from . import charts as charts
 from . import conditions as conditions
+from . import continuation as continuation
 from . import half_space as half_space
 from . import questions as questions
 from . import report as report
@@ -55,8 +56,8 @@ from .surface import fit_sines as fit_sines
 from .surface import height_difference as height_difference
 from .surface import read_map as read_map
 from .surface import read_profile as read_profile
+from .wave.block import solve_profile as solve_profile
 from .wave.block import solve_scale as solve_scale
-from .wave.profile import solve_profile as solve_profile
 from .wave.result import ScaleResult as ScaleResult
 from .wave.transient import Stage as Stage
 from .wave.transient import TransientResult as TransientResult

@@ -10,23 +10,26 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from inspect import Parameter, signature
+from pathlib import Path
 from typing import Any
 
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
+from gripscale.continuation.curve import DOWN_TO, ContinuedContact
+from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
+from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
-from gripscale.half_space.below_measurement import HurstExponent, OwnFaces, Roughness
-from gripscale.half_space.continued import DOWN_TO, ContinuedContact
-from gripscale.model import Doubtful, Load, LoadTime, doubt_sentences, load_doubts
+from gripscale.model import Load, LoadTime, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import (
@@ -185,7 +188,12 @@ class Case:
         )
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
-        self.measured_rubber = _measured_rubber(rubber)
+        if isinstance(rubber, Rubber):
+            rubber = MeasuredRubber(rubber, rubber.source)
+        elif not isinstance(rubber, MeasuredRubber):
+            fitted, fit = fit_prony_report(rubber)
+            rubber = MeasuredRubber(fitted, rubber.source, rubber, fit)
+        self.measured_rubber = rubber
         end = None
         if smallest_wavelength is not None:
             end = in_si("smallest_wavelength", smallest_wavelength, "length")
@@ -242,6 +250,34 @@ class Case:
         content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
         return hashlib.sha256(content.encode()).hexdigest()
 
+    def save(self, path: str | Path) -> Path:
+        """Write the case as a case file, with its measurements in the folder `inputs` beside it.
+
+        The case that `gripscale.read_case` reads from it, there or wherever both go, has the same
+        answers. A case that was read from a file keeps its text and gets copies of its files; any
+        other is written in SI units, profiles, maps and moduli as text files.
+
+        Parameters
+        ----------
+        path : path-like
+            The case file (TOML), such as "folder/case.toml". An earlier one is replaced.
+
+        Returns
+        -------
+        Path
+            The case file.
+
+        Raises
+        ------
+        InputError
+            For what a case file cannot state, such as a solver of your own.
+        FileError
+            If a file cannot be written, or one of the case has changed since it was read.
+        """
+        from gripscale.case_file.save import write_case  # a face: nothing here knows a file
+
+        return write_case(self, Path(path))
+
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
         return display_unit(name, self.units)
@@ -266,50 +302,67 @@ class Case:
             seed=below.seed,
         )
 
-    def conditions_notes(self) -> list[str]:
-        """Return what the conditions ask for that was not measured."""
-        if self.conditions is None or self.conditions.temperature is None:
-            return []
-        warnings = temperature_doubts({self.rubber.name or "rubber": self.rubber_before})
-        return [f"{text[0].upper()}{text[1:]}." for text in warnings]
+    def findings(
+        self, surfaces: Iterable[Surface] | None = None, loads: Iterable[Load] | None = None
+    ) -> list[Finding]:
+        """Return what is doubtful about load, rubber, conditions and surface.
 
-    def load_notes(self) -> list[str]:
-        """Return what is doubtful about the load on this surface."""
-        footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
-        if footprint >= largest:
-            return []
-        length_unit = self.display_unit("footprint")
-        return [
-            f"The footprint, {length_unit.text(footprint, 3)}, is shorter than the largest wave, "
-            f"{length_unit.text(largest, 3)}, "
-            "which it cannot hold once: is its unit right? If so, leave such waves out."
-        ]
+        Those of `surfaces` and `loads` count for an answer on others than those of the case.
+        """
+        surface = self.surface
+        findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
+        fit = self.measured_rubber.fit
+        texts = [] if fit is None else [f"Rubber: {text}." for text in fit.findings]
+        findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER) for text in texts]
+        findings += [f.about("Surface") for f in surface.findings if f not in surface.doubts]
+        if surface.measured is not None and surface.measured.no_self_affine:
+            why = surface.measured.no_self_affine
+            text = f"The surface was not described as self-affine: {why}"
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.SURFACE))
+        return findings
 
     def doubts(
         self, surfaces: Iterable[Surface] | None = None, loads: Iterable[Load] | None = None
-    ) -> list[str]:
-        """Return why the answer may be that of another road, rubber or load, a sentence each.
-
-        Of an answer on other surfaces or under other loads than those of the case, these count.
-        """
+    ) -> list[Finding]:
+        """Return why the answer may be that of another road, rubber or load; as `findings`."""
         roads = [self.surface] if surfaces is None else surfaces
-        inputs: list[Doubtful] = [*roads, self.measured_rubber]
-        texts = [text for measured in inputs for text in doubt_sentences(measured)]
-        texts += load_doubts([self.load] if loads is None else loads, self.units)
-        texts = list(dict.fromkeys(texts))
+        doubts = [*(d for road in roads for d in road.doubts), *self.measured_rubber.doubts]
+        doubts += load_doubts([self.load] if loads is None else loads, self.units)
+        doubts = list(dict.fromkeys(doubts))
         if self.rubber.reference_temperature is None:
-            texts.append(
-                "Neither the file of the rubber nor the case states the temperature of its moduli: "
-                "state reference_temperature in [rubber]."
+            doubts.append(
+                doubt(
+                    "Neither the file of the rubber nor the case states the temperature of its "
+                    "moduli: state ",
+                    CaseKey("reference_temperature"),
+                    " in [rubber].",
+                    topic=Topic.RUBBER,
+                )
             )
-        return texts
+        footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
+        if footprint < largest:
+            length_unit = self.display_unit("footprint")
+            lengths = [length_unit.text(length, 3) for length in (footprint, largest)]
+            doubts.append(
+                doubt(
+                    "The footprint, {}, is shorter than the largest wave, {}, which it cannot hold "
+                    "once: is its unit right? If so, leave such waves out.".format(*lengths),
+                    topic=Topic.LOAD,
+                )
+            )
+        return doubts
+
+    def _of_conditions(self) -> Iterator[Finding]:
+        """Yield what the conditions ask for that was not measured."""
+        if self.conditions is not None and self.conditions.temperature is not None:
+            rubbers = {self.rubber.name or "rubber": self.rubber_before}
+            for text in temperature_doubts(rubbers):
+                sentence = f"{text[0].upper()}{text[1:]}."
+                yield Finding(Severity.WARNING, sentence, topic=Topic.RUBBER)
 
 
 def in_si(name: str, value: float | str, kind: str) -> float:
-    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar".
-
-    Raises `InputError` if it is neither.
-    """
+    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar"."""
     if not isinstance(value, str):
         return checks.number(name, value)
     try:
@@ -328,26 +381,14 @@ def described_surface(
 ) -> Surface:
     """Return a measured surface with its correlation and the sine waves that follow it.
 
-    Parameters
-    ----------
-    measured : Measured
-        Cleaned profiles or a map.
-    counted, fit : mapping
-        Arguments of `height_difference` and `fit_sines`.
-    cut_off : CutOffRule, optional
-        Where the roughness ends; None where `fit` says so.
-    source : str
-        Where the surface comes from.
-
-    Raises
-    ------
-    InputError
-        If the heights have no correlation, or no waves fit it.
+    `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
+    the roughness ends; None: where `fit` does. Raises `InputError` if the heights have no
+    correlation, or no waves fit it.
     """
     try:
         correlation = height_difference(measured.cleaned, **counted)
     except InputError as error:  # a wrong unit may leave no heights
-        raise InputError("; ".join([*measured.doubts, str(error)])) from error
+        raise InputError(" ".join([*map(str, measured.doubts), str(error)])) from error
     try:
         measured = replace(measured, self_affine=fit_self_affine(correlation))
     except GripscaleError as error:  # the sine waves do not need a self-affine surface
@@ -366,24 +407,20 @@ def _surface(
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
-    heights = [surface] if isinstance(surface, Profile) else surface
-    if isinstance(heights, HeightMap):
+    if isinstance(surface, HeightMap):
         if cleaning:
             raise InputError("cleaning must be left out for a map: use gripscale.clean_map; got it")
-        measured = Measured.of(heights)
+        measured, sources = Measured.of_map(surface, surface), [surface.source]
     else:
-        measured = Measured.of_raw(heights, cleaning) if cleaning else Measured.of(heights)
-    names = [line.source for line in heights] if isinstance(heights, Sequence) else [heights.source]
+        lines = [surface] if isinstance(surface, Profile) else list(surface)
+        if len({line.name for line in lines}) < len(lines):  # results tell profiles by name
+            lines = [
+                replace(line, name=f"{line.name or 'profile'} {number}")
+                for number, line in enumerate(lines, start=1)
+            ]
+        measured = Measured.of_raw(lines, cleaning) if cleaning else Measured.of(lines)
+        sources = [line.source for line in lines]
     rule: CutOffRule | None = "instrument" if end is None else None
     fit = {"scales": waves, "smallest_wavelength": end}
-    source = ", ".join(filter(None, map(str, names)))
+    source = ", ".join(filter(None, sources))
     return described_surface(measured, counted={}, fit=fit, cut_off=rule, source=source)
-
-
-def _measured_rubber(rubber: RubberLike) -> MeasuredRubber:
-    if isinstance(rubber, MeasuredRubber):
-        return rubber
-    if isinstance(rubber, Rubber):
-        return MeasuredRubber(rubber, rubber.source)
-    fitted, fit = fit_prony_report(rubber)
-    return MeasuredRubber(fitted, rubber.source, rubber, fit)

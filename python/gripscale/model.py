@@ -9,18 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit
-from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation, of_sum
+from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
+from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,7 +29,7 @@ if TYPE_CHECKING:
 
 
 INPUT_DOUBTS = "input_doubts"
-"""Attribute of an answer: why it is none of the road to be predicted, in sentences."""
+"""Attribute of an answer: findings that it may be of another road, rubber or load."""
 
 
 PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
@@ -42,8 +40,8 @@ class Doubtful(Protocol):
     """A surface or a rubber as prepared, with what is doubtful of it."""
 
     @property
-    def doubts(self) -> tuple[str, ...]:
-        """Why the answer may be that of another one, a sentence each."""
+    def doubts(self) -> tuple[Finding, ...]:
+        """Why the answer may be that of another one."""
         ...
 
 
@@ -55,141 +53,36 @@ def input_doubts(
     It is on surfaces and of a rubber, the `inputs`, and under loads, which are shown in the stated
     `units` of their quantities.
     """
-    of_inputs = [text for each in inputs for text in doubt_sentences(each)]
-    texts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
-    return {INPUT_DOUBTS: "\n".join(texts)} if texts else {}
+    of_inputs = [doubt for each in inputs for doubt in each.doubts]
+    doubts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
+    return {INPUT_DOUBTS: to_json(doubts)} if doubts else {}
 
 
-def input_doubts_of(data: xr.Dataset) -> list[str]:
-    """Return the sentences of the attribute `INPUT_DOUBTS` of an answer; none without it."""
-    return str(data.attrs.get(INPUT_DOUBTS, "")).splitlines()
+def input_doubts_of(data: xr.Dataset) -> Sequence[Finding]:
+    """Return the findings of the attribute `INPUT_DOUBTS` of an answer; none without it."""
+    return from_json(str(data.attrs.get(INPUT_DOUBTS, "")))
 
 
-def doubt_sentences(measured: Doubtful) -> list[str]:
-    """Return the doubts of a surface or a rubber as sentences."""
-    return [text if text.endswith("?") else f"{text}." for text in measured.doubts]
-
-
-def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[str]:
-    """Return which quantities of loads suggest a wrong unit, by the farthest of each, as sentences.
+def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[Finding]:
+    """Return which quantities of loads suggest a wrong unit, by the farthest of each.
 
     They are shown in the stated `units` of the quantities.
     """
-    texts, every = [], list(loads)
+    doubts, every = [], list(loads)
     for name, (least, most) in PLAUSIBLE.items():
         values = {float(getattr(load, name)) for load in every}
         far = [value for value in values if value != 0.0 and not least <= value <= most]
         if far:
             value = max(far, key=lambda value: max(least / value, value / most))
             value_text, *ends = (display_unit(name, units).text(v, 3) for v in (value, least, most))
-            texts.append(
-                f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}: is its "
-                "unit right?"
+            doubts.append(
+                doubt(
+                    f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}: is "
+                    "its unit right?",
+                    topic=Topic.LOAD,
+                )
             )
-    return texts
-
-
-OCTAVE = 2.0
-"""Ratio of the wavelengths that are compared, where there are waves so far apart."""
-
-
-@dataclass(frozen=True)
-class CutOffExponents:
-    """How a prediction changes with the smallest wavelength that counts; NaN if not known.
-
-        d ln(A_r/A_0) / d ln(lambda_min),    d ln(mu) / d ln(lambda_min)
-
-    by the difference over the last octave: ln(mu(lambda_min) / mu(2 lambda_min)) / ln(1/2).
-    Negative where shorter waves add: at -0.3 half the wavelength means 2^0.3 = 1.23 times the
-    friction. Where waves are further apart than an octave, ln A and mu are taken to be linear in
-    ln(lambda) between them: areas multiply from wave to wave, frictions add.
-    """
-
-    contact_fraction: float
-    """d ln(A_r/A_0) / d ln(cut-off) [-]."""
-    friction: float
-    """d ln(friction coefficient) / d ln(cut-off) [-]."""
-    why_not: str = ""
-    """Why one of them is not known; empty if both are."""
-
-
-_AT_REST = "no friction at rest"
-NO_AREA = "the model does not tell the contact area by wavelength"
-NO_SLIDING = "friction not above zero"
-NOT_TOLD = CutOffExponents(math.nan, math.nan, "the model does not tell it")
-"""Of a model that answers for one cut-off only."""
-NOT_CONVERGED = CutOffExponents(math.nan, math.nan, "not converged")
-
-
-def between(
-    ratio: float, contact_fraction: Sequence[float], friction: Sequence[float], *, moving: bool
-) -> CutOffExponents:
-    """Return the exponents from two solutions, whose cut-offs have a `ratio` above 1.
-
-    Both contact fractions and frictions [-] are NaN where not known.
-    """
-    area, mu = (_exponent(ratio, *pair) for pair in (contact_fraction, friction))
-    mu = mu if moving else math.nan
-    reasons = [
-        NO_AREA if math.isnan(area) else "",
-        _AT_REST if not moving else "",
-        NO_SLIDING if math.isnan(mu) else "",
-    ]
-    return CutOffExponents(area, mu, next(filter(None, reasons), ""))
-
-
-def of_curve(
-    wavelength: ArrayLike, contact_fraction: ArrayLike, friction: ArrayLike, *, moving: bool
-) -> CutOffExponents:
-    """Return the exponents of a model that tells area and friction down to each wavelength.
-
-    Only ratios of the falling wavelengths count; all of them, if less than an octave apart.
-    """
-    lengths = np.asarray(wavelength, dtype=float)
-    if lengths.size < 2:
-        return CutOffExponents(math.nan, math.nan, "only one wave")
-    ratio = min(OCTAVE, float(lengths[0] / lengths[-1]))
-    area, mu = np.asarray(contact_fraction, dtype=float), np.asarray(friction, dtype=float)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        before = math.exp(_at(ratio, lengths, np.log(area)))
-    return between(
-        ratio, (before, float(area[-1])), (_at(ratio, lengths, mu), float(mu[-1])), moving=moving
-    )
-
-
-def of_mean(
-    parts: Sequence[CutOffExponents], contact_fraction: ArrayLike, friction: ArrayLike
-) -> CutOffExponents:
-    """Return the exponents of a mean to which each of `parts` adds these numbers [-].
-
-    d ln(sum x_i) = sum x_i d ln x_i / sum x_i.
-    """
-    if not parts:
-        return NOT_TOLD
-    area = _mean([part.contact_fraction for part in parts], contact_fraction)
-    mu = _mean([part.friction for part in parts], friction)
-    reasons = (part.why_not for part in parts if part.why_not)
-    return CutOffExponents(area, mu, next(reasons, ""))
-
-
-def _mean(values: Sequence[float], weight: ArrayLike) -> float:
-    """Return the weighted mean, NaN where the weights add up to nothing."""
-    each = np.asarray(weight, dtype=float)
-    total = float(each.sum())
-    return float(each @ np.asarray(values)) / total if total else math.nan
-
-
-def _exponent(ratio: float, before: float, last: float) -> float:
-    """Return ln(before/last) / ln(ratio), NaN unless both are above zero."""
-    if not (before > 0.0 and last > 0.0):
-        return math.nan
-    return math.log(before / last) / math.log(ratio)
-
-
-def _at(ratio: float, lengths: NDArray[np.float64], values: NDArray[np.float64]) -> float:
-    """Return a value at `ratio` times the last wavelength, linear in the log of wavelength."""
-    logarithm = np.log(lengths[-1] * ratio)
-    return float(np.interp(-logarithm, -np.log(lengths), values))
+    return doubts
 
 
 LoadTime = Literal["passage"] | float
@@ -358,9 +251,6 @@ WHY_NO_EXPONENT = "cut_off_exponent_missing"
 """Name of the text that says why one of them is not known; empty if both are."""
 
 
-_EXPONENTS_OF = ("contact_fraction", "friction_from_dissipation")
-
-
 def cut_off_exponents_of(data: xr.Dataset) -> CutOffExponents:
     """Return what an answer tells of its cut-off; not told in a file of an older version."""
     if not {*CUT_OFF_EXPONENTS, WHY_NO_EXPONENT} <= set(data.data_vars):
@@ -383,33 +273,6 @@ BASIS = SAMPLING_ERRORS | {
 }
 """Names of what an answer from a measured surface rests on, where a model tells it."""
 
-ESTIMATED_ERRORS = {
-    "total_contact_fraction_error": "error of the contact fraction as the model estimates it",
-    "total_friction_error": "error of the friction coefficient as the model estimates it",
-}
-"""Names of `error_of_total`, where it is kept."""
-
-
-def error_of_total(data: xr.Dataset, name: str) -> float:
-    """Return the error of a total as its model estimates it: of profiles by weight, of waves added.
-
-    `name` is `contact_fraction` or `friction`; NaN where the model has no estimate. Waves: their
-    relative errors add up in the product of areas, their errors in the sum of frictions; all in the
-    same direction, because the same mesh makes them.
-    """
-    errors = data.get(f"{name}_error")
-    if errors is None:
-        return math.nan
-    values = np.abs(errors.values)
-    if errors.dims == ("profile",):
-        return float(data["weight"].values @ values)
-    if errors.dims == ("scale",):
-        relative = name == "contact_fraction"
-        parts = values / data[name].values if relative else values
-        return float(parts.sum() * (data[f"total_{name}"] if relative else 1.0))
-    return float(values)
-
-
 ADHESIVE_FRICTION = "total_adhesive_friction"
 """Name of the area term's friction, where one was asked for."""
 
@@ -430,50 +293,6 @@ def with_area_term(data: xr.Dataset, adhesive_friction: float) -> xr.Dataset:
         return data
     attrs = {"units": "1", "long_name": "friction coefficient of the area term", "source": "input"}
     return data.assign({ADHESIVE_FRICTION: xr.Variable((), adhesive_friction, attrs)})
-
-
-def answer_by_length(
-    data: xr.Dataset,
-    parts: Sequence[Any],
-    why_not: Sequence[str],
-    lengths: Sequence[float],
-    model: str,
-    load: Load,
-    cut_off_exponents: Sequence[CutOffExponents] = (),
-) -> xr.Dataset:
-    """Return `data` over `profile` with the answers of the profiles averaged by length [m].
-
-    `parts` are their results, with the attributes of `TOTALS` without `total_`, `extrapolation`
-    and `status`. `why_not` says why a profile does not count: then there are no totals.
-    """
-    weight = np.asarray(lengths) / np.sum(lengths)
-    bad = [
-        f"profile {number} of {len(parts)}: {why}"
-        for number, why in enumerate(why_not, start=1)
-        if why
-    ]
-    totals = {
-        total: math.nan
-        if bad
-        else float(weight @ [getattr(part, total.removeprefix("total_")) for part in parts])
-        for total in TOTALS
-    }
-    attrs = {"units": "1", "long_name": "share of the length"}
-    weighted = data.assign(weight=("profile", weight, attrs))
-    beyond = of_sum(
-        [part.extrapolation for part in parts],
-        weight * [part.friction_from_dissipation for part in parts],
-    )
-    exponents = NOT_CONVERGED
-    if not bad:
-        added = [weight * [getattr(part, name) for part in parts] for name in _EXPONENTS_OF]
-        exponents = of_mean(cut_off_exponents, *added)
-    status = "; ".join(bad) or Status.CONVERGED
-    words = [str(part.status) for part, why in zip(parts, why_not, strict=True) if why]
-    word = next(iter(words), "")
-    return predicted_answer(
-        weighted, totals, status, model, load, beyond, exponents, status_word=word
-    )
 
 
 def predicted_answer(

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 import textwrap
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
-from functools import wraps
+from functools import partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
 
 import typer
 
 from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
+from gripscale.core.wording import Words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +31,9 @@ if TYPE_CHECKING:
 
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
+
+RUN_REPORT, RUN_CLOSING = "report.txt", "Results, report and figures are in"
+"""Text in the folder of a run, and what its last line says."""
 
 PLAIN_WIDTH = 100
 """Characters per line where there is no terminal to ask."""
@@ -118,7 +120,7 @@ def conclude(
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,
-    page: str = "",
+    page: Callable[[], Path] | None = None,
     failure: str = "",
 ) -> None:
     """End a command: print and write what it found, draw its figures, set the exit code.
@@ -127,13 +129,13 @@ def conclude(
     `lead`, the answer, the first of the ranked `warnings` and `parts` are printed. The file `text`,
     with lines of `width`, has `lead`, all warnings, then `opening`, which the screen shows already,
     then `parts`; `files` are further texts by name.
-    `closing` says what is in the folder. `page` is the result whose page is written, where the
-    libraries for it are installed; `failure` is what has no result, and sets the exit code.
+    `closing` says what is in the folder. `page` writes a page, where the libraries for it are
+    installed; `failure` is what has no result, and sets the exit code.
     """
     from gripscale.io.folders import write_text
     from gripscale.io.table import as_text
     from gripscale.questions.result import warning_lines
-    from gripscale.report.summary import write_summary
+    from gripscale.questions.summary_table import write_summary
 
     console.print()
     print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
@@ -147,11 +149,9 @@ def conclude(
         draw()
     console.print()
     print_wrapped(console, f"{closing} {target}")
-    if page:
-        from gripscale.report import write_report
-
+    if page is not None:
         try:
-            print_wrapped(console, f"Page: {write_report(target / page)}")
+            print_wrapped(console, f"Page: {page()}")
         except InputError as error:  # the extra is not installed
             print_wrapped(console, f"note: no page; {error}")
     if failure:
@@ -205,7 +205,7 @@ def finish(
         opening=opening,
         files=files,
         draw=draw,
-        page=result.file if page else "",
+        page=partial(result.page, target / "report.html") if page else None,
         failure=result.failure,
     )
 
@@ -219,8 +219,8 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
-            if isinstance(error, GripscaleError) and error.key in kwargs:
-                error.args = (f"--{error.key.replace('_', '-')}{error.detail}",)
+            if isinstance(error, GripscaleError):
+                error.args = (with_options(error.words, kwargs),)
             message, exit_code = failure_of(error)
             print_error(message)
             raise typer.Exit(exit_code) from None
@@ -307,24 +307,11 @@ def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None and value is not False}
 
 
-def as_options(text: str, context: typer.Context) -> str:
-    """Return a text with keys of a case as options of a command, such as --z-unit for z_unit."""
-    for key in context.params:
-        name = f"--{key.replace('_', '-')}"
-        text = re.sub(rf'\b{key} = "(\w+)"', rf"{name} \1", text)
-        text = re.sub(rf"(\bgive |\bor ){key}(?=[,;:]|$)", rf"\1{name}", text)
-        text = re.sub(rf"(^|: ){key}(?= must\b)", rf"\1{name}", text)
-    return text
-
-
-@contextmanager
-def keys_as_options(context: typer.Context) -> Iterator[None]:
-    """Let errors name the options of a command in place of the keys of a case."""
-    try:
-        yield
-    except GripscaleError as error:
-        error.args = (as_options(str(error), context),)
-        raise
+def with_options(text: str, options: Container[str]) -> str:
+    """Return a text whose keys of a case are options of a command, where it has these."""
+    if not isinstance(text, Words):
+        return text
+    return text.with_keys(lambda key: key.option if key.name in options else str(key))
 
 
 def lengths_of(text: str) -> str | list[str]:
@@ -337,7 +324,6 @@ COLUMNS = (
     "Columns of frequency, storage and loss by name or number from 1, such as 1,3,4, or "
     "frequency=1,storage=3,loss_factor=5."
 )
-"""What the option --columns takes."""
 
 
 def column_of(text: str) -> str | int:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.samples import HALF_PLANE, case_text, write_short_road
+
+if TYPE_CHECKING:
+    from gripscale.app.case import CaseState
 
 pytest.importorskip("panel", reason="needs pip install 'gripscale[app]'")
 
@@ -16,6 +20,11 @@ CASE = "# a short road\n" + case_text(
     'file = "dma.txt"\nterms = 4',
     HALF_PLANE,
 )
+
+
+def validation_message(state: CaseState) -> str:
+    """Return what is wrong with a case, in a sentence; empty if nothing is."""
+    return "" if state.problem is None else state.problem.sentence
 
 
 @pytest.fixture(scope="session")

@@ -17,8 +17,8 @@ from typing import Any
 import pytest
 
 from gripscale.app.case import MAX_UPLOAD
-from gripscale.app.commands import COMMANDS
 from gripscale.app.run_tabs import POLL
+from gripscale.app.runs import COMMANDS
 from gripscale.case_file import EXAMPLES
 from gripscale.surface import read_profile
 from tests.browsing import BETWEEN, CURVES, GREY, PATIENCE, Visit

@@ -58,9 +58,11 @@ def test_two_predictions_share_the_bar() -> None:
     assert steps[0].sentence == steps[1].sentence == "reading and fitting"
     assert steps[3].sentence == "prediction 1 of 2, wave 2 of 3"
     assert steps[-1].sentence == "all waves are solved; direct contact, effects and figures follow"
-    later = steps[-1].after(AnswerSolved(True, 0.1, 0.2))
-    assert later.sentence == "the direct contact is solved; effects and figures follow"
-    assert later.after(EffectsSolved(("heat",))).sentence.startswith("the effects are solved")
+    later = [*events, AnswerSolved(True, 0.1, 0.2)]
+    words = "the direct contact is solved; effects and figures follow"
+    assert RunProgress.of(later).sentence == words
+    last = RunProgress.of([*later, EffectsSolved(("heat",))])
+    assert last.sentence.startswith("the effects are solved")
 
 
 def test_a_prediction_that_ends_early_counts_as_one() -> None:

@@ -15,12 +15,12 @@ from gripscale.case_file import read_case_file, run_case
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.core.finding import Finding, Severity
+from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
-from gripscale.report import source
+from gripscale.questions.page_of_folder import page_of
 from gripscale.report.elements import Element, Text
-from gripscale.report.source import page_of
 
 from .conftest import CASE
 
@@ -48,7 +48,7 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def results_elements(folder: Path) -> list[Element]:
     """Return everything below the head of the page of a run."""
-    sections = page_of(source.read_result(folder)).sections
+    sections = page_of(page_of_folder.read_result(folder)).sections
     return [element for section in sections for element in section.elements]
 
 
@@ -83,7 +83,7 @@ def test_three_warnings_are_open_and_the_others_folded() -> None:
 
 
 def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
-    result = source.read_result(ran)
+    result = page_of_folder.read_result(ran)
     assert isinstance(result, RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text())
     dynamic, *rest = result.predictions
@@ -104,7 +104,7 @@ def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
 
 
 def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
-    result = source.read_result(ran)
+    result = page_of_folder.read_result(ran)
     assert isinstance(result, RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text(), folder=ran)
     dynamic = result.predictions[0]
@@ -118,9 +118,9 @@ def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
 
 
 def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
-    result = source.read_result(ran)
+    result = page_of_folder.read_result(ran)
     assert isinstance(result, RunSource)
-    for excited, drawn in ((None, False), (result.predictions[0], True)):
+    for excited, drawn in ((None, False), (result.predictions[0].data, True)):
         moduli, factor, *_ = rubber_charts(result.inputs, excited)
         assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]
 

@@ -10,10 +10,9 @@ import pytest
 from typer.testing import CliRunner
 
 from gripscale.app.case import CaseState, VisitFolder
-from gripscale.app.commands import COMMANDS
 from gripscale.app.elements import Cards
 from gripscale.app.run_tabs import answer_elements, run_status
-from gripscale.app.runs import AppRun, Runs
+from gripscale.app.runs import COMMANDS, AppRun, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.questions.registry import Form
@@ -94,7 +93,7 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     state = CaseState(VisitFolder.new(tmp_path))
     text = (small / "case.toml").read_text().replace("../elsewhere/", "")
     (small / "alone.toml").write_text(text)
-    state.copy_case(small / "alone.toml")
+    state.set_text(state.text_of(small / "alone.toml"))
     runs = Runs(state)
     run = ended(runs.start(by_name("sensitivity")))
     assert run.state == "finished", run.log()
@@ -116,7 +115,7 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     state = CaseState(VisitFolder.new(tmp_path))
     text = (small / "case.toml").read_text().replace("../elsewhere/", "")
     (small / "roads.toml").write_text(text)
-    state.copy_case(small / "roads.toml")
+    state.set_text(state.text_of(small / "roads.toml"))
     other = state.visit.store("other.txt", (small / "road.txt").read_bytes())
     run = ended(Runs(state).start(by_name("compare-surfaces"), {"samples": "0"}, [other]))
     assert run.state == "finished", run.log()
@@ -131,7 +130,7 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
 def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> None:
     """Waves have no profile for a direct contact: the chain predicts, without being asked for."""
     state = CaseState(VisitFolder.new(tmp_path))
-    state.copy_case(ROOT / "examples/measured_friction/case.toml")
+    state.set_text(state.text_of(ROOT / "examples/measured_friction/case.toml"))
     command = by_name("calibrate")
     run = ended(Runs(state).start(command))
     assert run.state == "finished", run.log()

@@ -10,7 +10,7 @@ from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder, safe_name
 from gripscale.app.runs import Runs
 from gripscale.core.errors import InputError
 
-from .conftest import CASE
+from .conftest import CASE, validation_message
 
 ROLES = {
     "profile": ('files = ["../elsewhere/road.txt"]', "files = ['NAME']"),
@@ -48,7 +48,7 @@ def test_a_case_that_names_a_file_outside_is_refused(
     (state.visit.path / "link.txt").symlink_to(tmp_path / "secret.txt")
     old, new = ROLES[role]
     state.set_text(inside(CASE.replace(old, new.replace("NAME", name))))
-    assert f'file "{name}" lies outside the folder of this page' in state.validation_message
+    assert f'file "{name}" lies outside the folder of this page' in validation_message(state)
     with pytest.raises(InputError, match="lies outside"):
         state.file()
     runs = Runs(state)
@@ -61,7 +61,7 @@ def test_a_case_that_names_a_file_outside_is_refused(
 def test_a_case_that_names_a_file_inside_is_taken(state: CaseState, role: str) -> None:
     old, new = ROLES[role]
     state.set_text(inside(CASE.replace(old, new.replace("NAME", "inputs/other.txt"))))
-    assert state.validation_message == ""
+    assert validation_message(state) == ""
 
 
 def test_the_folder_of_another_visit_is_outside(state: CaseState) -> None:
@@ -70,7 +70,7 @@ def test_the_folder_of_another_visit_is_outside(state: CaseState) -> None:
     other.mkdir()
     (other / "road.txt").write_text("0 0\n")
     state.set_text(CASE.replace("../elsewhere", f"../{other.name}"))
-    assert "lies outside" in state.validation_message
+    assert "lies outside" in validation_message(state)
 
 
 @pytest.mark.parametrize(

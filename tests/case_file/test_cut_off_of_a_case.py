@@ -64,7 +64,7 @@ def test_what_was_not_measured_is_refused_or_marked(case: Path) -> None:
     found = stated(case, "cut_off = { rms_slope = 1.0, extrapolate = true }")
     assert found.cut_off is not None
     assert found.cut_off.beyond_measurement
-    assert any("beyond what the measurement carries, 0.4 mm" in note for note in found.notes)
+    assert any("beyond what the measurement carries, 0.4 mm" in str(f) for f in found.findings)
 
 
 @pytest.mark.parametrize(

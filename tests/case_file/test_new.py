@@ -14,7 +14,7 @@ import gripscale as gs
 from gripscale.case_file import prepare_rubber, read_case_file
 from gripscale.case_file.new import NewCase, new_case
 from gripscale.case_file.prepare import read_case
-from gripscale.case_file.proposals import Weight
+from gripscale.case_file.proposals import BY_A_FACTOR, OF_ANOTHER_CASE, TENS_OF_PERCENT
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import WLF
 from tests.samples import Shell
@@ -57,8 +57,8 @@ def keys(case: NewCase) -> dict[str, Any]:
     return tomllib.loads(case.path.read_text(encoding="utf-8"))
 
 
-def doubted(case: NewCase, weight: Weight) -> str:
-    return " | ".join(doubt.text for doubt in case.doubts if doubt.weight == weight)
+def doubted(case: NewCase, effect: float) -> str:
+    return " | ".join(str(f) for f in case.findings if f.effect == effect)
 
 
 def test_the_shipped_files_give_the_shipped_case(tmp_path: Path) -> None:
@@ -71,14 +71,14 @@ def test_the_shipped_files_give_the_shipped_case(tmp_path: Path) -> None:
     assert [Path(name).name for name in surface["files"]] == [path.name for path in ROADS]
     assert {path.name for path in case.skipped} == {"LICENSE", "SOURCE.txt"}
     assert keys(case)["rubber"]["reference_temperature"] == "20 C"
-    assert "states no temperature" in doubted(case, Weight.ANOTHER)
-    assert "between plates or supports" in doubted(case, Weight.FACTOR)
-    assert [doubt.weight for doubt in case.doubts] == sorted(
-        (doubt.weight for doubt in case.doubts), reverse=True
+    assert "states no temperature" in doubted(case, OF_ANOTHER_CASE)
+    assert "between plates or supports" in doubted(case, BY_A_FACTOR)
+    assert [finding.effect for finding in case.findings] == sorted(
+        (finding.effect for finding in case.findings), reverse=True
     )
     text = case.path.read_text(encoding="utf-8")
     assert "# 1. reference_temperature" in text
-    assert "plates, supports" not in doubted(case, Weight.ANOTHER)
+    assert "plates, supports" not in doubted(case, OF_ANOTHER_CASE)
 
 
 def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path: Path) -> None:
@@ -95,7 +95,7 @@ def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path: Path) ->
     assert found["rubber"]["reference_temperature"] == "25 C"
     assert found["conditions"] == {"temperature": "25 C"}
     assert found["load"] == load
-    assert not doubted(case, Weight.ANOTHER)
+    assert not doubted(case, OF_ANOTHER_CASE)
 
 
 def test_units_that_no_file_states_are_proposed_and_doubted(tmp_path: Path) -> None:
@@ -110,7 +110,7 @@ def test_units_that_no_file_states_are_proposed_and_doubted(tmp_path: Path) -> N
     units = ("frequency_unit", "temperature_unit", "modulus_unit", "modulus")
     assert [rubber[unit] for unit in units] == ["Hz", "C", "Pa", "E"]
     for key in ("x_unit", "z_unit", *units):
-        assert f"{key} = " in doubted(case, Weight.ANOTHER)
+        assert f"{key} = " in doubted(case, OF_ANOTHER_CASE)
     storage = prepare_rubber(
         read_case_file(case.path).case.rubber, read_case_file(case.path).resolve
     )
@@ -135,7 +135,7 @@ def test_kelvin_and_a_map_are_seen_by_their_numbers(tmp_path: Path) -> None:
     assert found["rubber"]["temperature_unit"] == "K"
     assert found["surface"]["map"] == "map.npy"
     assert found["surface"]["step"] == step
-    assert "the map is 12.6 mm and 14.1 mm long in x and y" in doubted(case, Weight.SCATTER)
+    assert "the map is 12.6 mm and 14.1 mm long in x and y" in doubted(case, TENS_OF_PERCENT)
 
 
 def test_a_temperature_that_cannot_be_reached_is_a_doubt(tmp_path: Path) -> None:
@@ -148,7 +148,7 @@ def test_a_temperature_that_cannot_be_reached_is_a_doubt(tmp_path: Path) -> None
     case = new_case(files, tmp_path / "case.toml", temperature="60 C")
     assert "conditions" not in keys(case)
     assert "one temperature and no shift, and cannot be brought to 60 C" in doubted(
-        case, Weight.FACTOR
+        case, BY_A_FACTOR
     )
     shift = {"kind": "wlf", "c1": 8.86, "c2": "101.6 K"}
     case = new_case(files, tmp_path / "shifted.toml", temperature="60 C", shift=shift)
@@ -166,7 +166,7 @@ def test_ramps_at_several_frequencies_get_nominal_temperatures(tmp_path: Path) -
     ramps.write_text("\n".join(["T [°C],f [Hz],E' [Pa],E'' [Pa]", *rows]), encoding="utf-8")
     case = new_case([road(tmp_path / "road.csv"), ramps], tmp_path / "case.toml")
     assert keys(case)["rubber"]["temperature_step"] == "5 K"
-    assert "moduli are interpolated at multiples" in doubted(case, Weight.SCATTER)
+    assert "moduli are interpolated at multiples" in doubted(case, TENS_OF_PERCENT)
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_moduli_of_no_rubber_get_a_bulk_modulus_and_a_doubt(tmp_path: Path) -> N
     bulk = float(keys(case)["rubber"]["bulk_modulus"].removesuffix(" GPa")) * 1e9
     shear, ratio = largest / 3.0, 0.3
     assert bulk == pytest.approx(2.0 * shear * (1.0 + ratio) / (3.0 - 6.0 * ratio), rel=0.02)
-    assert "is the unit of the moduli right" in doubted(case, Weight.ANOTHER)
+    assert "is the unit of the moduli right" in doubted(case, OF_ANOTHER_CASE)
     mended = new_case(
         [road(tmp_path / "road.csv"), stiff],
         tmp_path / "mended.toml",
@@ -328,11 +328,11 @@ def test_columns_and_units_of_the_rubber_can_be_stated(tmp_path: Path, shell: Sh
 def test_sweeps_without_a_temperature_of_the_contact_are_doubted(tmp_path: Path) -> None:
     files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
     words = "no temperature of the contact stated: 20 °C assumed; --temperature states another"
-    assert words in doubted(new_case(files, tmp_path / "a.toml"), Weight.FACTOR)
+    assert words in doubted(new_case(files, tmp_path / "a.toml"), BY_A_FACTOR)
     curve = new_case([*ROADS[:1], TREAD], tmp_path / "c.toml")
-    assert "as is the contact; --temperature states" in doubted(curve, Weight.ANOTHER)
+    assert "as is the contact; --temperature states" in doubted(curve, OF_ANOTHER_CASE)
     stated = new_case(files, tmp_path / "b.toml", temperature="20 C")
-    assert "temperature" not in doubted(stated, Weight.FACTOR)
+    assert "temperature" not in doubted(stated, BY_A_FACTOR)
 
 
 def test_the_name_of_a_file_is_no_refusal(tmp_path: Path, shell: Shell) -> None:
@@ -350,16 +350,16 @@ def test_a_title_that_says_depth_is_a_doubt_of_weight(tmp_path: Path) -> None:
     path = road(tmp_path / "road.csv", "x [mm];Tiefe [mm]")
     files = [path, sweeps(tmp_path / "dma.csv")]
     case = new_case(files, tmp_path / "case.toml")
-    assert case.doubts[0].weight == Weight.ANOTHER
-    assert "titled 'Tiefe', is taken as height, up" in case.doubts[0].text
+    assert case.findings[0].effect == OF_ANOTHER_CASE
+    assert "titled 'Tiefe', is taken as height, up" in case.findings[0].sentence
     results = read_case(read_case_file(case.path))
-    assert any("titled 'Tiefe'" in doubt for doubt in results.doubts())
+    assert any("titled 'Tiefe'" in str(doubt) for doubt in results.doubts())
     stated = case.path.read_text(encoding="utf-8").replace(
         "[surface]", '[surface]\nz_axis = "down"'
     )
     case.path.write_text(stated, encoding="utf-8")
     turned = read_case(read_case_file(case.path))
-    assert not any("Tiefe" in doubt for doubt in turned.doubts())
+    assert not any("Tiefe" in str(doubt) for doubt in turned.doubts())
     before, after = (each.surface.measured.profiles[0][0].z for each in (results, turned))
     assert np.array_equal(after, -before)
 
@@ -381,7 +381,7 @@ def test_a_folder_of_a_rubber_names_what_is_not_moduli(tmp_path: Path) -> None:
     assert keys(case)["rubber"]["file"] == "laboratory/raw.csv"
     assert [Path(name).name for name in keys(case)["surface"]["files"]] == ["road.csv"]
     words = 'laboratory/shifts.csv holds shift factors and is not used: shift = "laboratory/shifts'
-    assert words in doubted(case, Weight.FACTOR)
+    assert words in doubted(case, BY_A_FACTOR)
     (laboratory / "master.csv").write_text(
         "f [Hz],E' [MPa],E'' [MPa]\n" + "\n".join(f"{10.0**n},{5 + n},0.5" for n in range(8))
     )

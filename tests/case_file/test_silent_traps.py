@@ -18,19 +18,16 @@ from gripscale.case_file import CaseFile, read_case_file
 from gripscale.case_file.named_inputs import read_named_inputs, read_rubber, read_surface
 from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
-from gripscale.model import INPUT_DOUBTS, Load, load_doubts
-from gripscale.questions import (
-    Study,
-    compare_compounds,
-    compare_surfaces,
-)
+from gripscale.core.finding import doubt, to_json
+from gripscale.model import INPUT_DOUBTS, Load, input_doubts_of, load_doubts
+from gripscale.questions import Study, compare_compounds, compare_surfaces
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import Shell
@@ -222,11 +219,7 @@ def said(folder: Path, changes: dict[str, Any]) -> str:
         results = read_case(write(folder, **changes))
     except (FileError, InputError) as error:
         return str(error)
-    attrs = {name: "\n".join(getattr(results, name)()) for name in ("doubts", "load_notes")}
-    first = [
-        n.sentence for n in InputRecord(xr.Dataset(attrs=attrs)).warnings() if n.effect == math.inf
-    ]
-    return " | ".join(first)
+    return " | ".join(str(doubt) for doubt in results.findings() if doubt.effect == math.inf)
 
 
 @pytest.mark.parametrize("trap", TRAPS)
@@ -244,7 +237,7 @@ def test_an_answer_on_plates_is_none_to_rely_on() -> None:
     values = dict.fromkeys(names, 0.5) | {f"{name}_half_width": 0.1 for name in names}
     data = xr.Dataset({**values, "nominal_speed": 1.0})
     assert no_answer(data) == ""
-    doubted = data.assign_attrs({INPUT_DOUBTS: "Plates lie in the profile."})
+    doubted = data.assign_attrs({INPUT_DOUBTS: to_json([doubt("Plates lie in the profile.")])})
     assert no_answer(doubted) == "none to rely on. Plates lie in the profile."
 
 
@@ -260,7 +253,7 @@ def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any
     (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
     named = read_named_inputs(vary, file)
     study = Study(read_case(file), named, model="chain").run(tmp_path / "study", workers=1)
-    assert study.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+    assert str(input_doubts_of(study)[0]).startswith("E' and E'' do not belong to one rubber:")
 
 
 def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
@@ -274,11 +267,14 @@ def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
     rubbers = {"right": "case", "misread": read_rubber("other.txt", file)}
     compounds = compare_compounds(read_case(file), rubbers, tmp_path / "rubbers", uncertainty=False)
     for data in (ladder, roads.data, compounds.data):
-        assert data.attrs[INPUT_DOUBTS].startswith("E' and E'' do not belong to one rubber:")
+        assert str(input_doubts_of(data)[0]).startswith("E' and E'' do not belong to one rubber:")
 
 
 def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
-    data = xr.Dataset({"status": "contact too narrow"}, attrs={INPUT_DOUBTS: "Is the unit right?"})
+    data = xr.Dataset(
+        {"status": "contact too narrow"},
+        attrs={INPUT_DOUBTS: to_json([doubt("Is the unit right?")])},
+    )
     assert no_answer(data) == (
         "none. Is the unit right? The direct contact of the measured surface has no result: "
         "contact too narrow."
@@ -308,7 +304,7 @@ def test_the_answer_of_the_case_without_a_trap_stands(tmp_path: Path) -> None:
 def test_the_farthest_load_of_a_study_is_named() -> None:
     loads = [Load(3e5, speed, 0.1) for speed in (0.0, 1.0, 200.0, 1e7)]
     (text,) = load_doubts(loads, {"speed": "km/h"})
-    assert text.startswith("Speed = 3.6e+07 km/h is not between 3.6e-09 km/h and 360 km/h")
+    assert str(text).startswith("Speed = 3.6e+07 km/h is not between 3.6e-09 km/h and 360 km/h")
     assert load_doubts(loads[:2], {}) == []
 
 
@@ -360,7 +356,7 @@ def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) 
     study = Study(read_case(file), vary={"speed": "1,1e6"}, model="chain").run(
         tmp_path / "study", workers=1
     )
-    assert study.attrs[INPUT_DOUBTS].startswith("Speed = 1e+06 m/s is not between")
+    assert str(input_doubts_of(study)[0]).startswith("Speed = 1e+06 m/s is not between")
     over = gs.compare(read_case(file), vary={"speed": "1,1e6"}, rungs=["persson"]).data
     assert over.attrs[INPUT_DOUBTS] == study.attrs[INPUT_DOUBTS]
 

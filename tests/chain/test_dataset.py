@@ -149,17 +149,6 @@ def test_a_foreign_dataset_is_refused_in_one_sentence(prediction: ChainResult, m
         ChainResult.from_dataset(None)  # type: ignore[arg-type]
 
 
-def test_old_names_of_variables_are_read_as_the_new_ones(tmp_path: Path) -> None:
-    """A file of version 0.1 with softening and heat, with and without groups."""
-    old = xr.Dataset({name: ("scale", [float(i)]) for i, name in enumerate(netcdf.RENAMED)})
-    path = netcdf.save(old, tmp_path / "old.nc", {"inputs": old})
-    tree = netcdf.load_tree(path)
-    for data in (netcdf.load_dataset(path), tree.to_dataset(), tree["inputs"].to_dataset()):
-        assert {name: data[name].item() for name in data} == {
-            new: float(i) for i, new in enumerate(netcdf.RENAMED.values())
-        }
-
-
 def test_plots_are_the_figures_of_the_charts(prediction: ChainResult) -> None:
     """Both panels of the prediction have a line for the chain; a wave has its pressure."""
     area, friction = prediction.plot().axes[:2]

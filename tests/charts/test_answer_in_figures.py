@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from gripscale.questions import contact_figure
 from gripscale.questions.calibration.charts import profiles_figure, residual_figure
-from gripscale.questions.chain.view import ANSWER, JUDGE
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.uncertainty.charts import distribution_figure
+from gripscale.questions.words import ANSWER, JUDGE
 
 BEST = {"friction": 0.461, "contact_fraction": 0.0047}
 
@@ -86,7 +86,7 @@ def calibration(series: int, parameters: int) -> xr.Dataset:
     kelvin = np.repeat(300.0 + 20.0 * np.arange(series), 4) if series > 1 else [math.nan] * 4
     measured = {
         "friction": np.full(points, 0.5), "spread": [math.nan] * points, "temperature": kelvin,
-        "speed": np.tile([0.01, 0.1, 1.0, 10.0], series),
+        "speed": np.tile([0.01, 0.1, 1.0, 10.0], series), "pressure": [math.nan] * points,
     }  # fmt: skip
     data = xr.Dataset({f"measured_{name}": ("point", v) for name, v in measured.items()})
     data["difference"] = ("point", np.linspace(-0.05, 0.05, points))
@@ -96,7 +96,8 @@ def calibration(series: int, parameters: int) -> xr.Dataset:
     for name, number in (("low", 1.2), ("high", 1.8), ("estimate", 1.5)):
         data[name] = ("parameter", [number] * parameters)
     data["unit"] = ("parameter", ["1"] * parameters)
-    data["parameter"] = ("parameter", [f"p{i}" for i in range(parameters)])
+    names = ["stress_0", "width", "speed_0", "activation_energy"]
+    data["parameter"] = ("parameter", names[:parameters])
     return data.assign_attrs(scatter=0.03, threshold=0.1, level=0.9)
 
 

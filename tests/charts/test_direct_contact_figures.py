@@ -10,13 +10,13 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from gripscale.charts.chart import CrossLine, Panel, Series, Sheet
+from gripscale.charts.chart import CrossLine, Panel, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import png
 from gripscale.half_space.location import with_traces
 from gripscale.questions.answer.charts import (
     height_figure,
     named_traces,
-    profile_names,
     trace_sheet,
 )
 
@@ -129,19 +129,19 @@ def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:
     ("profiles", "names"),
     [
         (["road", "lane"], ["road", "lane"]),
-        ((), ["profile 1", "profile 2"]),
         (["road", "road"], ["profile 1", "profile 2"]),
         (["road", ""], ["profile 1", "profile 2"]),
     ],
 )
 def test_traces_are_called_as_their_profiles(profiles: list[str], names: list[str]) -> None:
     data = with_traces(xr.Dataset(), [made_up_trace().drop_vars("by_height")] * 2)
-    assert [name for name, _ in named_traces(data, profiles)] == names
+    inputs = xr.Dataset({"profile_name": ("profile", np.array(profiles))})
+    called = [name for name, _ in named_traces(data, inputs)]
+    assert called == names
+    assert all(type(name) is str for name in called)
 
 
-def test_names_of_profiles_are_texts() -> None:
-    inputs = xr.Dataset({"profile_name": ("profile", np.array(["road", "lane"]))})
-    names = profile_names(inputs)
-    assert names == ["road", "lane"]
-    assert all(type(name) is str for name in names)
-    assert profile_names(xr.Dataset()) == []
+def test_traces_without_recorded_inputs_are_numbered() -> None:
+    data = with_traces(xr.Dataset(), [made_up_trace().drop_vars("by_height")] * 2)
+    for inputs in (None, xr.Dataset()):
+        assert [name for name, _ in named_traces(data, inputs)] == ["profile 1", "profile 2"]

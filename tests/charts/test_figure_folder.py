@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.charts.chart import Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.figure_folder import FigureFolder, FigureProcess, figures_elsewhere
 from gripscale.core.errors import FileError
 from gripscale.questions.chain.charts_of_blocks import Blocks, DrawnBlock

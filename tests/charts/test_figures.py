@@ -15,8 +15,9 @@ from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
 from gripscale.charts import save_figure
-from gripscale.charts.chart import Outline, Panel, PlotAxis, Series, Sheet
-from gripscale.charts.paper import draw_sheet, png
+from gripscale.charts.chart import Outline, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
+from gripscale.charts.paper import png
 from gripscale.charts.style import short_number, stretches
 from gripscale.core.errors import FileError, InputError
 from gripscale.questions import (
@@ -27,12 +28,12 @@ from gripscale.questions import (
     master_curve_figure,
     profile_figure,
 )
-from gripscale.questions.chain.view import JUDGE
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts import comparison_figure
 from gripscale.questions.compare.charts_of_ladder import Row
 from gripscale.questions.inputs.charts_of_surface import kept_points
 from gripscale.questions.inputs.record import envelope, sine_curves
+from gripscale.questions.words import JUDGE
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.surface import Profile, SelfAffineFit, SineStack, clean, height_difference
 
@@ -345,7 +346,7 @@ def test_a_short_logarithmic_axis_has_three_numbers(low: float, ratio: float) ->
     panel = Panel(
         PlotAxis("x"), PlotAxis("y", True, low, ratio * low), [Series([0, 1], [low, ratio * low])]
     )
-    axes = draw_sheet(Sheet([panel])).axes[0]
+    axes = Sheet([panel]).on_paper().axes[0]
     ticks = np.asarray(axes.get_yticks())
     assert ((ticks >= low) & (ticks <= ratio * low)).sum() >= 3
 
@@ -430,7 +431,7 @@ def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
     panel = Panel(
         PlotAxis("x"), PlotAxis("y"), [Series([0, 1], [0, 1], label=name) for name in names]
     )
-    figure = draw_sheet(Sheet([panel, panel]))
+    figure = Sheet([panel, panel]).on_paper()
     figure.canvas.draw()
     box, whole = figure.legends[0].get_window_extent(), figure.bbox
     assert box.x0 >= whole.x0

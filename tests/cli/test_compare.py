@@ -34,9 +34,8 @@ from gripscale.questions.compare.charts import (
 )
 from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
-from gripscale.questions.compare.page import comparison_table, judgement, remarks
-from gripscale.questions.compare.stored import Compared
-from gripscale.report.source import page_of
+from gripscale.questions.compare.page import Compared, comparison_table, judgement, remarks
+from gripscale.questions.page_of_folder import page_of
 from tests.samples import Shell
 
 FORMATS = ("png",)
@@ -114,7 +113,7 @@ def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group:
         assert next(name for name, _ in comparison_figures(octaves)) == "comparison"
         labels = [row.label for row in rows_of(octaves, "friction")]
         assert labels[0].startswith(str(data.label.item(0)))
-        assert len(page_of(Compared.holding([octaves])).charts) >= 2
+        assert len(page_of(Compared([octaves])).charts) >= 2
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import (

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gripscale.model import NOT_TOLD, CutOffExponents, between, of_curve, of_mean
+from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents, between, of_curve, of_mean
 
 
 @pytest.mark.parametrize("factor", [2.0**0.25, 2.0, 3.5])

@@ -24,7 +24,8 @@ print(*sorted({name.partition(".")[0] for name in sys.modules}))
 @pytest.mark.parametrize(
     ("room", "light"),
     [
-        ("gripscale.surface", {"numpy"}),
+        ("gripscale.surface", set()),
+        ("gripscale.surface.surface", {"numpy"}),
         ("gripscale.rubber", {"numpy"}),
         ("gripscale.case_file", set()),
         ("gripscale.case_file.read", {"numpy", "pydantic"}),

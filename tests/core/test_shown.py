@@ -35,17 +35,10 @@ def test_the_units_of_a_case() -> None:
 
 
 def test_a_result_carries_the_units_of_its_case() -> None:
-    """One of an older version has but the text."""
     stated = {DISPLAY_UNITS: '{"speed": "km/h"}', "case": "[load]\nspeed = '1 mm/s'"}
     assert display_unit_of(stated, "speed").text(10.0) == "36 km/h"
     assert display_unit_of(stated, "pressure").text(3e5) == "0.3 MPa"
-    assert display_unit_of({"case": CASE}, "speed").text(10.0) == "36 km/h"
-
-
-@pytest.mark.parametrize("case", ["", "no = toml = at all", "load = 3", "[load]\npressure = 3e5"])
-def test_without_a_unit_it_is_the_usual_one(case: str) -> None:
-    assert display_unit_of({"case": case}, "pressure").text(3e5) == "0.3 MPa"
-    assert display_unit_of({"case": case}, "speed").text(10.0) == "10 m/s"
+    assert display_unit_of({}, "speed").text(10.0) == "10 m/s"
 
 
 @pytest.mark.parametrize(

@@ -12,17 +12,26 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.io import netcdf
 from studies.isotropic_maps.map_factor import map_over_lines
 
 from .experiments import Experiments
 
 Values = dict[str, NDArray[Any]]
 
+NEW_NAMES = {
+    "storage_factor": "storage_modulus_ratio",
+    "loss_factor_left": "loss_modulus_ratio",
+    "beyond_sweep": "strain_extrapolated",
+    "beyond_shift": "temperature_extrapolated",
+    "rubber_beyond_shift": "rubber_temperature_extrapolated",
+    "warming_uniform": "flash_temperature_rise_uniform",
+    "warming_larger_waves": "flash_temperature_rise_larger_waves",
+    "warming_own": "flash_temperature_rise_own",
+}
 RENAMED: dict[str, str] = {
     f"{folder}/{before}": f"{folder}/{now}"
     for folder in ("run_conditions/dynamic", "study_effects/study", "study/study")
-    for before, now in netcdf.RENAMED.items()
+    for before, now in NEW_NAMES.items()
 }
 """Today's name of a variable, "file/variable" or "file/group/variable", by its name in the file."""
 

@@ -7,7 +7,8 @@ import pytest
 import xarray as xr
 
 from gripscale.half_space import DirectContact, contact_trace, shares_by_slope
-from gripscale.half_space.location import SHARES_BY_SLOPE, SLOPES, strongest_stretches, traces_of
+from gripscale.half_space.location import strongest_stretches, traces_of
+from gripscale.half_space.result import SHARES_BY_SLOPE, SLOPES
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.surface import Measured, Profile, SineStack, Surface, self_affine_profile

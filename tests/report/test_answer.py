@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from gripscale.core.finding import Finding, Severity, Topic, ranked
-from gripscale.questions.answer.best_estimate import IsotropicSurface
+from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
 from gripscale.questions.answer.reliance import no_answer
@@ -40,7 +40,7 @@ def answered(**changed: float) -> xr.Dataset:
         "total_decades_above_band": 2.3,
     } | changed
     columns = {
-        "factor_label": ["finite strain, assumed", IsotropicSurface.label],
+        "factor_label": ["finite strain, assumed", LINES_TO_SURFACE],
         "best_friction_factor": [1.0, 0.95],
         "best_contact_fraction_factor": [1.0, 0.68],
         "best_friction_factor_uncertainty": [0.05, 0.11],

@@ -22,7 +22,7 @@ from gripscale.charts.chart import (
     ShadedBand,
     ValueMap,
 )
-from gripscale.report.source import page_of, read_result
+from gripscale.questions.page_of_folder import page_of, read_result
 
 X = np.array([1.0, 2.0, 4.0])
 MARKS = [

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from gripscale.case_file import run_case
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from tests.browsing import CURVES, Visit
 
 from .conftest import CASE

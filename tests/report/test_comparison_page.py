@@ -10,7 +10,7 @@ import xarray as xr
 
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 
 from .reading import Page
 

@@ -4,7 +4,7 @@ import pytest
 
 from gripscale.core.units import display_unit
 from gripscale.experiment import MeasuredFriction
-from gripscale.questions.calibration.page_of_measured import measured_lines
+from gripscale.questions.calibration.page import measured_lines
 
 
 def test_measured_friction_at_a_speed_is_interpolated_in_its_logarithm() -> None:

@@ -22,12 +22,10 @@ from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
 from gripscale.model import OUTSIDE_BAND, TOTALS, Load, predicted_answer
 from gripscale.questions.chain.charts import contact_charts
-from gripscale.questions.chain.findings import notices, run_cards
 from gripscale.questions.chain.run_folder import RunSource
-from gripscale.questions.chain.run_page import run_page
+from gripscale.questions.chain.run_page import notices, run_cards, run_page
 from gripscale.questions.inputs.page import rubber_facts
-from gripscale.report import write_report
-from gripscale.report.source import read_result
+from gripscale.questions.page_of_folder import read_result, write_report
 from gripscale.surface import self_affine_profile
 from tests.samples import ZENER
 

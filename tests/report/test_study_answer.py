@@ -12,10 +12,10 @@ from gripscale.case_file import read_case
 from gripscale.io.table import significant
 from gripscale.questions import Study, with_best_estimate
 from gripscale.questions.answer.answer import answer
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
 from gripscale.questions.vary.page import study_table
 from gripscale.questions.vary.page_of_answer import course, study_cards, study_lines
-from gripscale.report import write_report
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 

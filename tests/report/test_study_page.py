@@ -14,10 +14,10 @@ from gripscale.charts.bokeh_parts import model
 from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions import Study, Variation
+from gripscale.questions import page_of_folder as results
 from gripscale.questions.inputs.page import input_sections
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import study_charts
-from gripscale.report import source as results
-from gripscale.report import write_report
 from gripscale.report.elements import Facts
 from tests.samples import EXAMPLES
 

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gripscale.core.finding import doubt, to_json
 from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.intervals import interval_ends
-from gripscale.report.summary import SUMMARY_FILE, summary_table, write_summary
+from gripscale.questions.summary_table import SUMMARY_FILE, summary_table, write_summary
 
 UNIT = {"units": "1"}
 
@@ -71,7 +72,7 @@ def test_what_is_varied_or_of_no_answer_is_no_column() -> None:
 
 
 def test_doubts_stand_in_each_row() -> None:
-    doubted = rows(study(input_doubts="The unit of heights looks wrong."))
+    doubted = rows(study(input_doubts=to_json([doubt("The unit of heights looks wrong.")])))
     assert {row["not_to_rely_on"] for row in doubted} == {"The unit of heights looks wrong."}
     assert "not_to_rely_on" not in rows(study())[0]
 

@@ -167,8 +167,7 @@ def test_significant_digits(value: float, text: str) -> None:
 
 def test_loads_are_in_the_units_of_the_case() -> None:
     """Pressures of 3, 6 and 24 bar at 0.25 m/s, that is 0.9 km/h."""
-    text = '[load]\npressure = "3 bar"\nspeed = "0.9 km/h"'
-    data = solved().assign_attrs(case=text)
+    data = solved().assign_attrs(display_units='{"pressure": "bar", "speed": "km/h"}')
     table = as_text(prediction_table(data, ""), width=120)
     assert [row(table, wave)[4] for wave in (1, 2, 3)] == ["3.00", "6.00", "24.0"]
     units = next(line.split() for line in table.splitlines() if "2πA/λ" in line)

@@ -92,4 +92,4 @@ def test_what_looks_exchanged_is_said() -> None:
     assert not found.certain
     report = fit_prony_report(curve, bulk_modulus=1e10)[1]
     assert report.findings[0].startswith("storage and loss modulus look exchanged")
-    assert "storage and loss modulus look exchanged" in report.doubts[0]
+    assert "storage and loss modulus look exchanged" in str(report.doubts[0])

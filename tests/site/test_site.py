@@ -107,6 +107,7 @@ def test_every_public_name_has_its_entry(site):
     rooms = {
         "charts",
         "conditions",
+        "continuation",
         "half_space",
         "questions",
         "report",

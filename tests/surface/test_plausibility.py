@@ -31,7 +31,7 @@ def changed(where, values):
 
 
 def warnings_after_cleaning(profile, **options):
-    return " | ".join(profile_warnings(profile, clean(profile, **options)[0]))
+    return " | ".join(map(str, profile_warnings(profile, clean(profile, **options)[0])))
 
 
 @pytest.mark.parametrize("hurst", [0.6, 0.8, 1.0])
@@ -118,9 +118,9 @@ def test_a_unit_that_makes_spikes_of_all_is_doubted():
 
 
 def test_equal_heights_and_few_of_them():
-    assert profile_warnings(profile_of(np.ones(20))) == (
-        "all heights are equal: is this the column of heights?",
-    )
+    [equal] = profile_warnings(profile_of(np.ones(20)))
+    assert str(equal) == "all heights are equal: is this the column of heights?"
+    assert equal.severity == "doubt"
     every_other = np.where(np.arange(20) % 2, np.nan, np.arange(20.0) * 1e-5)
     assert profile_warnings(profile_of(every_other)) == ()
 
@@ -140,30 +140,30 @@ def prepared(options, profile=ROUGH):
 
 def test_it_is_said_where_the_waves_end():
     def note(options):
-        [said] = prepared(options).notes
-        return said.partition(": ")[2]
+        [finding] = prepared(options).findings
+        return finding.sentence.partition(": ")[2]
 
-    assert note({"scales": 7}).endswith("0.4 mm, the shortest the measurement carries")
-    assert note({"scales": 2}).endswith("where the fit puts it")
+    assert note({"scales": 7}).endswith("0.4 mm, the shortest the measurement carries.")
+    assert note({"scales": 2}).endswith("where the fit puts it.")
     below = prepared({"scales": 5, "smallest_wavelength": 0.2e-3})
-    assert below.notes == (
+    assert [str(finding) for finding in below.findings] == [
         "the smallest wave, 0.2 mm, is shorter than the measurement resolves, 0.4 mm: it "
-        "extrapolates the waves above it",
-    )
-    assert prepared({"scales": 5, "smallest_wavelength": 0.4e-3}).notes == ()
-    assert Surface(SineStack([1e-3], [1e-4]), "by hand").notes == ()
+        "extrapolates the waves above it."
+    ]
+    assert prepared({"scales": 5, "smallest_wavelength": 0.4e-3}).findings == ()
+    assert Surface(SineStack([1e-3], [1e-4]), "by hand").findings == ()
 
 
 def test_more_waves_than_the_curve_holds_are_said():
-    [edge] = prepared({"scales": 12, "smallest_wavelength": 0.4e-3}).notes
-    assert edge.startswith("s_wavelength is 1.5, at the edge of the range searched, 1.5 to 30")
-    given = prepared({"scales": 2, "s_wavelength": 1.5}).notes
-    assert not any("s_wavelength" in note for note in given)  # given, not found
-    [longest] = prepared({"scales": 24, "smallest_wavelength": 0.4e-3}).notes
-    assert longest.startswith("the largest wave, 6060 mm, is longer than 4 times")
+    [edge] = prepared({"scales": 12, "smallest_wavelength": 0.4e-3}).findings
+    assert str(edge).startswith("s_wavelength is 1.5, at the edge of the range searched, 1.5 to 30")
+    given = prepared({"scales": 2, "s_wavelength": 1.5}).findings
+    assert not any("s_wavelength" in str(finding) for finding in given)  # given, not found
+    [longest] = prepared({"scales": 24, "smallest_wavelength": 0.4e-3}).findings
+    assert str(longest).startswith("the largest wave, 6060 mm, is longer than 4 times")
 
 
 def test_notes_name_the_profile_and_what_the_reader_changed():
     turned = replace(Profile(ROUGH.x[::-1], ROUGH.z[::-1]), name="lane")
-    first, *_ = prepared({"scales": 7}, turned).notes
-    assert first.startswith("lane: distances fell from row to row")
+    first, *_ = prepared({"scales": 7}, turned).findings
+    assert str(first).startswith("lane: distances fell from row to row")

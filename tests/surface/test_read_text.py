@@ -201,7 +201,7 @@ def test_columns_that_look_exchanged_may_have_no_titles(tmp_path):
 def test_depths_are_doubted_until_the_way_they_count_is_stated(tmp_path, title):
     path = written(tmp_path, table(header=f"x [mm];{title}\n", separator=";"))
     taken, up, down = (read_profile(path, z_axis=axis) for axis in (None, "up", "down"))
-    assert 'is taken as height, up: z_axis = "down" turns it over' in taken.doubts[0]
+    assert 'is taken as height, up: z_axis = "down" turns it over' in str(taken.doubts[0])
     assert up.doubts == down.doubts == ()
     assert np.array_equal(taken.z, up.z)
     assert np.array_equal(down.z, -up.z)
@@ -217,6 +217,6 @@ def test_depths_of_a_map_are_doubted_and_turned_over(tmp_path):
     rows = "\n".join(f"{x},{y},{x * y % 7}" for x in range(16) for y in range(16))
     path = written(tmp_path, f"x [mm],y [mm],depth [mm]\n{rows}")
     taken, down = read_map(path), read_map(path, z_axis="down")
-    assert "titled 'depth'" in taken.turned().lines()[0].doubts[0]
+    assert "titled 'depth'" in str(taken.turned().lines()[0].doubts[0])
     assert down.doubts == ()
     assert np.array_equal(down.z, -taken.z)

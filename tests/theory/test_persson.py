@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from functools import partial
 
 import numpy as np
 import pytest
@@ -203,12 +204,10 @@ def test_the_quadrature_converges_at_second_order():
     q = np.geomspace(Q0, Q1, 16)
     bent = ArealSpectrum(q, 1e-13 / (1 + (q / 1e3) ** 2) ** 1.8)
     load = Load(1e5, 0.3, 0.1)
-    integrals = module._Integrals(styrene_butadiene(), bent, load, 0.5, q)
-    fine = integrals.at_nodes(256)
+    integrals = partial(module.integrals, styrene_butadiene(), bent, load, 0.5, q)
+    fine = integrals(256)
     for which in (0, 1):
-        errors = [
-            abs(integrals.at_nodes(n)[which][-1] / fine[which][-1] - 1) for n in (4, 8, 16, 32)
-        ]
+        errors = [abs(integrals(n)[which][-1] / fine[which][-1] - 1) for n in (4, 8, 16, 32)]
         rates = np.log2(np.array(errors[:-1]) / errors[1:])
         assert (np.abs(rates - 2.0) < 0.15).all(), (errors, rates)
     found = persson(styrene_butadiene(), bent, pressure=1e5, speed=0.3)

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import gripscale as gs
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, GREEN, GREY, ORANGE
 from tests.verification.test_convergence import COLUMNS, FAMILIES, Errors, errors_of

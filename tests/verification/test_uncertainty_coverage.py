@@ -71,7 +71,7 @@ def measured(seed: int) -> Measurement:
     noise = np.exp(NOISE * np.random.default_rng(seed).standard_normal((2, FREQUENCY.size)))
     master = MasterCurve(FREQUENCY, modulus.real * noise[0], modulus.imag * noise[1])
     rubber, fit = fit_prony_report(master)
-    return Measurement(surface, rubber, master, fit, LOAD.speed)
+    return Measurement(surface, rubber, LOAD, master, fit)
 
 
 def interval(seed: int) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.fft
 
 import gripscale as gs
-from gripscale.half_space import contact_by_cut_off
+from gripscale.continuation import contact_by_cut_off
 from gripscale.half_space.grid import resampled
 from gripscale.surface import self_affine_profile
 from tests.samples import ROOT

@@ -9,11 +9,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gripscale.core.errors import InputError
+from gripscale.core.errors import using_extra
 
 __all__ = ["serve_app"]
-
-_EXTRA = ("bokeh", "jinja2", "markupsafe", "panel", "param", "tomlkit")
 
 
 def serve_app(
@@ -41,13 +39,7 @@ def serve_app(
         If the port is none or taken, the case is unusable, or the libraries of `gripscale[app]`
         are not installed.
     """
-    try:
+    libraries = ("bokeh", "jinja2", "markupsafe", "panel", "param", "tomlkit")
+    with using_extra("app", "the page", *libraries):
         from gripscale.app.server import serve
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in _EXTRA:
-            raise
-        raise InputError(
-            f"the page needs {error.name}, which is not installed; "
-            "install it with: pip install 'gripscale[app]'"
-        ) from error
     serve(Path(folder), None if case is None else Path(case), port, browser)

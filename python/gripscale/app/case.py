@@ -11,9 +11,10 @@ import secrets
 import shutil
 import time
 import tomllib
-from collections.abc import Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path, PureWindowsPath
 from typing import Any
 
@@ -75,11 +76,7 @@ class VisitFolder:
     def require_inside(self, file: CaseFile) -> None:
         """Raise `InputError` if the case names a file outside this folder."""
         for role, name in file.case.named_files():
-            try:
-                inside = file.resolve(name).is_relative_to(self.path)
-            except (OSError, RuntimeError, ValueError):  # a loop of links, an unknown home, a NUL
-                inside = False
-            if not inside:
+            if not self._holds(partial(file.resolve, name)):
                 raise InputError(
                     f'{role} file "{name}" lies outside the folder of this page; '
                     "drop the file itself on the page"
@@ -89,14 +86,17 @@ class VisitFolder:
         """Raise `InputError` if `name` is a file outside this folder; a plain word may be known."""
         if re.fullmatch(r"\w+", name):
             return
-        try:
-            inside = (self.path / name).resolve().is_relative_to(self.path)
-        except (OSError, RuntimeError, ValueError):
-            inside = False
+        inside = self._holds((self.path / name).resolve)
         if name.startswith(("-", "~")) or not inside:
             raise InputError(
                 f'{role}: "{name}" lies outside the folder of this page; drop the file itself'
             )
+
+    def _holds(self, resolve: Callable[[], Path]) -> bool:
+        try:
+            return resolve().is_relative_to(self.path)
+        except (OSError, RuntimeError, ValueError):  # a loop of links, an unknown home, a NUL
+            return False
 
     def short(self, message: object) -> str:
         """Return an error or a text with its paths relative to this folder."""
@@ -134,11 +134,7 @@ def value_at(text: str, path: Sequence[str]) -> Any:
 
 
 def with_value(text: str, path: Sequence[str], value: Any) -> str:
-    """Return `text` with `value` at a path, or without the key if it is None.
-
-    Comments and everything else in the text stay as they are. Raises `FileError` if `text` is not
-    TOML.
-    """
+    """Return `text` with `value` at a path, or without the key if it is None; comments stay."""
     try:
         document = tomlkit.parse(text)
         *parents, key = path
@@ -182,7 +178,6 @@ def field_text(value: Any) -> str:
 
 
 def _inline(value: Any) -> str:
-    """Return `value` as TOML on one line."""
     if isinstance(value, dict):
         pairs = ", ".join(f"{tomlkit.key(k).as_string()} = {_inline(v)}" for k, v in value.items())
         return f"{{ {pairs} }}"
@@ -193,16 +188,10 @@ def _inline(value: Any) -> str:
 
 @dataclass(frozen=True)
 class CaseProblem:
-    """What is wrong with the case: the table it is about, and a sentence."""
+    """What is wrong with the case: the table it is about, empty for none, and a sentence."""
 
     table: str
     sentence: str
-
-
-def table_of_message(message: str) -> str:
-    """Return the table of a case that a message is about; empty if it names none."""
-    match = re.search(r"\[(\w+)[].]|^(\w+) file \"", message)
-    return "" if match is None else match[1] or match[2]
 
 
 class CaseState(param.Parameterized):
@@ -215,11 +204,6 @@ class CaseState(param.Parameterized):
         super().__init__()  # type: ignore[no-untyped-call]
         self.visit = visit
 
-    @property
-    def validation_message(self) -> str:
-        """What is wrong with the case, in a sentence; empty if nothing is."""
-        return "" if self.problem is None else self.problem.sentence
-
     def set_text(self, text: str) -> None:
         """Take `text` as the case, valid or not."""
         text = text.replace("\r\n", "\n")
@@ -230,8 +214,7 @@ class CaseState(param.Parameterized):
         try:
             self.file()
         except GripscaleError as error:
-            sentence = self.visit.short(error)
-            return CaseProblem(table_of_message(sentence), sentence)
+            return CaseProblem(error.table.partition(".")[0], self.visit.short(error))
         return None
 
     @contextmanager
@@ -263,18 +246,10 @@ class CaseState(param.Parameterized):
         self.visit.require_inside(file)
         return file
 
-    def copy_case(self, path: Path) -> None:
-        """Take a case of this machine, with copies of its files."""
-        self.set_text(self.text_of(path))
-
     def text_of(self, path: Path) -> str:
         """Return the text of a case of this machine, with its files copied into the visit."""
         folder.save_case(read_case_file(path), self.visit.path)
         return self.visit.case.read_text(encoding="utf-8")
-
-    def load_example(self, name: str) -> None:
-        """Take a shipped example."""
-        self.set_text(self.example(name))
 
     def example(self, name: str) -> str:
         """Return the text of a shipped example, with its files copied into the visit."""
@@ -285,8 +260,7 @@ class CaseState(param.Parameterized):
     def open(self, uploads: Mapping[str, bytes]) -> str:
         """Return the text of an uploaded case, with the files uploaded with it under their names.
 
-        Files without a case make a new one. Raises `InputError` if several of `uploads` are cases
-        or one is no text, and as `gripscale.case_file.new.propose`.
+        Files without a case make a new one.
         """
         cases = [name for name in uploads if name.lower().endswith(".toml")]
         if not cases:

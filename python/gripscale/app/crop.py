@@ -83,5 +83,4 @@ class RawSurface:
 
 
 def _range(first: float, last: float) -> list[str]:
-    """Return two distances [mm] as a case states them."""
     return [f"{end:.4g} mm" for end in sorted((first, last))]

@@ -9,17 +9,15 @@ import asyncio
 from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from typing import Any, ClassVar, TypeVar
 
 import panel as pn
-from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
 from gripscale.core.finding import Finding
-from gripscale.report.elements import Card, Code, Element, Text, open_and_folded, with_code
+from gripscale.report.build import template_text, templates
+from gripscale.report.elements import Card, Code, Element, Text, open_and_folded
 
 _T = TypeVar("_T")
 
@@ -41,8 +39,7 @@ class Folded:
     kind: ClassVar[str] = "folded"
 
 
-AppElement = Element | Cards | Folded | Callable[[], pn.viewable.Viewable]
-"""What a tab shows; a function makes what is more than words and figures."""
+AppElement = Element | Cards | Folded
 PageElements = Sequence[AppElement]
 
 
@@ -54,19 +51,6 @@ def notice_elements(notices: Sequence[Finding]) -> Iterator[AppElement]:
         yield Folded(folded)
 
 
-@cache
-def _environment() -> Environment:
-    loader = PackageLoader("gripscale.app")
-    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
-    environment.filters["with_code"] = with_code
-    return environment
-
-
-@cache
-def _style() -> str:
-    return files("gripscale.app").joinpath("templates/elements.css").read_text(encoding="utf-8")
-
-
 def column(*parts: Any, **options: Any) -> pn.Column:
     """Return a column as wide as the page."""
     return pn.Column(*parts, sizing_mode="stretch_width", **options)
@@ -74,20 +58,21 @@ def column(*parts: Any, **options: Any) -> pn.Column:
 
 def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     """Return the panes that show `elements`, in order."""
-    return [
-        e() if callable(e) else chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements
-    ]
+    return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
 
 
-def html(element: Element | Cards | Folded) -> pn.pane.HTML:
+_STYLE = template_text("gripscale.app", "elements.css")
+
+
+def html(element: AppElement) -> pn.pane.HTML:
     """Return the pane of a text, a notice, a table, facts, code or cards."""
-    return raw(_environment().get_template("elements.html").render(e=element))
+    return raw(templates("gripscale.app").get_template("elements.html").render(e=element))
 
 
-def raw(markup: str, **options: Any) -> pn.pane.HTML:
+def raw(markup: str) -> pn.pane.HTML:
     """Return the pane of markup written in this package, in the style of the page."""
-    look = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_style()]}
-    return pn.pane.HTML(markup, **(look | options))
+    look: Any = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_STYLE]}
+    return pn.pane.HTML(markup, **look)
 
 
 def chart_pane(chart: Chart, figure: Any = None) -> pn.Column:

@@ -190,7 +190,12 @@ def quantity_field(
     def follow() -> None:
         value = state.get(path)
         values = value if pair and isinstance(value, list) else [value]
-        parts = [_number_and_unit(each, kind) for each in values]
+        parts = []  # anything but a quantity is shown as it is, without a unit
+        for each in values:
+            if isinstance(each, int | float) and not isinstance(each, bool):
+                parts.append((field_text(each), next(iter(UNITS[kind]))))
+            else:
+                parts.append(number_and_unit(each, kind) or (field_text(each or None), ""))
         units = {part[1] for part in parts if part[1]}
         if len(units) > 1:
             parts = [(field_text(each), "") for each in values]
@@ -205,13 +210,6 @@ def quantity_field(
 
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
-
-
-def _number_and_unit(value: Any, kind: str) -> tuple[str, str]:
-    """Return a quantity as number and unit; anything else as it is, without a unit."""
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return field_text(value), next(iter(UNITS[kind]))
-    return number_and_unit(value, kind) or (field_text(value or None), "")
 
 
 def literals(annotation: Any) -> Iterator[Any]:

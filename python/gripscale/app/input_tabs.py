@@ -8,43 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import panel as pn
 
+from gripscale import case_file
 from gripscale.app.case import CaseState, with_value
 from gripscale.app.case_panel import problem_pane
 from gripscale.app.crop import RawSurface
 from gripscale.app.elements import AppElement, column, notice_elements
 from gripscale.app.forms import PreviewPanel, table_form
-from gripscale.app.superposition import Redraw, superposition_elements
 from gripscale.app.uploads import NewText, file_upload, with_upload
 from gripscale.case import Case
-from gripscale.case_file import (
-    CaseFile,
-    ConditionsTable,
-    MeasuredTable,
-    RubberSource,
-    SurfaceTable,
-    read_case,
-    validate,
-)
 from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
+from gripscale.charts.draw import image
+from gripscale.charts.page_elements import Picture
 from gripscale.core.finding import Finding, Severity
-from gripscale.model import doubt_sentences
-from gripscale.questions.inputs import record
-from gripscale.questions.inputs.charts_of_rubber import rubber_charts
+from gripscale.questions.inputs import page, record
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts, superposition_figure
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
-from gripscale.questions.inputs.page import (
-    cleaning_tables,
-    rubber_facts,
-    shift_parts,
-    sines_line,
-    surface_facts,
-)
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import Text
 
@@ -68,45 +52,50 @@ LOAD_TABLES = {
 """Tables of the case by name: their title and the fields at the top."""
 
 
-def _case_with(file: CaseFile, **tables: Any) -> Case:
+def _case_with(file: case_file.CaseFile, **tables: Any) -> Case:
     """Read the case with `tables` in place of its own, and without conditions.
 
     So the surface can be seen before the rubber is stated, and the rubber before the surface.
     """
-    plain = {"conditions": ConditionsTable(), "measured": MeasuredTable()}
-    return read_case(replace(file, case=file.case.model_copy(update=plain | tables)))
+    plain = {"conditions": case_file.ConditionsTable(), "measured": case_file.MeasuredTable()}
+    return case_file.read_case(replace(file, case=file.case.model_copy(update=plain | tables)))
 
 
-def surface_elements(file: CaseFile) -> list[AppElement]:
+def surface_elements(file: case_file.CaseFile) -> list[AppElement]:
     """Return warnings, correlation with its waves, cleaning and profiles of the surface."""
-    any_rubber = validate(RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
+    any_rubber = case_file.validate(case_file.RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     case = _case_with(file, rubber=any_rubber)
     inputs = record.inputs(case)
-    notes = [*notice_elements([Finding(Severity.WARNING, note) for note in case.surface.notes])]
+    notes = [*notice_elements(case.surface.findings)]
     if case.surface.measured is None:
         return [*notes, Text("The case states the sine waves; no surface is measured.")]
     return [
         *notes,
-        Text(f"{sines_line(case.surface.sines)}."),
+        Text(f"{page.sines_line(case.surface.sines)}."),
         *correlation_charts(inputs),
-        *surface_facts(InputRecord(inputs), len(case.surface.sines)),
-        *cleaning_tables(InputRecord(inputs)),
+        *page.surface_facts(InputRecord(inputs), len(case.surface.sines)),
+        *page.cleaning_tables(InputRecord(inputs)),
         *profile_charts(inputs),
     ]
 
 
-def rubber_elements(state: CaseState, redraw: Redraw, file: CaseFile) -> list[AppElement]:
+def rubber_elements(file: case_file.CaseFile) -> list[AppElement]:
     """Return findings, superposition, moduli with the fit and the ends of the data."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
-    case = _case_with(file, surface=validate(SurfaceTable, any_wave, "surface"))
+    case = _case_with(file, surface=case_file.validate(case_file.SurfaceTable, any_wave, "surface"))
     inputs = record.inputs(case)
     findings = InputRecord(inputs).findings
-    texts = [*doubt_sentences(case.measured_rubber), *(f"{text}." for text in findings)]
-    elements = [*notice_elements([Finding(Severity.WARNING, text) for text in texts])]
-    for part in shift_parts(case.measured_rubber):
+    doubtful = [Finding(Severity.WARNING, f"{text}.") for text in findings]
+    elements = [*notice_elements([*case.measured_rubber.doubts, *doubtful])]
+    for part in page.shift_parts(case.measured_rubber):
         elements.append(Text(part) if isinstance(part, str) else part)
-    elements += superposition_elements(state, case.measured_rubber, redraw)
-    return [*elements, *rubber_charts(inputs, None), rubber_facts(InputRecord(inputs))]
+    sweeps, master = case.measured_rubber.sweeps, case.measured_rubber.master
+    if sweeps is not None and master is not None and master.shift is not None and len(sweeps) > 1:
+        words = "Sweeps as measured and shifted to one temperature."
+        alt = "Moduli and loss factor of all sweeps by frequency, as measured and shifted."
+        figure = superposition_figure(sweeps, master)
+        elements.append(image(Picture("superposition", figure, words, alt)))
+    return [*elements, *rubber_charts(inputs, None), page.rubber_facts(InputRecord(inputs))]
 
 
 def road_tab(state: CaseState) -> pn.Column:
@@ -144,11 +133,7 @@ def with_proposal(
 
 def rubber_tab(state: CaseState) -> pn.Column:
     """Return the tab of the rubber: uploads, fields, preview."""
-
-    async def redraw() -> None:
-        await preview.update()
-
-    preview = PreviewPanel(state, "rubber", "Read and fit", partial(rubber_elements, state, redraw))
+    preview = PreviewPanel(state, "rubber", "Read and fit", rubber_elements)
     return column(
         problem_pane(state, "rubber"),
         file_upload(

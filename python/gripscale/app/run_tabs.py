@@ -12,29 +12,16 @@ import shlex
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
 import xarray as xr
 
+from gripscale.app import elements
 from gripscale.app.case import CaseState, case_tables, field_text
 from gripscale.app.case_panel import problem_pane
-from gripscale.app.commands import COMMANDS
-from gripscale.app.elements import (
-    Cards,
-    Folded,
-    PageElements,
-    code,
-    column,
-    html,
-    in_worker,
-    panes,
-    raw,
-    work_button,
-)
-from gripscale.app.runs import AppRun, Runs
+from gripscale.app.runs import COMMANDS, AppRun, Runs
 from gripscale.app.uploads import file_upload
 from gripscale.charts.chart import Panel, PlotAxis, Series
 from gripscale.charts.draw import panels_on_page
@@ -43,13 +30,14 @@ from gripscale.charts.style import BLUE
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
+from gripscale.questions import page_of_folder
 from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
-from gripscale.questions.chain.view import AXIS_TITLES, HEADINGS, SYMBOLS, PredictionView
-from gripscale.questions.registry import Form, FormField
-from gripscale.report import source
+from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.registry import Form
+from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS
 from gripscale.report.elements import Element, Text
 
 POLL = 500
@@ -67,13 +55,13 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         margin=(4, 8),
         width=300,
     )
-    form = column()
+    form = elements.column()
     others = pn.widgets.TextInput(
         label="others, by name", margin=(4, 8), sizing_mode="stretch_width", max_width=420
     )
     fields: dict[str, pn.widgets.TextInput | pn.widgets.Select] = {}
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
-    status, answer, output = column(), column(), code("")
+    status, answer, output = elements.column(), elements.column(), elements.code("")
     folded_output = pn.Card(
         output,
         title="Command and output",
@@ -91,13 +79,18 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     def show_options(*_: Any) -> None:
         command: Form = choice.value
         fields.clear()
-        fields.update({option.label: option_field(option) for option in command.fields})
+        for option in command.fields:
+            look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
+            if option.choices:
+                fields[option.label] = pn.widgets.Select(options=dict(option.choices), **look)
+            else:
+                fields[option.label] = pn.widgets.TextInput(**look)
         drop = []
         if command.others:
             others.value = ""
             words = f"Drop other {command.others}; they are compared with that of the case."
             drop = [others, file_upload(state, "run", words, with_others, several=True)]
-        form.objects = [html(Text(command.about)), pn.FlexBox(*fields.values()), *drop]
+        form.objects = [elements.html(Text(command.about)), pn.FlexBox(*fields.values()), *drop]
 
     async def start() -> None:
         names = [name.strip() for name in (others.value or "").split(",") if name.strip()]
@@ -118,14 +111,16 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         show_output(run)
 
     def show_output(run: AppRun) -> None:
-        status.objects = [html(run_status(run))]
-        output.object, folded_output.visible = code(output_text(run, state)).object, True
+        status.objects = [elements.html(run_status(run))]
+        command = f"$ {shlex.join(['gripscale', *run.words])}"
+        output.object = elements.code(f"{command}\n{state.visit.short(run.log())}").object
+        folded_output.visible = True
 
     async def conclude(run: AppRun) -> None:
         bar.visible = stop.visible = False
         show_output(run)
         if run.state == "finished":
-            answer.objects = panes(await in_worker(lambda: answer_elements(run)))
+            answer.objects = elements.panes(await elements.in_worker(lambda: answer_elements(run)))
         runs.changes += 1
         if run.state == "failed":
             raise InputError(f"{run.name}: {run.failure()}")
@@ -136,25 +131,17 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
 
     choice.param.watch(show_options, "value")
     show_options()
-    stop = work_button("Stop", end, color="danger", visible=False)
-    return column(
+    stop = elements.work_button("Stop", end, color="danger", visible=False)
+    return elements.column(
         problem_pane(state, "run"),
         choice,
         form,
-        pn.Row(work_button("Run", start, color="primary"), stop),
+        pn.Row(elements.work_button("Run", start, color="primary"), stop),
         bar,
         status,
         answer,
         folded_output,
     )
-
-
-def option_field(option: FormField) -> pn.widgets.TextInput | pn.widgets.Select:
-    """Return the field of an option: a choice where only some values are possible."""
-    look = {"label": option.label, "value": option.value, "margin": (4, 8), "width": 220}
-    if not option.choices:
-        return pn.widgets.TextInput(**look)
-    return pn.widgets.Select(options=dict(option.choices), **look)
 
 
 def run_status(run: AppRun) -> Element:
@@ -168,28 +155,22 @@ def run_status(run: AppRun) -> Element:
     return Text(f"{run.name}, {run.command.title.lower()}, {words[run.state]}")
 
 
-def output_text(run: AppRun, state: CaseState) -> str:
-    """Return the command of a run, and what it printed, if anything."""
-    command = f"$ {shlex.join(['gripscale', *run.words])}"
-    return f"{command}\n{state.visit.short(run.log())}"
-
-
-def answer_elements(run: AppRun) -> PageElements:
+def answer_elements(run: AppRun) -> elements.PageElements:
     """Return the answer of a finished run, what it rests on, and what is to be known of it."""
     try:
-        result = source.read_result(run.folder)
+        result = page_of_folder.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
-    page = source.page_of(result)
-    numbers = Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
-    folded = [Folded(page.notices_folded)] if page.notices_folded else []
+    page = page_of_folder.page_of(result)
+    numbers = elements.Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
+    folded = [elements.Folded(page.notices_folded)] if page.notices_folded else []
     return [*page.errors, numbers, *page.notices_open, *folded]
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the tab that shows the page of one run, and saves its files."""
     choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=320)
-    body = column(raw(NO_RUN))
+    body = elements.column(elements.raw(NO_RUN))
 
     async def show(*_: Any) -> None:
         run = choice.value
@@ -197,15 +178,21 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
             return
         if run.running:
             waiting = f"<p>{run.name} is running; its page follows at its end.</p>"
-            body.objects, body.loading = [raw(waiting)], False
+            body.objects, body.loading = [elements.raw(waiting)], False
             return
-        body.objects, body.loading = [raw(f"<p>Writing the page of {run.name} ...</p>")], True
+        body.objects = [elements.raw(f"<p>Writing the page of {run.name} ...</p>")]
+        body.loading = True
         try:
             page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
-            parts = [downloads(run), report_frame(state, run, page)]
+            address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
+            frame = elements.raw(
+                f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
+                f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
+            )
+            parts = [downloads(run), frame]
         except FileError as error:
             why = state.visit.short(run.failure() or error)
-            parts = [html(Text(f"{run.name} has no page: {why}"))]
+            parts = [elements.html(Text(f"{run.name} has no page: {why}"))]
         if choice.value is run:  # else another was chosen meanwhile
             body.objects, body.loading = parts, False
 
@@ -218,16 +205,7 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
 
     choice.param.watch(show, "value")
     runs.param.watch(follow, "changes")
-    return column(choice, body)
-
-
-def report_frame(state: CaseState, run: AppRun, page: Path) -> pn.pane.HTML:
-    """Return the page of a run as wide as this one, with a link that opens it alone."""
-    address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
-    return raw(
-        f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
-        f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
-    )
+    return elements.column(choice, body)
 
 
 def downloads(run: AppRun) -> pn.FlexBox:
@@ -263,11 +241,11 @@ COMPARED_CHARTS = ("contact-area", "friction")
 
 def all_runs_tab(runs: Runs) -> pn.Column:
     """Return the tab with the answers of all runs of the visit."""
-    body = column(raw(NO_RUN))
+    body = elements.column(elements.raw(NO_RUN))
 
     async def follow(_: Any) -> None:
         if any(not run.running for run in runs.all):
-            body.objects = panes(await in_worker(lambda: compared_elements(runs)))
+            body.objects = elements.panes(await elements.in_worker(lambda: compared_elements(runs)))
 
     runs.param.watch(follow, "changes")
     return body
@@ -281,12 +259,12 @@ class ComparedRun(NamedTuple):
     direct: xr.Dataset | None
 
 
-def compared_elements(runs: Runs) -> PageElements:
+def compared_elements(runs: Runs) -> elements.PageElements:
     """Return table and figures of all runs that have results."""
     compared: list[ComparedRun] = []
     for run in runs.all:
         try:
-            result = None if run.running else source.read_result(run.folder)
+            result = None if run.running else page_of_folder.read_result(run.folder)
         except GripscaleError:
             continue  # stopped or failed before its first wave
         if isinstance(result, RunSource):
@@ -344,7 +322,10 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
             math.nan if with_area_term is None else float(with_area_term),
         ]
         totals.append(numbers if view.complete else [math.nan] * len(numbers))
-        states.append(_state(view, direct))
+        if direct is not None and no_answer(direct):
+            states.append("best estimate not to be relied on")
+        else:
+            states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
     speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _, _ in compared]
     area, friction, with_term = zip(*totals, strict=True)
@@ -364,18 +345,10 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
     return Table("runs", columns, "The runs of this visit")
 
 
-def _state(view: PredictionView, direct: xr.Dataset | None) -> str:
-    if direct is not None and no_answer(direct):
-        return "best estimate not to be relied on"
-    return "complete" if view.complete else f"{view.waves} of {view.planned} waves"
-
-
 _CHAIN = "chain of waves"
-"""Over the numbers of the chain, beside the best estimates."""
 
 
 def _best_columns(answers: Sequence[xr.Dataset | None]) -> Iterator[Column]:
-    """Yield best estimates and their intervals; nothing where no surface was measured."""
     for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
         numbers = [
             (math.nan,) * 3
@@ -391,7 +364,6 @@ def _best_columns(answers: Sequence[xr.Dataset | None]) -> Iterator[Column]:
 
 
 def _interval(answer: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Return the ends of the interval of a best estimate."""
     return interval_ends(answer[f"best_{name}"], answer[f"best_{name}_half_width"])
 
 

@@ -13,7 +13,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -22,8 +22,6 @@ from typing import Any
 import param
 
 from gripscale.app.case import CaseState
-from gripscale.app.commands import COMMANDS, RUN_COMMAND
-from gripscale.case_file import CaseFile
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.folders import write_text
 from gripscale.questions.chain.events import (
@@ -36,12 +34,21 @@ from gripscale.questions.chain.events import (
     WaveSolved,
     event_from_json,
 )
-from gripscale.questions.registry import Form
+from gripscale.questions.registry import Form, forms
 
+RUN_COMMAND = "run"
+COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
 REPORT = "report.html"
 """The page of a result in its folder, as `gripscale report` names it."""
 GRACE = 5.0
 """Seconds a process has to end before it is killed."""
+
+
+_LAST_STAGES = {
+    "waves": "all waves are solved; direct contact, effects and figures follow",
+    "direct contact": "the direct contact is solved; effects and figures follow",
+    "effects": "the effects are solved; the figures follow",
+}
 
 
 @dataclass(frozen=True)
@@ -54,33 +61,28 @@ class RunProgress:
 
     start: RunStarted | None = None
     wave: WaveSolved | None = None
-    """The wave that was solved last."""
     finished: tuple[str, ...] = ()
     """Predictions that came to their end, with a solution or without."""
     last_stage: str = "waves"
-    """What was solved last: waves, direct contact or effects."""
-
-    def after(self, event: Event) -> RunProgress:
-        """Return how far the run is after one more event."""
-        match event:
-            case RunStarted():
-                return RunProgress(event)
-            case WaveSolved():
-                return replace(self, wave=event)
-            case PredictionFinished():
-                return replace(self, finished=(*self.finished, event.prediction))
-            case AnswerSolved():
-                return replace(self, last_stage="direct contact")
-            case EffectsSolved():
-                return replace(self, last_stage="effects")
-        return self
+    """One of `_LAST_STAGES`: what was solved last."""
 
     @classmethod
     def of(cls, events: Iterable[Event]) -> RunProgress:
         """Return how far the run is that reported `events`."""
         progress = cls()
         for event in events:
-            progress = progress.after(event)
+            match event:
+                case RunStarted():
+                    progress = cls(event)
+                case WaveSolved():
+                    progress = replace(progress, wave=event)
+                case PredictionFinished():
+                    finished = (*progress.finished, event.prediction)
+                    progress = replace(progress, finished=finished)
+                case AnswerSolved():
+                    progress = replace(progress, last_stage="direct contact")
+                case EffectsSolved():
+                    progress = replace(progress, last_stage="effects")
         return progress
 
     @property
@@ -101,24 +103,16 @@ class RunProgress:
     @property
     def sentence(self) -> str:
         """How far the run is, in words."""
-        return ", ".join(self._parts())
-
-    def _parts(self) -> Iterator[str]:
         if self.start is None or self.wave is None:
-            yield "reading and fitting"
-        elif self.solved and self.last_stage == "effects":
-            yield "the effects are solved; the figures follow"
-        elif self.solved and self.last_stage == "direct contact":
-            yield "the direct contact is solved; effects and figures follow"
-        elif self.solved:
-            yield "all waves are solved; direct contact, effects and figures follow"
-        else:
-            names = self.start.predictions
-            if len(names) > 1:
-                yield f"prediction {names.index(self.wave.prediction) + 1} of {len(names)}"
-            if self.start.iterated:
-                yield f"pass {self.wave.pass_number} until rubber and contact agree"
-            yield f"wave {self.wave.number} of {self.wave.count}"
+            return "reading and fitting"
+        if self.solved:
+            return _LAST_STAGES[self.last_stage]
+        names, parts = self.start.predictions, []
+        if len(names) > 1:
+            parts.append(f"prediction {names.index(self.wave.prediction) + 1} of {len(names)}")
+        if self.start.iterated:
+            parts.append(f"pass {self.wave.pass_number} until rubber and contact agree")
+        return ", ".join([*parts, f"wave {self.wave.number} of {self.wave.count}"])
 
 
 @dataclass
@@ -131,7 +125,6 @@ class AppRun:
     text: str
     command: Form = COMMANDS[0]
     arguments: tuple[str, ...] = ()
-    """What follows the case on the command line."""
     stopped: bool = field(default=False, init=False)
     _process: Any = field(default=None, init=False, repr=False)
 
@@ -166,10 +159,7 @@ class AppRun:
         return (self.command.title, *self.arguments, self.text)
 
     def write_page(self) -> Path:
-        """Write the page of the result, unless it is there, in a process; return its path.
-
-        Raises `FileError` with the sentence of the process if it cannot be written.
-        """
+        """Write the page of the result, unless it is there, in a process; return its path."""
         page = self.folder / REPORT
         if not page.exists():
             command = [sys.executable, "-m", "gripscale", "report", str(self.folder)]
@@ -195,9 +185,8 @@ class AppRun:
             return "running"
         if self.stopped:
             return "stopped"
-        return (
-            "finished" if self._process is not None and self._process.returncode == 0 else "failed"
-        )
+        finished = self._process is not None and self._process.returncode == 0
+        return "finished" if finished else "failed"
 
     def stop(self) -> None:
         """End the process and all it started."""
@@ -296,7 +285,10 @@ class Runs(param.Parameterized):
             raise InputError(f"{command.title}: expected other {command.others}; got none")
         for name in others:
             self._state.visit.require_name_inside(name, command.others)
-        run = self._new(file, command, tuple(command.arguments(values, others)))
+        number, path = len(self.all) + 1, self._state.visit.path
+        name, case = f"run-{number}", path / f"case-{number}.toml"
+        arguments = tuple(command.arguments(values, others))
+        run = AppRun(name, case, path / "runs" / name, file.text, command, arguments)
         earlier = [each for each in self.all if each.asked == run.asked]
         if earlier and earlier[-1].state in ("finished", "stopped"):
             run = earlier[-1]
@@ -314,9 +306,3 @@ class Runs(param.Parameterized):
         for run in self.all:
             run.stop()
         self.changes += 1
-
-    def _new(self, file: CaseFile, command: Form, arguments: tuple[str, ...]) -> AppRun:
-        """Return a further run of a case, to be saved beside the files it names."""
-        number, path = len(self.all) + 1, self._state.visit.path
-        name, case = f"run-{number}", path / f"case-{number}.toml"
-        return AppRun(name, case, path / "runs" / name, file.text, command, arguments)

@@ -43,10 +43,7 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
     """Return the page of a new visit, with a folder of its own in `root`."""
     visit = VisitFolder.new(root)
     state = CaseState(visit)
-    if case is None:
-        state.load_example(next(iter(EXAMPLES)))
-    else:
-        state.copy_case(case)
+    state.set_text(state.example(next(iter(EXAMPLES))) if case is None else state.text_of(case))
     runs = Runs(state)
 
     def leave(_: Any) -> None:

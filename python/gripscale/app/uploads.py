@@ -18,6 +18,7 @@ from bokeh.models import CustomJS
 from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
 from gripscale.app.elements import column, in_worker
 from gripscale.core.errors import InputError
+from gripscale.report.build import template_text
 
 NewText = Callable[[Mapping[str, bytes]], str]
 """From uploads by name to the text of the case with them; may read them, in the worker thread."""
@@ -29,46 +30,13 @@ READING = """\
 [data-filepond-item-state="processing-complete"] .filepond--item-panel { background: #64605e; }
 """
 """What is read is named; a file that arrived is not green: it may be refused yet."""
-IN_BROWSER = """\
-FilePond.setOptions({
-    allowImagePreview: false,
-    allowMinimumUploadDuration: false,
-    instantUpload: false,
-    maxParallelUploads: 1000,
-})
-const {IDLE, INIT, LOADING, LOAD_ERROR} = FilePond.FileStatus
-const holds = part => part.shadowRoot?.querySelector('.filepond--root')
-const area_of = event => event.composedPath().find(holds)
-const name = (event, files) => {
-    const area = area_of(event)
-    const names = [...files ?? []].map(file => file.name)
-    if (area && names.length) area.setAttribute('data-reading', `Reading ${names.join(', ')} ...`)
-}
-const send = event => {
-    const {error, pond} = event.detail, area = area_of(event), files = pond.getFiles()
-    if (error) area?.removeAttribute('data-reading')
-    if (!area || files.some(({status}) => status === INIT || status === LOADING)) return
-    const types = files.map(({file, status}) =>
-        [file._relativePath || file.name, status === LOAD_ERROR ? 'too large' : file.type])
-    const {model} = Bokeh.index.query_one(view => view.el === area)
-    model.mime_type = Object.fromEntries(types)
-    for (const file of files) if (file.status === IDLE) pond.processFile(file)
-}
-document.addEventListener('drop', event => name(event, event.dataTransfer?.files), true)
-document.addEventListener('input', event => name(event, event.composedPath()[0].files), true)
-document.addEventListener('FilePond:addfile', send)
-"""
-"""Names files at the drop, announces them to the server as keys of `mime_type`, and sends them.
-
-By itself the widget plays more than 1 s, sends two files, plays again, and sends the next two.
-"""
 TOO_LARGE = "too large"
 """Type that the browser announces of a file that it does not send."""
 
 
 def prepare_areas(page: Document) -> None:
     """Let the areas of a page name, announce and send all files of a drop at once."""
-    page.js_on_event("document_ready", CustomJS(code=IN_BROWSER))
+    page.js_on_event("document_ready", CustomJS(code=template_text("gripscale.app", "uploads.js")))
 
 
 def file_upload(
@@ -107,7 +75,12 @@ def file_upload(
                 uploads = await dropped_together(area)
                 taken, accepted = len(uploads), False
                 with state.refusals(table):
-                    require_sent(area)
+                    for name, kind in area.mime_type.items():
+                        if kind == TOO_LARGE:
+                            raise InputError(
+                                f"{name} is too large; expected files of at most "
+                                f"{MAX_UPLOAD / 1e6:.0f} MB, and none of these was read"
+                            )
                     state.set_text(await in_worker(partial(new_text, uploads)))
                     accepted = True
             # the widget still marks its files as done: it stays, out of sight, until the next drop
@@ -121,16 +94,6 @@ def file_upload(
     holder = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
     holder.append(empty_area())
     return holder
-
-
-def require_sent(area: pn.widgets.FileDropper) -> None:
-    """Raise `InputError` if a file of an area is too large to be sent."""
-    for name, kind in area.mime_type.items():
-        if kind == TOO_LARGE:
-            raise InputError(
-                f"{name} is too large; expected files of at most {MAX_UPLOAD / 1e6:.0f} MB, and "
-                "none of these was read"
-            )
 
 
 async def dropped_together(area: pn.widgets.FileDropper) -> dict[str, bytes]:

@@ -8,11 +8,13 @@ Files too large to be copied are named where they are.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import time
 import tomllib
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -21,7 +23,9 @@ from typing import get_args
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import GripscaleError
+from gripscale.core.provenance import versions, whole_package
 from gripscale.io.folders import make_folder, unwritable, write_bytes, write_text
+from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
@@ -46,29 +50,26 @@ class SavedCase:
     copies: Mapping[str, bytes]
 
 
-def saved_case(file: CaseFile, folder: Path) -> SavedCase:
-    """Return `file` as it can be saved in `folder`, where nothing is touched.
-
-    Raises `FileError` if a file it names cannot be read.
-    """
+def saved_case(file: CaseFile, folder: Path, case_name: str = SAVED_CASE) -> SavedCase:
+    """Return `file` as it can be saved in `folder`, where nothing is touched."""
     names = list(dict.fromkeys(name for _, name in file.case.named_files()))
     paths = {name: file.resolve(name) for name in names}
     contents = {name: read_bytes(path) for name, path in paths.items()}
     if sum(map(len, contents.values())) > COPIED_AT_MOST:
         return SavedCase(renamed(file.text, {name: str(paths[name]) for name in names}), {})
     targets: dict[str, str] = {}
-    earlier = saved_inputs(folder)
+    earlier = saved_inputs(folder, case_name)
     for name, content in contents.items():
         taken = set(targets.values())
-        targets[name] = _free_target(paths[name], content, taken, folder, earlier)
+        targets[name] = free_target(paths[name], content, taken, folder, earlier)
     copies = {target: contents[name] for name, target in targets.items()}
     return SavedCase(renamed(file.text, targets), copies)
 
 
-def saved_inputs(folder: Path) -> set[str]:
+def saved_inputs(folder: Path, case_name: str = SAVED_CASE) -> set[str]:
     """Return the copies, by path in `folder`, that the case saved there names."""
     try:
-        names = read_case_file(folder / SAVED_CASE).case.named_files()
+        names = read_case_file(folder / case_name).case.named_files()
     except GripscaleError:
         return set()
     return {name for _, name in names if Path(name).parent == Path(INPUTS)}
@@ -84,21 +85,16 @@ def renamed(text: str, targets: Mapping[str, str]) -> str:
             continue
         name = tomllib.loads(f"string = {match[0]}")["string"]
         before, after = text[: match.start()], text[match.end() :]
-        if name in targets and _names_a_file(f'{before}"{_MARK}"{after}'):
-            text = f"{before}{json.dumps(targets[name], ensure_ascii=False)}{after}"
+        if name not in targets:
+            continue
+        with suppress(ValueError):  # no case with another text there
+            case = CaseTables.model_validate(tomllib.loads(f'{before}"{_MARK}"{after}'))
+            if any(file == _MARK for _, file in case.named_files()):
+                text = f"{before}{json.dumps(targets[name], ensure_ascii=False)}{after}"
     return text
 
 
-def _names_a_file(text: str) -> bool:
-    """Return whether the case looks for a file by the mark put into its text."""
-    try:
-        case = CaseTables.model_validate(tomllib.loads(text))
-    except ValueError:
-        return False
-    return any(name == _MARK for _, name in case.named_files())
-
-
-def _free_target(
+def free_target(
     path: Path, content: bytes, taken: set[str], folder: Path, earlier: set[str]
 ) -> str:
     """Return a path in the folder for a copy, at which no file of somebody else would be lost."""
@@ -125,7 +121,7 @@ _FIGURES = (
 AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 NOTE = ".finished.json"
-"""What a finished run was made from, see `gripscale.case_file.finished`."""
+"""What a finished run was made from and the files it left, so that it need not be repeated."""
 RESULT_FILES = (
     NOTE,
     "dynamic.nc",
@@ -153,10 +149,7 @@ def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
 
 
 def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
-    """Make `folder`, remove what an earlier run left but for `keep`, and save the case in it.
-
-    Raises `FileError` if that fails, or a file that the case names cannot be read.
-    """
+    """Make `folder`, remove what an earlier run left but for `keep`, and save the case in it."""
     saved = saved_case(file, folder)
     make_folder(folder / "figures")
     try:
@@ -164,20 +157,67 @@ def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
         raise unwritable(folder, error) from error
-    _save(saved, folder)
+    write_saved(saved, folder)
 
 
 def save_case(file: CaseFile, folder: Path) -> None:
-    """Save the case in `folder` with copies of its files, so that it runs from there.
-
-    Raises `FileError` if one cannot be read or written.
-    """
-    _save(saved_case(file, folder), folder)
+    """Save the case in `folder` with copies of its files, so that it runs from there."""
+    write_saved(saved_case(file, folder), folder)
 
 
-def _save(saved: SavedCase, folder: Path) -> None:
-    if saved.copies:
-        make_folder(folder / INPUTS)
+def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> None:
+    """Write the case and its copies; raise `FileError` if that fails."""
+    make_folder(folder / INPUTS if saved.copies else folder)
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
-    write_text(folder / SAVED_CASE, saved.text)
+    write_text(folder / case_name, saved.text)
+
+
+def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> bool:
+    """Return whether `folder` holds all results of a case, made by this very software.
+
+    `others` are files beside those of the case that a run shows; they may be missing. Results
+    that have another size or date than the run gave them do not count.
+    """
+    try:
+        noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
+        return bool(
+            noted["key"] == _key(file, others) and noted["files"] == _files(folder, noted["files"])
+        )
+    except (OSError, ValueError, TypeError, KeyError):
+        return False
+
+
+def case_replaced(file: CaseFile, folder: Path) -> str:
+    """Return the name of the case whose finished results are in `folder`, if it is another."""
+    try:
+        name = str(json.loads((folder / NOTE).read_text(encoding="utf-8"))["case"])
+    except (OSError, ValueError, TypeError, KeyError):
+        return ""
+    return "" if name == file.path.name else name
+
+
+def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
+    """Note that `folder` holds all results of a case."""
+    present = [name for name in RESULT_FILES if name != NOTE and (folder / name).is_file()]
+    present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
+    files = _files(folder, present)
+    noted = {"key": _key(file, others), "files": files, "case": file.path.name}
+    write_whole(folder / NOTE, lambda path: path.write_text(json.dumps(noted), encoding="utf-8"))
+
+
+def _key(file: CaseFile, others: tuple[Path, ...]) -> str:
+    """Return a hash of the case, its files, the other files and the software, faces included."""
+    inputs = json.dumps([whole_package(), versions(), str(file.path), file.text], sort_keys=True)
+    digest = hashlib.sha256(inputs.encode())
+    for _, name in file.case.named_files():
+        digest.update(hashlib.sha256(read_bytes(file.resolve(name))).digest())
+    for path in others:
+        digest.update(path.read_bytes() if path.is_file() else b"-")
+    return digest.hexdigest()
+
+
+def _files(folder: Path, names: list[str]) -> dict[str, list[int]]:
+    """Return size and date of the files of a folder."""
+    stats = {name: (folder / name).stat() for name in names}
+    return {name: [stat.st_size, stat.st_mtime_ns] for name, stat in stats.items()}

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
-from typing import Any
 
 from gripscale.case_file import tables
 from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
@@ -102,7 +101,17 @@ def _keys(law: type, page: str) -> Iterator[Key]:
         meanings |= _field_texts(source)
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
-        default = NEEDED if item.is_required() else _written(item.default)
+        match item.default:
+            case _ if item.is_required():
+                default = NEEDED
+            case None:
+                default = NOTHING
+            case StrainEnergy(kind=kind):
+                default = f'{{ kind = "{kind}" }}'
+            case float(value):
+                default = f"{value:g}"
+            case value:
+                default = json.dumps(value)
         yield Key(name, expected(item), default, meanings.get(name, ""), CHAPTERS.get(name, page))
 
 
@@ -120,12 +129,3 @@ def _field_texts(law: type) -> dict[str, str]:
 
 def _about(law: type) -> str:
     return (law.__doc__ or "").partition("\n")[0]
-
-
-def _written(value: Any) -> str:
-    """Return `value` as a case file writes it."""
-    if value is None:
-        return NOTHING
-    if isinstance(value, StrainEnergy):
-        return f'{{ kind = "{value.kind}" }}'
-    return f"{value:g}" if isinstance(value, float) else json.dumps(value)

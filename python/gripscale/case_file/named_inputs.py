@@ -37,10 +37,7 @@ OF_A_FILE = (
 
 
 def read_named_inputs(vary: Mapping[str, Any], file: CaseFile) -> dict[str, Any]:
-    """Return varied inputs with surfaces and rubbers read from the files they name.
-
-    Raises `FileError` or `InputError` for what cannot be read.
-    """
+    """Return varied inputs with surfaces and rubbers read from the files they name."""
     inputs = dict(vary)
     for axis, read in (("surface", read_surface), ("rubber", read_rubber)):
         if axis in inputs:
@@ -56,8 +53,6 @@ def read_surface(value: Any, file: CaseFile) -> Any:
     `value` is the path of another case (its [surface] is taken), or of a profile or, of a case on a
     map, a map, read with all other settings of the case but the crop, which belongs to its own
     files. "case", synthetic surfaces known by name and surfaces are returned as they are.
-
-    Raises `FileError` or `InputError` for what cannot be read.
     """
     if isinstance(value, Surface | SineStack) or value in (OF_THE_CASE, *SYNTHETIC_SURFACES):
         return value
@@ -71,17 +66,14 @@ def read_surface(value: Any, file: CaseFile) -> Any:
         settings["scales"] = len(table.sines)
     source = {"files": [str(path)]} if table.map is None else {"map": str(path)}
     surface = prepare_surface(validate(SurfaceTable, settings | source, "vary surface"))
-    return replace(surface, note=_surface_note(value, table) if outside else "")
-
-
-def _surface_note(value: Any, table: SurfaceTable) -> str:
-    settings = table.model_fields_set - SOURCES_OF_SURFACE
-    applied = ", ".join(sorted(settings - set(OF_ONE_ROAD))) or "nothing"
-    without = sorted(settings & set(OF_ONE_ROAD))
-    words = f"{value}: read with {applied} of the case"
-    if not without:
-        return words
-    return f"{words}, but not {' and '.join(without)}, which belongs to the road of the case"
+    if not outside:
+        return surface
+    keys = table.model_fields_set - SOURCES_OF_SURFACE
+    applied, without = sorted(keys - outside), sorted(keys & outside)
+    note = f"{value}: read with {', '.join(applied) or 'nothing'} of the case"
+    if without:
+        note += f", but not {' and '.join(without)}, which belongs to the road of the case"
+    return replace(surface, note=note)
 
 
 def read_rubber(value: Any, file: CaseFile) -> Any:
@@ -92,8 +84,6 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
     of modulus, columns, reference temperature) where it does not say so itself; its rubber has the
     bulk modulus, the strain energy and the limit of outliers of the case. "case" and rubbers are
     returned as they are.
-
-    Raises `FileError` or `InputError` for what cannot be read.
     """
     if isinstance(value, Rubber | MeasuredRubber) or value == OF_THE_CASE:
         return value
@@ -107,6 +97,8 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
     if path.suffix == ".toml":
         other = read_case_file(path)
         return prepare_rubber(other.case.rubber, other.resolve)
+    if path.suffix.lower() == ".json":  # a Prony series states all of itself
+        return _rubber({"file": str(path)})
     names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
     shared = {name: getattr(table, name) for name in names if getattr(table, name) is not None}
     if "reference_temperature" in shared:

@@ -5,10 +5,10 @@ What was taken for granted is listed as doubts, the weightiest first.
 
 from __future__ import annotations
 
-import json
 import os
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,10 +17,11 @@ from gripscale.case import Case
 from gripscale.case_file.keys import sections
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
+    BY_A_FACTOR,
+    TENS_OF_PERCENT,
     UNITS_OF_SURFACE,
-    Doubt,
     Proposal,
-    Weight,
+    assumption,
     conditions_proposal,
     holds_moduli,
     open_rubber,
@@ -28,8 +29,10 @@ from gripscale.case_file.proposals import (
     rubber_proposal,
     surface_proposal,
 )
-from gripscale.case_file.read import CaseFile, read_case_file
+from gripscale.case_file.read import read_case_file
+from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
+from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import temperature_in_kelvin
 from gripscale.io.folders import make_folder, write_text
 from gripscale.rubber import read_shift_table
@@ -57,69 +60,32 @@ class NewCase:
     """A case that was written, and what is doubtful about it."""
 
     path: Path
-    doubts: tuple[Doubt, ...]
-    """The weightiest first."""
+    findings: Sequence[Finding]
+    """What was taken for granted, the most important first."""
     skipped: tuple[Path, ...] = ()
     """Files of a folder that hold neither a surface nor moduli."""
 
 
-def new_case(
-    files: Sequence[str | Path],
-    path: str | Path,
-    *,
-    load: Mapping[str, str] | None = None,
-    temperature: str | None = None,
-    step: str | list[str] | None = None,
-    shift: Mapping[str, Any] | None = None,
-    layout: Mapping[str, Any] | None = None,
-) -> NewCase:
-    """Write a case for measured files to `path`.
+def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> NewCase:
+    """Write a case for measured files, found as by `propose` with its options, to `path`.
 
-    Parameters
-    ----------
-    files : sequence of path-like
-        Profiles or a map, and a master curve or sweeps, in any order; folders of them.
-    path : path-like
-        The case file, which must not be there. Its results go to the folder `results`, or to
-        `results-NAME` of a case with another name than case.toml.
-    load : mapping, optional
-        `pressure`, `speed` and `footprint` as in a case; 3 bar, 1 m/s and 100 mm by default.
-    temperature : str, optional
-        Of the rubber before the contact, such as "20 C".
-    step : str or list, optional
-        Distance between points where a file has none, such as "0.1 mm".
-    shift : mapping, optional
-        Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
-    layout : mapping, optional
-        What the file of the rubber does not state: keys of [rubber], such as columns.
-
-    Raises
-    ------
-    InputError, FileError
-        If the files hold no surface or no moduli, cannot be read, or `path` is there already.
+    Its results go to the folder `results`, or to `results-NAME` of a case with another name than
+    case.toml. Raises `InputError` and `FileError` as `propose` does, and where `path` exists.
     """
     target = Path(path)
     if target.exists():
         raise FileError(f"{target} is there already and is not overwritten; give another name")
-    tables, skipped = propose(
-        files,
-        target.parent,
-        load=load,
-        temperature=temperature,
-        step=step,
-        shift=shift,
-        layout=layout,
-    )
+    tables, skipped = propose(files, target.parent, **options)
     make_folder(target.parent)
     results = "results" if target.stem == "case" else f"results-{target.stem}"
     write_text(target, case_text(tables, results=results))
     try:
-        of_inputs = doubts_of_inputs(read_case_file(target))
+        of_inputs = [*findings_of_inputs(read_case(read_case_file(target)))]
     except GripscaleError:
         target.unlink()
         raise
     write_text(target, case_text(tables, of_inputs, results))
-    return NewCase(target, ranked_doubts(tables, of_inputs), skipped)
+    return NewCase(target, ranked_findings(tables, of_inputs), skipped)
 
 
 def propose(
@@ -134,27 +100,55 @@ def propose(
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
-    Arguments and errors are those of `new_case`.
+    Parameters
+    ----------
+    files : sequence of path-like
+        Profiles or a map, and a master curve or sweeps, in any order; folders of them.
+    directory : Path
+        Where the case file will be.
+    load : mapping, optional
+        `pressure`, `speed` and `footprint` as in a case; 3 bar, 1 m/s and 100 mm by default.
+    temperature : str, optional
+        Of the rubber before the contact, such as "20 C".
+    step : str or list, optional
+        Distance between points where a file has none, such as "0.1 mm".
+    shift : mapping, optional
+        Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
+    layout : mapping, optional
+        What the file of the rubber does not state: keys of [rubber], such as columns.
+
+    Raises
+    ------
+    InputError, FileError
+        If the files hold no surface or no moduli, or cannot be read.
     """
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     layout = layout or {}
     surfaces, rubbers, shifts, skipped = _sorted(files, step, layout)
-    names = {file: _name_in(directory, file) for file in (*surfaces, *rubbers, *shifts)}
+    names: dict[Path, str] = {}
+    for file in (*surfaces, *rubbers, *shifts):
+        try:
+            path = os.path.relpath(file.resolve(), directory.resolve())
+        except ValueError:  # on two drives
+            path = str(file.resolve())
+        names[file] = Path(path).as_posix()
+    rubber_options = {"temperature": kelvin, "shift": shift, "layout": layout}
+    of_load = Proposal()
+    for key, default in _LOAD.items():
+        if load and load.get(key) is not None:
+            of_load.add(key, load[key])
+        else:
+            effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
+            of_load.add(key, default, f"not stated; --{key} states another", effect)
     tables = {
         "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
-        "rubber": _one_rubber(
-            rubbers,
-            [names[file] for file in rubbers],
-            temperature=kelvin,
-            shift=shift,
-            layout=layout,
-        ),
-        "load": _load_proposal(load or {}),
+        "rubber": _one_rubber(rubbers, [names[file] for file in rubbers], **rubber_options),
+        "load": of_load,
     }
     if shift is None:
-        tables["rubber"].doubts += [
-            Doubt(
-                Weight.FACTOR,
+        tables["rubber"].findings += [
+            assumption(
+                BY_A_FACTOR,
                 f'{names[file]} holds shift factors and is not used: shift = "{names[file]}" in '
                 "[rubber] takes them",
             )
@@ -164,12 +158,11 @@ def propose(
     return tables, skipped
 
 
-def ranked_doubts(
-    tables: Mapping[str, Proposal], further: Sequence[Doubt] = ()
-) -> tuple[Doubt, ...]:
-    """Return the doubts of proposals and further ones, the weightiest first."""
-    every = [doubt for table in tables.values() for doubt in table.doubts] + [*further]
-    return tuple(sorted(every, key=lambda doubt: -doubt.weight))
+def ranked_findings(
+    tables: Mapping[str, Proposal], further: Iterable[Finding] = ()
+) -> Sequence[Finding]:
+    """Return the findings of proposals and further ones, the most important first."""
+    return ranked([*(finding for t in tables.values() for finding in t.findings), *further])
 
 
 def _sorted(
@@ -186,7 +179,8 @@ def _sorted(
             if holds_moduli(path, FileLayout(**layout)):
                 rubbers.append(path)
                 continue
-            if _holds_shift(path):
+            with suppress(GripscaleError):
+                read_shift_table(path)
                 shifts.append(path)
                 continue
             try:
@@ -226,47 +220,19 @@ def _one_rubber(files: list[Path], names: list[str], **options: Any) -> Proposal
         ) from error
 
 
-def _holds_shift(path: Path) -> bool:
-    """Return whether a file is a table of shift factors, by its titles."""
-    try:
-        read_shift_table(path)
-    except GripscaleError:
-        return False
-    return True
-
-
-def _name_in(directory: Path, file: Path) -> str:
-    """Return how a case in a directory names a file: from there, if they are not on two drives."""
-    try:
-        return Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
-    except ValueError:
-        return file.resolve().as_posix()
-
-
-def _load_proposal(load: Mapping[str, str]) -> Proposal:
-    proposal = Proposal()
-    for key, default in _LOAD.items():
-        if load.get(key) is not None:
-            proposal.add(key, load[key])
-        else:
-            weight = Weight.SCATTER if key == "footprint" else Weight.FACTOR
-            proposal.add(key, default, f"not stated; --{key} states another", weight)
-    return proposal
-
-
 def case_text(
-    tables: Mapping[str, Proposal], further: Sequence[Doubt] = (), results: str = "results"
+    tables: Mapping[str, Proposal], further: Iterable[Finding] = (), results: str = "results"
 ) -> str:
     """Return the text of a case: its doubts, and each key with why it has its value or its meaning.
 
-    The doubts are those of the proposals and `further` ones; `results` is the folder of results.
+    The findings are those of the proposals and `further` ones; `results` is the folder of results.
     """
     parts = [_HEAD]
-    doubts = ranked_doubts(tables, further)
-    if doubts:
+    findings = ranked_findings(tables, further)
+    if findings:
         parts += ["# Doubts, the most important first:"]
-        for number, doubt in enumerate(doubts, start=1):
-            parts += textwrap.wrap(f"{number}. {doubt.text}", _WIDTH, **_COMMENT)
+        for number, finding in enumerate(findings, start=1):
+            parts += textwrap.wrap(f"{number}. {finding}", _WIDTH, **_COMMENT)
         parts += [""]
     meanings = {
         (section.name, key.name): key.meaning for section in sections() for key in section.keys
@@ -277,44 +243,20 @@ def case_text(
         parts.append(f"[{name}]")
         for key, value in proposal.keys.items():
             reason = proposal.reasons.get(key) or meanings[name, key].rstrip(".")
-            parts += [*textwrap.wrap(reason, _WIDTH, **_COMMENT), f"{key} = {_toml(value)}"]
+            parts += [*textwrap.wrap(reason, _WIDTH, **_COMMENT), f"{key} = {toml_text(value)}"]
         parts.append("")
-    return "\n".join([*parts, "[output]", f"folder = {_toml(results)}", ""])
+    return "\n".join([*parts, "[output]", f"folder = {toml_text(results)}", ""])
 
 
-def _toml(value: Any) -> str:
-    """Return a text, a number, a list of texts or a table as TOML."""
-    if isinstance(value, Mapping):
-        pairs = ", ".join(f"{key} = {_toml(item)}" for key, item in value.items())
-        return f"{{ {pairs} }}"
-    if isinstance(value, list) and sum(map(len, value)) > _WIDTH // 2:
-        return "\n".join(["[", *(f"  {_toml(item)}," for item in value), "]"])
-    return json.dumps(value, ensure_ascii=False)
-
-
-def doubts_of_inputs(file: CaseFile) -> list[Doubt]:
-    """Return what reading and fitting the files of a case puts in doubt."""
-    case = read_case(file)
-    rubber, surface = case.measured_rubber, case.surface
-    findings = [*(rubber.fit.findings if rubber.fit else ())]
-    findings += [*(rubber.superposition.findings if rubber.superposition else ())]
-    by_weight = {
-        Weight.ANOTHER: [*case.doubts(), *case.load_notes()],
-        Weight.FACTOR: [*_beyond_the_band(case)],
-        Weight.SCATTER: [
-            *(note for note in surface.notes if note not in surface.doubts),
-            *(f"rubber: {finding}" for finding in findings),
-        ],
-    }
-    return [
-        Doubt(weight, text.rstrip(".")) for weight, texts in by_weight.items() for text in texts
-    ]
-
-
-def _beyond_the_band(case: Case) -> Iterator[str]:
-    """Yield which wave excites the rubber farthest beyond its measured frequencies."""
+def findings_of_inputs(case: Case) -> Iterator[Finding]:
+    """Yield what reading and fitting the files of a case puts in doubt."""
+    yield from case.findings()
+    yield from case.surface.extrapolated
+    joint = case.measured_rubber.superposition
+    for text in () if joint is None else joint.findings:
+        yield assumption(TENS_OF_PERCENT, f"Rubber: {text}.")
     try:
         wavelengths = case.surface.sines.wavelength
         require_measured(case.rubber_before, wavelengths, case.load.speed)
     except ExtrapolationError as error:
-        yield str(error)
+        yield assumption(BY_A_FACTOR, str(error))

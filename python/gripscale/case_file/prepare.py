@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import replace
+from dataclasses import MISSING, fields, replace
 from inspect import signature
 from pathlib import Path
 from typing import Any
@@ -15,22 +16,27 @@ import numpy as np
 from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
 from gripscale.case_file.read import CaseFile, read_case_file
-from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
+from gripscale.case_file.rubber_tables import (
+    OF_ANY_RUBBER,
+    ConditionsTable,
+    RubberSource,
+    StrainSweeps,
+)
 from gripscale.case_file.schema import CaseTable
-from gripscale.case_file.tables import FinerTable, SurfaceTable
+from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.errors import FileError, InputError, about_file, about_keys
-from gripscale.core.units import ZERO_CELSIUS, in_mm
-from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
-from gripscale.half_space.below_measurement import (
+from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
+from gripscale.continuation.roughness import (
     FinerMeasurement,
     HurstExponent,
     OwnFaces,
     Roughness,
-    contact_by_cut_off,
-    cut_off_at,
 )
+from gripscale.core.errors import FileError, InputError, about_file, about_keys
+from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.core.wording import CaseKey, Words
+from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.io.text_table import read_bytes
 from gripscale.rubber import (
     MasterCurve,
@@ -49,6 +55,7 @@ from gripscale.rubber import (
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
+from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
@@ -79,14 +86,7 @@ def prepare_surface(
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     raw = raw_surface(surface, resolve) if raw is None else raw
-    return _described(surface, _cleaned(surface, raw, resolve), resolve)
-
-
-@about_keys("surface")
-def _described(
-    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
-) -> surfaces.Surface:
-    """Return a cleaned surface with its correlation and sine waves; errors of `prepare_surface`."""
+    measured = _cleaned(surface, raw, resolve)
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
@@ -101,19 +101,15 @@ def _described(
 
 
 def case_surface(file: CaseFile) -> surfaces.Surface:
-    """Return the surface of a case, its cut-off by the slope in contact solved.
-
-    Raises `FileError` and `InputError` as `prepare_surface` and `contact_by_cut_off` do, and if the
-    contact of the measured roughness does not reach the slope.
-    """
+    """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve)
     if table.map is not None:
         raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
-    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
-    lines = measured.cleaned
+    raw = raw_surface(table, file.resolve)
+    lines = _cleaned(table, raw, file.resolve).cleaned
     load = file.case.load.nominal
     curve = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
@@ -134,7 +130,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
             "continues the roughness below it)"
         )
     solved = replace(rule, wavelength=wavelength)
-    return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
+    return prepare_surface(table.model_copy(update={"cut_off": solved}), file.resolve, raw)
 
 
 @about_keys("surface")
@@ -146,44 +142,35 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     paths = [resolve(name) for name in surface.measured_files]
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
-        return [surfaces.read_profile(path, **options) for path in paths]
+        lines = [surfaces.read_profile(path, **options) for path in paths]
+        if surface.reliable is None:
+            return lines
+        return [replace(line, reliable=surface.reliable) for line in lines]
     raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
+    if surface.reliable is not None:
+        raw = replace(raw, reliable=surface.reliable)
     return raw if surface.direction == "x" else raw.turned()
 
 
 def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfaces.Measured:
-    """Clean profiles or a map, which `raw_surface` has read."""
+    """Clean profiles or a map, which `raw_surface` has read, unless taken as they are."""
     if isinstance(raw, surfaces.HeightMap):
-        return _cleaned_map(surface, raw, resolve(surface.measured_files[0]))
+        if not surface.clean:
+            return surfaces.Measured.of_map(raw, raw)
+        options = _options(surface, surfaces.clean_map)
+        options["crop"] = (options["crop"], surface.crop_across)
+        with about_file(resolve(surface.measured_files[0]), InputError):
+            clean_map, report = surfaces.clean_map(raw, **options)
+        return surfaces.Measured.of_map(raw, clean_map, [report])
+    if not surface.clean:
+        return surfaces.Measured.of(raw)
     profiles, reports = [], []
     for line, name in zip(raw, surface.measured_files, strict=True):
         with about_file(resolve(name), InputError):
-            cleaned, report = surfaces.clean(line, **cleaning_options(surface))
+            cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
     return surfaces.Measured(profiles, reports, None, "")
-
-
-def cleaning_options(surface: SurfaceTable) -> dict[str, Any]:
-    """Return the arguments of `gripscale.clean` that a case states for its profiles."""
-    return _options(surface, surfaces.clean)
-
-
-def _cleaned_map(surface: SurfaceTable, raw: surfaces.HeightMap, path: Path) -> surfaces.Measured:
-    """Clean a map whose x is the way of sliding."""
-    options = _options(surface, surfaces.clean_map)
-    with about_file(path, InputError):
-        cleaned, report = surfaces.clean_map(
-            raw, **options | {"crop": (options["crop"], surface.crop_across)}
-        )
-    # The line to be drawn is the fullest, nearest to the middle.
-    away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
-    fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
-    before, after = (
-        each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest])))) for each in (raw, cleaned)
-    )
-    after = replace(after, name=before.name, source=before.source)
-    return surfaces.Measured([(before, after)], [report], None, "", cleaned)
 
 
 OF_SWEEPS = ("temperature_step", "vertical")
@@ -208,6 +195,8 @@ def prepare_rubber(
         return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
     paths, layout = [resolve(name) for name in source.measured_files], source.layout()
     path = paths[0]
+    if path.suffix.lower() == ".json":
+        return _stored_rubber(path, source, resolve)
     if path.is_dir():
         raise FileError(
             f"{path}: expected a file or a list of files; got a folder: `gripscale new` writes the "
@@ -239,6 +228,33 @@ def prepare_rubber(
     return MeasuredRubber(rubber, master.source, master, fit, sweeps, report)
 
 
+_DEFAULTS = {item.name: item.default for item in fields(Rubber) if item.default is not MISSING} | {
+    "strain_energy": {"kind": NeoHookean.kind}
+}
+"""What `Rubber.to_dict` returns of a rubber of which only the moduli are known."""
+
+
+def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> MeasuredRubber:
+    """Return a Prony series from a file of `Rubber.to_dict`, in which defaults may be left out."""
+    try:
+        values = json.loads(read_bytes(path))
+    except ValueError as error:
+        raise FileError(f"{path} cannot be read as a rubber: {error}") from error
+    if not isinstance(values, dict):
+        raise FileError(f"{path} cannot be read as a rubber: it is no JSON object")
+    keys = source.model_fields_set
+    foreign = keys - OF_ANY_RUBBER - {"reference_temperature", "source"}
+    if foreign:
+        raise InputError(f"{path}: {min(foreign)} is for measured moduli; got a Prony series")
+    with about_file(path, InputError):
+        if "equilibrium_modulus" not in values:
+            raise InputError("equilibrium_modulus must be given [Pa]; got none")
+        rubber = Rubber.from_dict(_DEFAULTS | values)
+    changes = keys & {"bulk_modulus", "strain_energy", "reference_temperature", "source"}
+    rubber = replace(rubber, **{name: getattr(source, name) for name in changes})
+    return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
+
+
 OF_A_RAMP = (
     "a temperature ramp at one frequency becomes a master curve by the stated shift: "
     "nothing in the file checks this shift"
@@ -254,17 +270,32 @@ def _superposed(
     if shift is None and not source.vertical:
         shift = read_shift_of_sweeps(path, source.layout())
     sweeps = read_sweeps(paths, tolerance=0.0, temperature_step=source.temperature_step, **reading)
-    if sweeps.is_ramp:
-        _require_shift_of_ramp(path, sweeps, shift)
-    elif source.temperature_step is None:
+    if sweeps.is_ramp and shift is None:
+        low, high = (sweeps.temperature[at] - ZERO_CELSIUS for at in (0, -1))
+        raise InputError(
+            Words(
+                f"{path}: ",
+                CaseKey("shift"),
+                ' must be given, such as shift = { kind = "wlf", c1 = 8.86, c2 = "101.6 K" }: a '
+                f"temperature ramp at one frequency ({sweeps.frequency[0]:.3g} Hz, {low:.0f} to "
+                f"{high:.0f} °C) makes no master curve without it, sweeps at several frequencies "
+                "do",
+            ),
+            missing="shift",
+        )
+    if not sweeps.is_ramp and source.temperature_step is None:
         with about_file(path, InputError):
             sweeps = replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
         raise InputError(
-            f'{path}: reference_temperature must be given, such as "20 C", for sweeps at '
-            f"{len(sweeps)} temperatures to be shifted to",
+            Words(
+                f"{path}: ",
+                CaseKey("reference_temperature"),
+                f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
+                "shifted to",
+            ),
             missing="reference_temperature",
         )
     master, report = superpose_report(
@@ -276,19 +307,6 @@ def _superposed(
     return sweeps, master, report
 
 
-def _require_shift_of_ramp(path: Path, ramp: Sweeps, shift: Shift | None) -> None:
-    """Raise `InputError` for a temperature ramp at one frequency without a shift."""
-    if shift is None:
-        low, high = (ramp.temperature[at] - ZERO_CELSIUS for at in (0, -1))
-        raise InputError(
-            f'{path}: shift must be given, such as shift = {{ kind = "wlf", c1 = 8.86, '
-            f'c2 = "101.6 K" }}: a temperature ramp at one frequency ({ramp.frequency[0]:.3g} Hz, '
-            f"{low:.0f} to {high:.0f} °C) makes no master curve without it, sweeps at several "
-            "frequencies do",
-            missing="shift",
-        )
-
-
 def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
     """Return a rubber of one master curve with the shift that is stated, if one is."""
     shift = _shift(source, resolve)
@@ -297,8 +315,12 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
     if rubber.reference_temperature is None:
         where = source.name or source.measured_files[0]
         raise InputError(
-            f"{where}: reference_temperature must be given with shift, such as "
-            '"20 C": the master curve does not state what it holds for',
+            Words(
+                f"{where}: ",
+                CaseKey("reference_temperature"),
+                ' must be given with shift, such as "20 C": the master curve does not state what '
+                "it holds for",
+            ),
             missing="reference_temperature",
         )
     return replace(rubber, shift=shift)
@@ -334,22 +356,19 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
 
 @about_keys("below_measurement")
 def _below_measurement(file: CaseFile) -> BelowMeasurement:
-    table = file.case.below_measurement
+    table, finer = file.case.below_measurement, file.case.below_measurement.finer
     roughness: Roughness = OwnFaces()
     if table.hurst is not None:
         roughness = HurstExponent(table.hurst)
-    elif table.finer is not None:
-        roughness = FinerMeasurement(_face(table.finer, file.resolve))
+    elif finer is not None and finer.map is not None:
+        face = surfaces.read_map(file.resolve(finer.map), **_options(finer, surfaces.read_map))
+        face = face if finer.direction == "x" else face.turned()
+        roughness = FinerMeasurement(surfaces.clean_map(face)[0])
+    elif finer is not None:
+        options = _options(finer, surfaces.read_profile)
+        line = surfaces.read_profile(file.resolve(finer.file or ""), **options)
+        roughness = FinerMeasurement(surfaces.clean(line)[0])
     return BelowMeasurement(table.down_to, roughness, table.seed)
-
-
-def _face(table: FinerTable, resolve: Resolve) -> surfaces.Profile | surfaces.HeightMap:
-    """Read and level a finer measurement of a face."""
-    if table.file is not None:
-        line = surfaces.read_profile(resolve(table.file), **_options(table, surfaces.read_profile))
-        return surfaces.clean(line)[0]
-    raw = surfaces.read_map(resolve(table.map or ""), **_options(table, surfaces.read_map))
-    return surfaces.clean_map(raw if table.direction == "x" else raw.turned())[0]
 
 
 def case_chain(file: CaseFile) -> Chain:
@@ -366,21 +385,8 @@ def case_chain(file: CaseFile) -> Chain:
     )
 
 
-@about_keys("measured")
-def stated_friction(file: CaseFile) -> MeasuredFriction | None:
-    """Return the measured friction that a case names, None if it names none.
-
-    Raises `FileError` if it cannot be read.
-    """
-    name = file.case.measured.friction
-    return None if name is None else read_measured_friction(file.resolve(name))
-
-
 def named_files(file: CaseFile) -> list[NamedFile]:
-    """Return the files that a case names, with their checksums.
-
-    Raises `FileError` if one cannot be read.
-    """
+    """Return the files that a case names, with their checksums."""
     files = []
     for role, name in file.case.named_files():
         content = read_bytes(file.resolve(name))
@@ -410,10 +416,15 @@ def read_case(path: CaseFile | str | Path) -> Case:
     if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:
         raise InputError(f"{file.path}: [below_measurement] needs measured profiles; got a map")
     # measured friction is refused before anything is fitted
-    friction, chain = stated_friction(file), case_chain(file)
+    name, friction = file.case.measured.friction, None
+    if name is not None:
+        with about_keys("measured"):
+            friction = read_measured_friction(file.resolve(name))
+    chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, theory = file.case.load, file.case.compare
+    load, theory, table = file.case.load, file.case.compare, file.case.surface
+    cleaned = table.clean and surface.measured is not None
     klueppel_heinrich = None
     if theory.layer_ratio is not None and theory.penetration_depth is not None:
         klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
@@ -432,7 +443,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,
                 friction=friction,
-                cleaning=cleaning_options(file.case.surface) if surface.measured else None,
+                cleaning=_options(table, surfaces.clean) if cleaned else None,
                 options={"uncertainty": file.case.uncertainty.options()},
                 origin=Origin(str(file.path), file.text, file.units, named_files(file)),
             )

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from enum import IntEnum
 from itertools import product
 from pathlib import Path
 from types import MappingProxyType
@@ -21,6 +20,7 @@ import numpy as np
 from gripscale.case_file.read import validate
 from gripscale.case_file.tables import SurfaceTable
 from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.io.text_table import EXCEL, read_lines
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
@@ -44,42 +44,33 @@ ROOM = 293.15
 """Temperature taken where neither a file nor the caller states one [K]."""
 
 
-class Weight(IntEnum):
-    """How much a doubt may change the answer."""
-
-    SCATTER = 1
-    """By tens of per cent."""
-    FACTOR = 2
-    """By a factor."""
-    ANOTHER = 3
-    """It may be the answer of another road or rubber."""
+TENS_OF_PERCENT, BY_A_FACTOR, OF_ANOTHER_CASE = 0.1, 1.0, math.inf
+"""Effects of what is taken for granted on the friction [-]: tens of per cent, a factor, or it is
+the friction of another road or rubber."""
 
 
-@dataclass(frozen=True)
-class Doubt:
-    """A sentence on what was taken for granted, and its weight."""
-
-    weight: Weight
-    text: str
+def assumption(effect: float, sentence: str) -> Finding:
+    """Return the finding that something is taken for granted, with its effect on the friction."""
+    severity = Severity.DOUBT if effect == OF_ANOTHER_CASE else Severity.WARNING
+    return Finding(severity, sentence, friction=effect)
 
 
 @dataclass
 class Proposal:
-    """Keys of a table of a case, why some have their value, and what is doubtful."""
+    """Keys of a table of a case, why some have their value, and what is taken for granted."""
 
     keys: dict[str, Any] = field(default_factory=dict)
     reasons: dict[str, str] = field(default_factory=dict)
-    doubts: list[Doubt] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
-    def add(self, key: str, value: Any, reason: str = "", weight: Weight | None = None) -> None:
-        """Propose a value; with a `weight` its reason is a doubt."""
+    def add(self, key: str, value: Any, reason: str = "", effect: float | None = None) -> None:
+        """Propose a value; with an `effect` on the friction its reason is an assumption."""
         self.keys[key] = value
         if reason:
             self.reasons[key] = reason
-        if weight is not None:
-            self.doubts.append(
-                Doubt(weight, f"{key} = {value!r}".replace("'", '"') + f": {reason}")
-            )
+        if effect is not None:
+            sentence = f"{key} = {value!r}".replace("'", '"') + f": {reason}"
+            self.findings.append(assumption(effect, sentence))
 
 
 LENGTHS = ("mm", "um", "m")
@@ -98,10 +89,7 @@ UNITS_OF_RUBBER = {
 def _read_with(
     read: Callable[..., _Measurement], path: Any, defaults: Mapping[str, str], **options: Any
 ) -> tuple[_Measurement, dict[str, str]]:
-    """Return what a file holds, and the keys without which it cannot be read, by default.
-
-    Raises what reading raises about anything but `defaults`.
-    """
+    """Return what a file holds, and the keys without which it cannot be read, by default."""
     asked: dict[str, str] = {}
     while True:
         try:
@@ -129,22 +117,32 @@ def surface_proposal(
         proposal.add("map", names[0])
         sizes = " and ".join(in_mm(length, 4) for length in surface.length)
         words = f"the sliding direction; the map is {sizes} long in x and y"
-        proposal.add("direction", "x", words, Weight.SCATTER)
+        proposal.add("direction", "x", words, TENS_OF_PERCENT)
     else:
         proposal.add("files", names)
     if step is not None:
         proposal.add("step", step)
     read = read_map if isinstance(surface, HeightMap) else read_profile
-    units = _likely_units(read, paths[0], missing, options)
+    units: dict[str, str] = {}
+    # units that the file does not state with which its heights are those of a texture, if any are
+    for choice in product(LENGTHS, repeat=len(missing)) if missing else ():
+        trial: dict[str, Any] = dict(zip(missing, choice, strict=True))
+        measured = read(paths[0], **options, **trial)
+        middle = measured.z.shape[-1] // 2
+        line = measured.line(middle) if isinstance(measured, HeightMap) else measured
+        units = units or trial
+        if _SHORTEST <= line.length <= _LONGEST and has_likely_units(line):
+            units = trial
+            break
     for key, unit in units.items():
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
-        proposal.add(key, unit, words, Weight.ANOTHER)
+        proposal.add(key, unit, words, OF_ANOTHER_CASE)
     if isinstance(surface, Profile):
         options |= units
         _add_crop(proposal, [read_profile(path, **options) for path in paths])
     proposal.add("scales", _SCALES, "sine waves of the chain")
     words = "roughness below what the measurement carries is left out; it may add friction"
-    proposal.add("cut_off", _CUT_OFF, words, Weight.SCATTER)
+    proposal.add("cut_off", _CUT_OFF, words, TENS_OF_PERCENT)
     return proposal
 
 
@@ -180,26 +178,6 @@ def open_surface(
     raise next((error for error in refusals if error.missing), refusals[0])
 
 
-def _likely_units(
-    read: Callable[..., Profile | HeightMap],
-    path: Path,
-    missing: Mapping[str, str],
-    options: Mapping[str, Any],
-) -> dict[str, str]:
-    """Return the units that a file does not state with which its heights are those of a texture."""
-
-    def plausible(units: Mapping[str, str]) -> bool:
-        surface = read(path, **options, **units)
-        middle = surface.z.shape[-1] // 2
-        line = surface.line(middle) if isinstance(surface, HeightMap) else surface
-        return _SHORTEST <= line.length <= _LONGEST and has_likely_units(line)
-
-    choices = [
-        dict(zip(missing, units, strict=True)) for units in product(LENGTHS, repeat=len(missing))
-    ]
-    return next(filter(plausible, choices), choices[0]) if missing else {}
-
-
 def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
     """Propose what of the profiles is the road."""
     parts = [part for profile in profiles if (part := road_between(profile)) is not None]
@@ -212,7 +190,7 @@ def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
         if (plates := support_plates(profile))
     ]
     words = f"between plates or supports: {'; '.join(supports)}"
-    proposal.add("crop", [in_mm(first), in_mm(last)], words, Weight.FACTOR)
+    proposal.add("crop", [in_mm(first), in_mm(last)], words, BY_A_FACTOR)
 
 
 def rubber_proposal(
@@ -236,21 +214,21 @@ def rubber_proposal(
     for key in asked:
         settings[key], words = _likely(key, paths, settings | asked)
         reason = f"{paths[0].name} does not state it; {words}"
-        proposal.add(key, settings[key], reason, Weight.ANOTHER)
+        proposal.add(key, settings[key], reason, OF_ANOTHER_CASE)
     if asked:
         measured, _ = open_rubber(paths, settings)
     _add_reference(proposal, measured, temperature)
-    if isinstance(measured, Sweeps) and not measured.is_ramp and _runs_on(measured):
-        words = "the temperatures have no gaps: moduli are interpolated at multiples of this step"
-        proposal.add("temperature_step", NOMINAL_STEP, words, Weight.SCATTER)
+    if isinstance(measured, Sweeps) and not measured.is_ramp:
+        try:
+            replace(measured, tolerance=TEMPERATURE_TOLERANCE)
+        except InputError:
+            words = (
+                "the temperatures have no gaps: moduli are interpolated at multiples of this step"
+            )
+            proposal.add("temperature_step", NOMINAL_STEP, words, TENS_OF_PERCENT)
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
-    _add_bulk_modulus(proposal, float(measured.storage.max()))
-    return proposal
-
-
-def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
-    """Propose the bulk modulus of rubber, or what the largest measured modulus [Pa] needs."""
+    stiffest = float(measured.storage.max())
     try:
         largest_modulus(stiffest, BULK_MODULUS)
     except InputError:
@@ -260,19 +238,17 @@ def _add_bulk_modulus(proposal: Proposal, stiffest: float) -> None:
             "rubber has: is the unit of the moduli right? Leave bulk_modulus out once it is mended "
             "by modulus_unit"
         )
-        proposal.add("bulk_modulus", f"{giga:g} GPa", words, Weight.ANOTHER)
+        proposal.add("bulk_modulus", f"{giga:g} GPa", words, OF_ANOTHER_CASE)
     else:
         words = "assumed: a DMA measurement does not give it"
         proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
+    return proposal
 
 
 def open_rubber(
     paths: list[Path], layout: Mapping[str, Any]
 ) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
-    """Return sweeps or a master curve, and the keys of the layout that nothing states.
-
-    Raises `FileError` and `InputError` as reading does.
-    """
+    """Return sweeps or a master curve, and the keys of the layout that nothing states."""
     if len(paths) > 1 or holds_sweeps(paths[0], FileLayout(**layout)):
         return _read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
     return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
@@ -315,7 +291,7 @@ def _add_reference(
             )
             if temperature is None:
                 words += ", as is the contact; --temperature states another"
-            proposal.add("reference_temperature", celsius_text(target), words, Weight.ANOTHER)
+            proposal.add("reference_temperature", celsius_text(target), words, OF_ANOTHER_CASE)
         return
     kelvin = measured.temperature
     if np.ptp(kelvin) <= _ONE_SWEEP:
@@ -323,24 +299,15 @@ def _add_reference(
     reference = float(np.clip(target, kelvin.min(), kelvin.max()))
     low, high = (celsius_text(value) for value in (kelvin.min(), kelvin.max()))
     words = f"sweeps from {low} to {high} are shifted to it"
-    weight = None if reference == target or temperature is None else Weight.FACTOR
-    proposal.add("reference_temperature", celsius_text(reference), words, weight)
+    effect = None if reference == target or temperature is None else BY_A_FACTOR
+    proposal.add("reference_temperature", celsius_text(reference), words, effect)
     if temperature is None:
         text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
-        proposal.doubts.append(Doubt(Weight.FACTOR, f"{text}; --temperature states another"))
+        proposal.findings.append(assumption(BY_A_FACTOR, f"{text}; --temperature states another"))
 
 
 NOMINAL_STEP = "5 K"
 """Step of nominal temperatures of ramps at several frequencies."""
-
-
-def _runs_on(sweeps: Sweeps) -> bool:
-    """Return whether temperatures have no gaps between sweeps."""
-    try:
-        replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
-    except InputError:
-        return True
-    return False
 
 
 _ONE_SWEEP = 3.0
@@ -408,5 +375,5 @@ def conditions_proposal(rubber: Proposal, paths: list[Path], temperature: float 
             f"the rubber has one temperature and no shift, and cannot be brought to "
             f"{celsius_text(temperature)}: state [rubber] shift and [conditions] temperature"
         )
-        proposal.doubts.append(Doubt(Weight.FACTOR, text))
+        proposal.findings.append(assumption(BY_A_FACTOR, text))
     return proposal

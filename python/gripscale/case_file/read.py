@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 import tomllib
 from collections.abc import Mapping
@@ -16,9 +14,7 @@ from pydantic import BaseModel, ValidationError
 from gripscale.case_file.schema import first_complaint, sentence
 from gripscale.case_file.tables import CaseTables
 from gripscale.core.errors import FileError, InputError, about_keys
-from gripscale.core.provenance import COMMAND, software, versions
-from gripscale.core.units import DISPLAY_UNITS, stated_units
-from gripscale.io.text_table import read_bytes
+from gripscale.core.units import stated_units
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -32,12 +28,6 @@ class CaseFile:
     text: str
     units: Mapping[str, str] = field(default_factory=dict, compare=False)
     """The units the case states, by key, in which results are shown."""
-
-    @property
-    def attributes(self) -> dict[str, str]:
-        """What every result of the case carries: its text, the units it states, the command."""
-        command = {"command": COMMAND.get()} if COMMAND.get() else {}
-        return {"case": self.text, DISPLAY_UNITS: json.dumps(self.units)} | command
 
     def resolve(self, name: str) -> Path:
         """Return the path of a file named in the case, relative to the case file."""
@@ -87,20 +77,15 @@ def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
     except ValidationError as error:
         whole = model is CaseTables
         refused = InputError(f"{where}: {sentence(error, model, in_table=whole)}")
-        if whole:
-            with about_keys(_table_of(error)):
-                raise refused from error
-        raise refused from error
+        if not whole:
+            raise refused from error
+        from gripscale.case_file.keys import TABLES  # all tables with it: not for reading a case
 
-
-def _table_of(error: ValidationError) -> str:
-    """Return which table of a case the first complaint is about, empty for the whole case."""
-    from gripscale.case_file.keys import TABLES  # all tables with it: not for reading a case
-
-    names = {name for name, _, _ in TABLES}
-    location = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
-    longer_first = (".".join(location[:count]) for count in range(len(location), 0, -1))
-    return next((name for name in longer_first if name in names), "")
+        location = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
+        longer_first = [".".join(location[:count]) for count in range(len(location), 0, -1)]
+        names = {name for name, _, _ in TABLES}
+        with about_keys(next((name for name in longer_first if name in names), "")):
+            raise refused from error
 
 
 def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
@@ -114,22 +99,3 @@ def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
     if re.search(r"=\s*[-+]?[\d.]+\s*[^\s\d#]", line):
         return '; a number with its unit stands in "quotation marks"'
     return ""
-
-
-def prediction_key(file: CaseFile, name: str) -> str:
-    """Return the key of the prediction `name` ("dynamic" or "static") of a case.
-
-    It is a hash of all the prediction depends on: the text of the case, the bytes of the files it
-    names and the software that solves it. Equal keys mean equal results, to the last bit.
-
-    Raises `FileError` if a file it names cannot be read.
-    """
-    contents = [read_bytes(file.resolve(named)) for _, named in file.case.named_files()]
-    inputs = {
-        "software": software(),
-        "versions": versions(),
-        "prediction": name,
-        "case": file.text,
-        "files": [hashlib.sha256(content).hexdigest() for content in contents],
-    }
-    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]

@@ -177,11 +177,6 @@ class ConditionsTable(CaseTable):
         return self
 
     @property
-    def iterated(self) -> bool:
-        """Whether the rubber depends on what is solved."""
-        return self.softening is not None or self.heat is not None
-
-    @property
     def files(self) -> list[str]:
         """Names of the files it was measured in."""
         return list(self.softening.files) if isinstance(self.softening, StrainSweeps) else []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import Annotated, Any, Literal, cast, get_args, get_origin, get_type_hints
@@ -103,10 +104,6 @@ _EXPECTED = {
 """What was expected instead of a value that pydantic refused with an error of this type."""
 
 
-RENAMED_KEYS = {"given": "ranges", "upper_share": "top_height_fraction"}
-"""Keys of version 0.1 and what they are called now."""
-
-
 def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool = False) -> str:
     """Return the first complaint as one sentence; an unknown key goes before its consequences.
 
@@ -120,8 +117,6 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     where = _location(first["loc"], in_table=in_table)
     kind, value = first["type"], first["input"]
     if kind == "extra_forbidden":
-        if key in RENAMED_KEYS:
-            return f"unknown key {where}; it is called {RENAMED_KEYS[key]} now"
         names = list(owner.model_fields)
         near = difflib.get_close_matches(key, names, n=1)
         hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
@@ -282,6 +277,46 @@ def law_from_table(law: type, value: Any) -> Any:
     return law(**{item.name: getattr(read, item.name) for item in fields(law)})
 
 
+def law_keys(law: Any) -> dict[str, Any]:
+    """Return the keys with which a case states a law, in SI units, exactly."""
+    keys: dict[str, Any] = {"kind": law.kind} if hasattr(law, "kind") else {}
+    for item in fields(law):
+        value = getattr(law, item.name)
+        if value is None:
+            continue
+        check = item.metadata["check"]
+        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
+        several = isinstance(value, Sequence) and not isinstance(value, str)
+        if kind == "temperature":
+            value = [kelvin_text(each) for each in value] if several else kelvin_text(value)
+        keys[item.name] = list(value) if several else value
+    return keys
+
+
+def kelvin_text(temperature: float) -> str:
+    """Return a temperature [K] as a case states it: never without its unit."""
+    return f"{float(temperature)!r} K"
+
+
+_LONGEST_LIST = 49
+"""Letters of the items of a list beyond which each has a line of its own."""
+
+
+def toml_text(value: Any) -> str:
+    """Return a text, a number, a truth value, a list or a table as TOML writes it in one key."""
+    if isinstance(value, Mapping):
+        pairs = ", ".join(f"{key} = {toml_text(item)}" for key, item in value.items())
+        return f"{{ {pairs} }}"
+    if isinstance(value, list):
+        items = [toml_text(item) for item in value]
+        if sum(len(str(item)) for item in value) > _LONGEST_LIST:
+            return "\n".join(["[", *(f"  {item}," for item in items), "]"])
+        return f"[{', '.join(items)}]"
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(float(value))  # inf and nan
+    return json.dumps(value, ensure_ascii=False)
+
+
 def stated_law(law: type) -> Reading:
     """Return what reads the table of `law`, such as { conductivity = "0.25 W/(m K)", ... }."""
     words = f"a table with {', '.join(table_of(law).model_fields)}"
@@ -333,7 +368,6 @@ def _column(value: Any) -> str | int:
 
 
 def _columns(value: Any) -> dict[str, str | int]:
-    """Accept three columns, or a table of them by quantity."""
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {_COLUMNS}")
     return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}

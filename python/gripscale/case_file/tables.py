@@ -68,13 +68,11 @@ class WaveTable(CaseTable):
     """Half its peak-to-valley height."""
 
 
-MAP_KEYS = ("crop_across", "trim", "form")
-PROFILE_KEYS = ("across_gaps", "detrend", "sheet")
-"""Keys of [surface] that only a map, or only profiles have."""
+Interval = Annotated[list[Position], Field(min_length=2, max_length=2)]
 
 
-class SurfaceTable(CaseTable):
-    """Measured profiles or a map and how they become sine waves, or the waves themselves."""
+class SourceKeys(CaseTable):
+    """Where a surface comes from: profiles, a map, or waves by hand."""
 
     files: list[str] | None = Field(default=None, min_length=1)
     """Measured profiles of one road; several are pooled."""
@@ -82,6 +80,16 @@ class SurfaceTable(CaseTable):
     """A measured map, in place of files."""
     sines: list[WaveTable] | None = Field(default=None, min_length=1)
     """Waves stated by hand, in place of files; longest first."""
+
+    @property
+    def measured_files(self) -> list[str]:
+        """Names of the files it was measured in."""
+        return [self.map] if self.map is not None else self.files or []
+
+
+class ReadingKeys(CaseTable):
+    """How the files of a surface are read."""
+
     x_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of distances where the file does not name it."""
     z_unit: Annotated[str, unit_of_file("length")] | None = None
@@ -98,11 +106,20 @@ class SurfaceTable(CaseTable):
     """Sheet of an Excel file, where several hold numbers."""
     step: Annotated[Any, Reading(_STEP, _step)] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
-    crop: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    reliable: Length | None = None
+    """Shortest wavelength the instrument measures reliably, where the file does not tell."""
+
+
+class CleaningKeys(CaseTable):
+    """What is taken out of the heights of a surface."""
+
+    clean: bool = True
+    """Clean the heights; false takes them as they are."""
+    crop: Interval | None = None
     """First and last distance to keep along x; all by default."""
-    crop_across: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    crop_across: Interval | None = None
     """The same along y, of a map."""
-    valid_range: Annotated[list[Position], Field(min_length=2, max_length=2)] | None = None
+    valid_range: Interval | None = None
     """Lowest and highest height to believe; others become missing."""
     trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     """Share of missing heights above which a border line of a map is cut off."""
@@ -116,6 +133,25 @@ class SurfaceTable(CaseTable):
     """Trend subtracted from a profile."""
     form: int = Field(default=1, ge=0, le=8)
     """Order of the polynomial subtracted from a map: 0 the mean, 1 a plane, 2 a paraboloid."""
+
+    @model_validator(mode="after")
+    def _possible_cleaning(self) -> CleaningKeys:
+        for name in ("crop", "crop_across", "valid_range"):
+            limits = getattr(self, name)
+            if limits is not None and limits[0] >= limits[1]:
+                raise ValueError(
+                    f"{name} runs from {in_mm(limits[0])} to {in_mm(limits[1])}; "
+                    "expected its start before its end"
+                )
+        steps = self.model_fields_set & CleaningKeys.model_fields.keys() - {"clean"}
+        if steps and not self.clean:
+            raise ValueError(f"{min(steps)} cleans the heights; expected clean = true with it")
+        return self
+
+
+class WaveKeys(CaseTable):
+    """How sine waves follow the correlation of a surface."""
+
     top_height_fraction: float = Field(default=1.0, gt=0.0, le=1.0, allow_inf_nan=False)
     """Share of the heights, from the highest down, that counts in the correlation."""
     max_lag: Length | None = None
@@ -142,48 +178,50 @@ class SurfaceTable(CaseTable):
     """Largest lag that counts in the fit."""
 
     @model_validator(mode="after")
+    def _one_end(self) -> WaveKeys:
+        if self.smallest_wavelength is not None and self.cut_off is not None:
+            raise ValueError(
+                "expected either smallest_wavelength (the last wave) or cut_off (where the "
+                "roughness ends)"
+            )
+        return self
+
+
+class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
+    """Measured profiles or a map and how they become sine waves, or the waves themselves.
+
+    Waves by hand may stand with keys of a measured surface: other surfaces are read with these.
+    """
+
+    @model_validator(mode="after")
     def _one_source(self) -> SurfaceTable:
         if sum(source is not None for source in (self.files, self.map, self.sines)) != 1:
             raise ValueError(
                 "expected either files (measured profiles), map (a measured map) or "
                 "sines (waves by hand)"
             )
-        ends = [self.smallest_wavelength, self.cut_off]
-        if self.sines is None and self.scales is None and ends == [None, None]:
+        if self.sines is not None:
+            if self.cut_off is not None:
+                raise ValueError("cut_off belongs to a measured surface, not to waves by hand")
+            lengths = [wave.wavelength for wave in self.sines]
+            if any(b >= a for a, b in pairwise(lengths)):
+                raise ValueError("expected sines in order of falling wavelength")
+        elif self.scales is None and self.smallest_wavelength is None and self.cut_off is None:
             raise ValueError(
                 "expected scales (number of waves), smallest_wavelength or cut_off (where they "
                 "end), or both"
             )
-        if None not in ends:
-            raise ValueError(
-                "expected either smallest_wavelength (the last wave) or cut_off (where the "
-                "roughness ends)"
-            )
-        if self.sines is not None and self.cut_off is not None:
-            raise ValueError("cut_off belongs to a measured surface, not to waves by hand")
-        foreign, owner = (MAP_KEYS, "map") if self.map is None else (PROFILE_KEYS, "files")
+        foreign, owner = (
+            (("crop_across", "trim", "form"), "map")
+            if self.map is None
+            else (("across_gaps", "detrend", "sheet"), "files")
+        )
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:
                 raise ValueError(f"{name} belongs to a surface from {owner}")
         if self.map is None and isinstance(self.step, list):
             raise ValueError("step of a profile is one length; two are those of a map")
-        for name in ("crop", "crop_across", "valid_range"):
-            limits = getattr(self, name)
-            if limits is not None and limits[0] >= limits[1]:
-                raise ValueError(
-                    f"{name} runs from {in_mm(limits[0])} to {in_mm(limits[1])}; "
-                    "expected its start before its end"
-                )
-        if self.sines is not None:
-            lengths = [wave.wavelength for wave in self.sines]
-            if any(b >= a for a, b in pairwise(lengths)):
-                raise ValueError("expected sines in order of falling wavelength")
         return self
-
-    @property
-    def measured_files(self) -> list[str]:
-        """Names of the files it was measured in."""
-        return [self.map] if self.map is not None else self.files or []
 
 
 LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'

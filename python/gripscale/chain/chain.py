@@ -30,27 +30,27 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import SineStack, Surface, SurfacePart
-from gripscale.theory.half_plane import HalfPlane
-from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.kernel import WaveSolver, solver_of
+from gripscale.theory.half_plane import HalfPlane, solve_half_plane
+from gripscale.wave.block import FiniteStrainBlock, solve_scale
+from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import Sine
 from gripscale.wave.result import ScaleResult
 
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
+SOLVE_FUNCTIONS = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
+"""Functions that may stand for a solver of one wave."""
+
 WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
 
 
 def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolver:
-    """Return a solver by its name or its face with options, or the solver itself.
-
-    Raises `InputError` for an unknown name or option, and for options of a solver object.
-    """
+    """Return a solver by its name or its face with options, or the solver itself."""
     if isinstance(solver, str):
         kind = WAVE_SOLVERS[checks.one_of("solver", solver, WAVE_SOLVERS)]
     else:
-        kind = solver_of(solver)
+        kind = next((kind for face, kind in SOLVE_FUNCTIONS if face is solver), None)
     if kind is not None:
         out: WaveSolver = kind.of(**options)
         return out

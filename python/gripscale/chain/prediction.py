@@ -39,8 +39,9 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
 from gripscale.io import netcdf
-from gripscale.model import NOT_CONVERGED, CutOffExponents, Load, of_curve
+from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
@@ -76,10 +77,7 @@ class PressureClasses:
         return float(self.pressure @ self.area / self.area.sum())
 
     def handed_down(self, solved: Sequence[ScaleResult], count: int) -> PressureClasses:
-        """Return `count` classes of the contacts of the waves solved under each class.
-
-        Raises `InputError` for several classes if a solver returns no pressure along the wave.
-        """
+        """Return `count` classes of the contacts of the waves solved under each class."""
         if count == len(solved) == 1:
             wave, area = solved[0], self.area * solved[0].contact_fraction
             # equation 1; unchanged in full contact
@@ -324,10 +322,10 @@ class ChainResult:
         return gripscale.questions.contact_figure({"chain": self.to_dataset()})
 
     def report(self, output: str | Path) -> Path:
-        """Write a page of this prediction at `output`; see `gripscale.report.write_report`."""
+        """Write a page of this prediction at `output`; see `gripscale.questions.write_report`."""
         with TemporaryDirectory() as folder:
             stored = netcdf.save(self.to_dataset(), Path(folder) / "prediction.nc")
-            return gripscale.report.write_report(stored, output)
+            return Path(gripscale.questions.write_report(stored, output))
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> ChainResult:

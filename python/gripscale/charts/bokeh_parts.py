@@ -52,11 +52,7 @@ def document(roots: Sequence[Part]) -> dict[str, Any]:
 
 
 def model(root: Part) -> Any:
-    """Return a figure as Bokeh's model, for a server.
-
-    Raises Bokeh's `DeserializationError` for a type that it does not have and `ValueError` for a
-    value; of an attribute that it does not have it logs a warning.
-    """
+    """Return a figure as Bokeh's model, for a server; Bokeh warns of unknown attributes."""
     import bokeh.plotting  # noqa: F401 - has the type Figure
 
     return Deserializer().deserialize(_encoded(root))

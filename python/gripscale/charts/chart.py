@@ -1,32 +1,26 @@
 r"""What a chart shows, described once: series, bands, bars and levels over two axes with units.
 
-`gripscale.charts.paper` draws the panels of a `Sheet` side by side with matplotlib,
-`gripscale.charts.page` draws each `Panel` alone with Bokeh. A description needs neither. Letters of
-equations stand between dollar signs, such as "friction $\mu$ [-]"; the page spells them out.
+`gripscale.charts.draw` draws panels: side by side on paper, or each alone on a page. A description
+needs no library for it. Letters of equations stand between dollar signs, such as
+"friction $\mu$ [-]"; the page spells them out.
 """
 
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.charts.style import BLUE, GREY, INK, WIDE
+from gripscale.charts.style import BLUE, GREY, INK
 from gripscale.core.arrays import Array
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 LETTERS = {
     "\\lambda": "λ", "\\mu": "μ", "\\omega": "ω", "\\tau": "τ", "\\epsilon": "ε", "'": "′",
     "^*": "*", "^2": "²", "^3": "³", "_i": "ᵢ", "_{10}": "₁₀", "\\ln": "ln ", "\\": "",
 }  # fmt: skip
-"""Letters of equations without mathematical type."""
 
 
 def spelled_out(text: str) -> str:
@@ -52,11 +46,9 @@ class PlotAxis:
     ticks: Mapping[float, str] | None = None
     """Names of positions, in place of numbers."""
     bold: frozenset[str] = frozenset()
-    """Names that stand out."""
     numbers: int = 0
     """Most numbers along the axis on paper; 0 for as many as matplotlib finds good."""
     whole: bool = False
-    """Whether only whole numbers have a meaning."""
     grid: bool = True
     margin: float | None = None
     """Room beside what is drawn, over its extent."""
@@ -81,7 +73,7 @@ class Series:
     colour: str = BLUE
     label: str = ""
     dash: str = "solid"
-    """A key of `gripscale.charts.paper.DASHES`; empty for points without a line."""
+    """A key of `gripscale.charts.style.DASHES`; empty for points without a line."""
     width: float = 1.4
     """Of the line, in points on paper."""
     marker: str = ""
@@ -96,16 +88,13 @@ class Series:
     high: ArrayLike | None = None
     """Ends of error bars."""
     level_bars: bool = False
-    """Whether the error bars are along x."""
     alpha: float = 1.0
     order: float = 2.0
     """What is drawn later, above, on paper."""
     clip: bool = True
-    """Whether markers end at the frame."""
     coarse: bool = False
     """Whether paper has pixels in place of a drawing, for very many points."""
     listed: bool = True
-    """Whether the legend on paper has its label."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +134,6 @@ class ShadedBand:
     beyond: ArrayLike = False
     """Where it rests on the rubber beyond its measured band, and is hatched."""
     edged: bool = False
-    """Whether a fine white line parts it from its neighbours."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +181,6 @@ class Note:
     top: bool = False
     """Whether the point is at the top of the words, not in their middle."""
     boxed: bool = False
-    """Whether a white box hides what is behind."""
     italic: bool = False
 
 
@@ -236,51 +223,3 @@ class Panel:
     def with_marks(self, marks: Iterable[Mark]) -> Panel:
         """Return the panel with more marks, drawn above the others."""
         return replace(self, marks=[*self.marks, *marks])
-
-
-@dataclass(frozen=True)
-class ColourBar:
-    """What colours from a scale of `gripscale.charts.style.shades` mean."""
-
-    low: float
-    high: float
-    scale: str
-    label: str
-    first_row: bool = False
-    """Whether it belongs to the first row of panels only."""
-
-
-class Drawing(ABC):
-    """What a figure on paper is drawn from."""
-
-    @abstractmethod
-    def on_paper(self) -> Figure:
-        """Draw it with matplotlib, which is imported here."""
-
-
-@dataclass(frozen=True)
-class Sheet(Drawing):
-    """Panels of a figure on paper, row by row."""
-
-    panels: Sequence[Panel]
-    columns: int = 2
-    width: float = WIDE
-    height: float = 3.1
-    """Of the figure [inch]."""
-    legend: str = "above"
-    """Where the legend of all panels is: "above", "beside", "below" or nowhere."""
-    legend_columns: int = 3
-    legend_title: str = ""
-    keys: Sequence[Mark] = ()
-    """Entries of the legend that no panel has."""
-    title: str = ""
-    gap: float = 0.06
-    colour_bar: ColourBar | None = None
-    layout: Mapping[str, Any] = field(default_factory=dict)
-    """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
-
-    def on_paper(self) -> Figure:
-        """Draw the panels with matplotlib, which is imported here."""
-        from gripscale.charts.paper import draw_sheet
-
-        return draw_sheet(self)

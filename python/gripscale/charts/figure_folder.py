@@ -11,13 +11,14 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
-from gripscale.charts.chart import Drawing
+from gripscale.charts.draw import Drawing
 from gripscale.core.errors import FileError
+from gripscale.io.folders import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,9 +45,8 @@ class FigureFolder:
 
     def write(self, files: Mapping[str, bytes], name: str) -> None:
         """Write the files of a figure; `FileError` if that fails."""
-        from gripscale.charts import paper
-
-        paper.write_rendered(files, self.path, name)
+        for kind, content in files.items():
+            write_bytes(self.path / f"{name}.{kind}", content)
 
 
 class FigureProcess:
@@ -83,17 +83,11 @@ class FigureProcess:
         self._process.communicate()
 
     def _send(self, message: object) -> None:
-        with self._turn:
-            try:
-                pickle.dump(message, self._input, protocol=pickle.HIGHEST_PROTOCOL)
-                self._input.flush()
-            except BrokenPipeError:  # `close` tells why the process ended
-                pass
-
-    @property
-    def _input(self) -> IO[bytes]:
-        assert self._process.stdin is not None
-        return self._process.stdin
+        pipe = self._process.stdin
+        assert pipe is not None
+        with self._turn, suppress(BrokenPipeError):  # `close` tells why the process ended
+            pickle.dump(message, pipe, protocol=pickle.HIGHEST_PROTOCOL)
+            pipe.flush()
 
 
 Figures = FigureFolder | FigureProcess

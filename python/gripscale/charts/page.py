@@ -59,7 +59,6 @@ MOST_EXACT = 300
 """Points above which a curve is stored in single precision: enough to draw, half the size."""
 
 _DASHES = {"dotted": [2, 4], "dashed": [6], "dashdot": [2, 4, 6, 4], "solid": []}
-"""Lengths of dashes and gaps [px]."""
 _MARKERS = {
     "o": "circle", ".": "circle", "s": "square", "^": "triangle", "v": "inverted_triangle",
     "D": "diamond", "P": "plus", "X": "x", "x": "x", "+": "cross", "<": "hex", "d": "diamond_cross",
@@ -107,35 +106,24 @@ class DataStore:
 
 
 def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
+    # `along` the abscissa only where it is zoomed with others
+    sides = "width" if along else "both"
+    moving = [Part(name, dimensions=sides) for name in ("PanTool", "BoxZoomTool", "WheelZoomTool")]
+    tools = [*moving, Part("ResetTool"), Part("SaveTool")]
+    # a click on an entry hides or shows its curve
+    legend = Part("Legend", items=[], orientation="horizontal", click_policy="hide", margin=2,
+                  glyph_height=18, label_height=18, border_line_color=None, label_text_font=FONT,
+                  label_text_font_size="12px", stylesheets=[LEGEND_LINES])  # fmt: skip
     figure = Part("Figure", height=None, frame_height=panel.height - _AROUND,
                   sizing_mode="stretch_width", match_aspect=panel.to_scale,
-                  outline_line_color=None, renderers=[], toolbar=_toolbar(along), center=[],
-                  right=[], above=[_legend()])  # fmt: skip
+                  outline_line_color=None, renderers=[], center=[], right=[], above=[legend],
+                  toolbar=Part("Toolbar", tools=tools, active_drag=moving[1], logo=None)
+                  )  # fmt: skip
     for which, axis in (("x", panel.x), ("y", panel.y)):
         # at equal scales Bokeh finds the limits
         free = replace(axis, low=None, high=None) if panel.to_scale else axis
         _set_axis(figure, which, free, _extent(panel.marks, which))
-    points: list[Part] = []
-    for mark in panel.marks:
-        match mark:
-            case Series():
-                points += _draw_series(figure, mark, positive=panel.y.log)
-            case Outline():
-                _draw_outline(figure, mark, store)
-            case ValueMap(levels=0):
-                _draw_field(figure, mark)
-            case ShadedBand():
-                _draw_band(figure, mark, positive=panel.y.log)
-            case Bars():
-                _draw_bars(figure, mark)
-            case CrossLine(to=None):
-                _draw_cross_line(figure, mark, panel)
-            case CrossLine(to=float(end)):
-                look: dict[str, Any] = {"fill_color": mark.colour, "line_color": mark.colour}
-                look |= {"fill_alpha": 0.4, "level": "underlay"}
-                sides = ("left", "right") if mark.upright else ("bottom", "top")
-                look |= dict(zip(sides, (mark.at, end), strict=True))
-                figure["center"].append(Part("BoxAnnotation", **look))
+    points = [point for mark in panel.marks for point in _draw_mark(figure, mark, panel, store)]
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
         _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND_LABEL, line_color=GREY,
@@ -152,16 +140,35 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
     return figure
 
 
-def _toolbar(along: bool) -> Part:
-    """Return the tools of a figure, `along` the abscissa only where it is zoomed with others."""
-    sides = "width" if along else "both"
-    moving = [Part(name, dimensions=sides) for name in ("PanTool", "BoxZoomTool", "WheelZoomTool")]
-    tools = [*moving, Part("ResetTool"), Part("SaveTool")]
-    return Part("Toolbar", tools=tools, active_drag=moving[1], logo=None)
+def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list[Part]:
+    """Draw a mark; return what shows its numbers under the pointer."""
+    look: dict[str, Any]
+    match mark:
+        case Series():
+            return _draw_series(figure, mark, positive=panel.y.log)
+        case Outline():
+            _draw_outline(figure, mark, store)
+        case ValueMap(levels=0):
+            _draw_field(figure, mark)
+        case ShadedBand():
+            _draw_band(figure, mark, positive=panel.y.log)
+        case Bars():
+            ends = np.broadcast_arrays(*np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1))
+            source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
+            look = {"fill_color": mark.colour, "fill_alpha": mark.alpha, "line_color": None}
+            _draw_glyph(figure, source, _glyph("Quad", source, **look), mark.label)
+        case CrossLine(to=None):
+            _draw_cross_line(figure, mark, panel)
+        case CrossLine(to=float(end)):
+            look = {"fill_color": mark.colour, "line_color": mark.colour}
+            look |= {"fill_alpha": 0.4, "level": "underlay"}
+            edges = ("left", "right") if mark.upright else ("bottom", "top")
+            look |= dict(zip(edges, (mark.at, end), strict=True))
+            figure["center"].append(Part("BoxAnnotation", **look))
+    return []
 
 
 def _extent(marks: Sequence[Mark], which: str) -> Array:
-    """Return all finite numbers that marks show along an axis."""
     parts: list[Any] = []
     for mark in marks:
         match mark:
@@ -359,13 +366,6 @@ def _draw_band(figure: Part, band: ShadedBand, *, positive: bool) -> None:
         _draw_glyph(figure, columns({"x": x, "y1": low, "y2": high}), area, band.label)
 
 
-def _draw_bars(figure: Part, bars: Bars) -> None:
-    ends = np.broadcast_arrays(*np.atleast_1d(bars.x0, bars.x1, bars.y0, bars.y1))
-    source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
-    look = {"fill_color": bars.colour, "fill_alpha": bars.alpha}
-    _draw_glyph(figure, source, _glyph("Quad", source, line_color=None, **look), bars.label)
-
-
 def _draw_cross_line(figure: Part, line: CrossLine, panel: Panel) -> None:
     """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
     look: dict[str, Any] = {
@@ -393,10 +393,3 @@ def _tip(label: str, value: str) -> tuple[str, str]:
     words, _, unit = spelled_out(label).rpartition(" [")
     unit = unit.partition("]")[0]
     return words or value.removeprefix("@"), value if unit in ("-", "") else f"{value} {unit}"
-
-
-def _legend() -> Part:
-    """Return the legend above the frame; a click on an entry hides or shows its curve."""
-    return Part("Legend", items=[], orientation="horizontal", click_policy="hide", margin=2,
-                glyph_height=18, label_height=18, border_line_color=None, label_text_font=FONT,
-                label_text_font_size="12px", stylesheets=[LEGEND_LINES])  # fmt: skip

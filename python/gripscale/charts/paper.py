@@ -1,10 +1,10 @@
-"""Charts on paper: draws a `Sheet` with matplotlib and saves figures."""
+"""Charts on paper: draws panels with matplotlib and saves figures."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
-from operator import methodcaller
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -23,26 +23,21 @@ from matplotlib.markers import TICKDOWN, TICKLEFT
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
-from gripscale.charts.chart import (
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Outline,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-    ValueMap,
-    spelled_out,
+from gripscale.charts import chart
+from gripscale.charts.style import (
+    BEYOND_LABEL,
+    DASHES,
+    DPI,
+    FAINT,
+    GREY,
+    INK,
+    ROUND,
+    shades,
+    short_number,
+    stretches,
 )
-from gripscale.charts.style import BEYOND_LABEL, FAINT, GREY, INK, shades, short_number, stretches
 from gripscale.core import checks
-from gripscale.io.netcdf import write_whole
-
-DPI = 200
-"""Pixels per inch of a PNG, and of what is rasterised in a PDF."""
+from gripscale.io.folders import write_bytes
 
 _PIECES = 5000
 """Pieces of an outline: several to a pixel, so that most gaps are still seen."""
@@ -80,17 +75,7 @@ RULES: Any = {
     "pdf.fonttype": 3,  # 42 cuts the whole font down for each figure, which costs 0.3 s
 }
 
-DASHES: dict[str, Any] = {
-    "": "",
-    "solid": "-",
-    "dashed": (0, (4, 2)),
-    "dotted": (0, (1, 1.5)),
-    "dashdot": (0, (6, 1.5, 1, 1.5)),
-}
-"""Lines by name; dashed are only those beyond the measured band."""
-
 HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
-"""Look of a band beyond the measured band."""
 
 _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
     "x": ((8.0, (1, 2, 3, 5, 7)), (60.0, (1, 2, 5)), (1e3, (1, 3))),
@@ -102,49 +87,42 @@ _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
 }
 """Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value."""
 
-ROUND = (1, 2, 5, 10)
-"""Steps between the numbers of a linear axis that has few."""
+
+def house_rules() -> AbstractContextManager[None]:
+    """Apply `RULES` within a block; matplotlib's own rules stay as they are."""
+    return mpl.rc_context(RULES)
 
 
-def draw_sheet(sheet: Sheet) -> Figure:
-    """Return the figure of a sheet; matplotlib's own rules stay as they are."""
-    with mpl.rc_context(RULES):
-        rows = -(-len(sheet.panels) // sheet.columns)
-        figure = Figure(
-            figsize=(sheet.width, sheet.height),
-            dpi=DPI,
-            layout=ConstrainedLayoutEngine(wspace=sheet.gap),
-        )
-        options: dict[str, Any] = {"squeeze": False, **sheet.layout}
-        grid = figure.subplots(rows, sheet.columns, **options)
-        for axes in list(grid.flat)[len(sheet.panels) :]:
-            axes.set_visible(False)
-        for axes, panel in zip(grid.flat, sheet.panels, strict=False):
-            _draw_panel(figure, axes, panel)
-        # Limits come last: those of a shared axis are found from all of its panels.
-        for i, (axes, panel) in enumerate(zip(grid.flat, sheet.panels, strict=False)):
-            _end_axis(axes, "x", panel.x)
-            _end_axis(axes, "y", panel.y)
-            if sheet.layout.get("sharey") and i % sheet.columns:
-                axes.set_ylabel("")
-            if sheet.layout.get("sharex"):
-                if i + sheet.columns < len(sheet.panels):
-                    axes.set_xlabel("")
-                else:
-                    axes.tick_params(labelbottom=True)
-        _legend(figure, list(grid.flat)[: len(sheet.panels)], sheet)
-        if sheet.colour_bar is not None:
-            bar, panels = sheet.colour_bar, grid[:1] if sheet.colour_bar.first_row else grid
-            scale = ListedColormap(shades(256, bar.scale))
-            mappable = ScalarMappable(Normalize(bar.low, bar.high), scale)
-            look: Any = {"label": bar.label, "aspect": 40, "pad": 0.02}
-            figure.colorbar(mappable, ax=list(panels.flat), **look).outline.set_visible(False)
-        if sheet.title:
-            figure.suptitle(sheet.title)
-        return figure
+def draw_panels(
+    panels: Sequence[chart.Panel],
+    columns: int,
+    size: tuple[float, float],
+    gap: float,
+    layout: Mapping[str, Any],
+) -> tuple[Figure, list[Axes]]:
+    """Return the figure of panels, of a `size` [inch], and its axes row by row."""
+    figure = Figure(figsize=size, dpi=DPI, layout=ConstrainedLayoutEngine(wspace=gap))
+    options: dict[str, Any] = {"squeeze": False, **layout}
+    grid = list(figure.subplots(-(-len(panels) // columns), columns, **options).flat)
+    for axes in grid[len(panels) :]:
+        axes.set_visible(False)
+    for axes, panel in zip(grid, panels, strict=False):
+        _draw_panel(figure, axes, panel)
+    # Limits come last: those of a shared axis are found from all of its panels.
+    for i, (axes, panel) in enumerate(zip(grid, panels, strict=False)):
+        _end_axis(axes, "x", panel.x)
+        _end_axis(axes, "y", panel.y)
+        if layout.get("sharey") and i % columns:
+            axes.set_ylabel("")
+        if layout.get("sharex"):
+            if i + columns < len(panels):
+                axes.set_xlabel("")
+            else:
+                axes.tick_params(labelbottom=True)
+    return figure, grid
 
 
-def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
+def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
     which: Any
     for which, axis in (("x", panel.x), ("y", panel.y)):
         if axis.log:  # before anything is drawn: a linear axis may start below zero
@@ -159,7 +137,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
         _draw_mark(figure, axes, mark)
     if panel.to_scale:
         axes.set_aspect("equal", adjustable="box")
-    if any(isinstance(mark, Bars) for mark in panel.marks):
+    if any(isinstance(mark, chart.Bars) for mark in panel.marks):
         axes.use_sticky_edges = False  # of bars upon bars, which would leave no room above
     if panel.title:
         axes.set_title(panel.title)
@@ -168,7 +146,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: Panel) -> None:
         axes.legend(loc=corner)
 
 
-def _end_axis(axes: Axes, which: str, axis: PlotAxis) -> None:
+def _end_axis(axes: Axes, which: str, axis: chart.PlotAxis) -> None:
     """Set the limits of an axis, and place numbers or names along it."""
     drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
     if axis.low is not None or axis.high is not None:
@@ -188,35 +166,35 @@ def _end_axis(axes: Axes, which: str, axis: PlotAxis) -> None:
         drawn.set_major_locator(MaxNLocator(axis.numbers, steps=ROUND, integer=axis.whole))
 
 
-def _draw_mark(figure: Figure, axes: Axes, mark: Mark) -> None:
+def _draw_mark(figure: Figure, axes: Axes, mark: chart.Mark) -> None:
     match mark:
-        case Series():
+        case chart.Series():
             _draw_series(axes, mark)
-        case Outline():
-            _draw_series(axes, Series(*mark.drawn(_PIECES), mark.colour, mark.label,
+        case chart.Outline():
+            _draw_series(axes, chart.Series(*mark.drawn(_PIECES), mark.colour, mark.label,
                                       width=mark.width, coarse=True))  # fmt: skip
-        case ShadedBand():
+        case chart.ShadedBand():
             _draw_band(axes, mark)
-        case Bars():
+        case chart.Bars():
             x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
             look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
             axes.bar(x0, y1 - y0, x1 - x0, y0, align="edge", zorder=mark.order,
                      label=mark.label or None, **look)  # fmt: skip
-        case CrossLine(to=None):
+        case chart.CrossLine(to=None):
             look = {"color": mark.colour, "ls": DASHES[mark.dash], "lw": mark.width}
             across = axes.axvline if mark.upright else axes.axhline
             across(mark.at, label=mark.label or None, zorder=mark.order, **look)
-        case CrossLine(to=float(end)):
+        case chart.CrossLine(to=float(end)):
             shade = axes.axvspan if mark.upright else axes.axhspan
             look = {"color": mark.colour, "alpha": 0.5, "lw": 0}
             shade(mark.at, end, label=mark.label or None, **look)
-        case Note():
+        case chart.Note():
             _draw_note(axes, mark)
-        case ValueMap():
+        case chart.ValueMap():
             _draw_field(figure, axes, mark)
 
 
-def _draw_series(axes: Axes, series: Series) -> None:
+def _draw_series(axes: Axes, series: chart.Series) -> None:
     """Draw a curve, dashed where it rests on the rubber beyond its measured band."""
     x, y = np.asarray(series.x, dtype=float), np.asarray(series.y, dtype=float)
     filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
@@ -259,7 +237,7 @@ def _draw_series(axes: Axes, series: Series) -> None:
         axes.plot([], [], label=label, **look)
 
 
-def _draw_band(axes: Axes, band: ShadedBand) -> None:
+def _draw_band(axes: Axes, band: chart.ShadedBand) -> None:
     x, low, high = (np.asarray(values, dtype=float) for values in (band.x, band.low, band.high))
     x, low, high = np.broadcast_arrays(x, low, high)
     look: dict[str, Any] = {"color": band.colour, "alpha": band.alpha, "lw": 0.0}
@@ -271,7 +249,7 @@ def _draw_band(axes: Axes, band: ShadedBand) -> None:
             axes.fill_between(x[part], low[part], high[part], gid=BEYOND_LABEL, **HATCHED)
 
 
-def _draw_note(axes: Axes, note: Note) -> None:
+def _draw_note(axes: Axes, note: chart.Note) -> None:
     frames: dict[str, Any] = {"": "data", "x": ("axes fraction", "data"), "xy": "axes fraction"}
     axes.annotate(
         note.text,
@@ -288,7 +266,7 @@ def _draw_note(axes: Axes, note: Note) -> None:
     )
 
 
-def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
+def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
     x, y, values = (np.asarray(part, dtype=float) for part in (field.x, field.y, field.values))
     mappable: Any
     if field.levels:
@@ -307,8 +285,18 @@ def _draw_field(figure: Figure, axes: Axes, field: ValueMap) -> None:
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
 
 
-def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
-    """Collect the labels of all panels, and what dashed and hatched mean where it occurs."""
+def add_legend(
+    figure: Figure,
+    panels: Sequence[Axes],
+    keys: Sequence[chart.Mark],
+    where: str,
+    title: str,
+    most: int,
+) -> None:
+    """Add the labels of all panels and of `keys`, and what dashed and hatched mean where it occurs.
+
+    It stands "above", "beside" or "below" the panels, in up to `most` columns.
+    """
     entries: dict[str, Any] = {}
     dashed = hatched = False
     for axes in panels:
@@ -317,44 +305,49 @@ def _legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
                 entries.setdefault(label, handle)
         dashed |= any(line.get_gid() == BEYOND_LABEL for line in axes.lines)
         hatched |= any(part.get_gid() == BEYOND_LABEL for part in axes.collections)
-    for key in sheet.keys:
+    for key in keys:
         entries |= {getattr(key, "label", ""): _key(key)}
-    at_side = sheet.legend == "beside"
-    beyond = BEYOND_LABEL.replace("the ", "the\n") if at_side else BEYOND_LABEL
+    beyond = BEYOND_LABEL.replace("the ", "the\n") if where == "beside" else BEYOND_LABEL
     if hatched:
         entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
     elif dashed:
         entries[beyond] = Line2D([], [], ls=DASHES["dashed"], color=GREY)
-    if not entries or not sheet.legend:
+    if not entries:
         return
-    look: dict[str, Any] = {"title": sheet.legend_title or None}
-    if at_side:
-        look |= {"loc": "outside right center", "alignment": "left"}
-    else:
-        where = "upper" if sheet.legend == "above" else "lower"
-        columns = _legend_columns(list(entries), sheet.legend_columns, sheet.width)
-        look |= {"loc": f"outside {where} center", "ncols": columns}
-    figure.legend(list(entries.values()), list(entries), **look)
+    look: dict[str, Any] = {"loc": "outside right center", "alignment": "left"}
+    if where != "beside":
+        columns = _legend_columns(list(entries), most, figure.get_figwidth())
+        side = "upper" if where == "above" else "lower"
+        look = {"loc": f"outside {side} center", "ncols": columns}
+    figure.legend(list(entries.values()), list(entries), title=title or None, **look)
 
 
 def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
     """Return how many columns of a legend fit into a figure of a width [inch], up to `most`."""
-
-    def needed(columns: int) -> float:
-        lengths = [len(spelled_out(label)) for label in labels]
+    lengths = [len(chart.spelled_out(label)) for label in labels]
+    for columns in range(most, 1, -1):
         widest = [max(part, default=0) for part in np.array_split(lengths, columns)]
-        return float(LETTER * sum(widest) + _KEY * columns)
+        if float(LETTER * sum(widest) + _KEY * columns) <= width:
+            return columns
+    return 1
 
-    return next((columns for columns in range(most, 1, -1) if needed(columns) <= width), 1)
+
+def add_colour_bar(
+    figure: Figure, panels: Sequence[Axes], ends: tuple[float, float], scale: str, label: str
+) -> None:
+    """Add the meaning of the colours of a scale from the lower to the upper of its ends."""
+    mappable = ScalarMappable(Normalize(*ends), ListedColormap(shades(256, scale)))
+    look: Any = {"label": label, "aspect": 40, "pad": 0.02}
+    figure.colorbar(mappable, ax=list(panels), **look).outline.set_visible(False)
 
 
-def _key(mark: Mark) -> Any:
+def _key(mark: chart.Mark) -> Any:
     """Return what stands in the legend for a mark that no panel has."""
-    if isinstance(mark, Series):
+    if isinstance(mark, chart.Series):
         look: dict[str, Any] = {"marker": mark.marker, "ms": mark.size, "ls": DASHES[mark.dash]}
         face = mark.colour if np.all(mark.filled) else "white"
         return Line2D([], [], color=mark.colour, lw=mark.width, mfc=face, **look)
-    if isinstance(mark, CrossLine):
+    if isinstance(mark, chart.CrossLine):
         return Line2D([], [], color=mark.colour, lw=mark.width, ls=DASHES[mark.dash])
     return Patch(color=getattr(mark, "colour", GREY), alpha=getattr(mark, "alpha", 1.0))
 
@@ -381,7 +374,7 @@ def _mark_between(figure: Figure) -> None:
 def png(figure: Figure, dpi: float = DPI) -> bytes:
     """Return `figure` as PNG; its layout is solved now, and stays."""
     target = io.BytesIO()
-    with mpl.rc_context(RULES):
+    with house_rules():
         figure.set_dpi(dpi)
         _solve_layout(figure)
         # `savefig` would draw twice: once more to find out what it has to show.
@@ -391,9 +384,8 @@ def png(figure: Figure, dpi: float = DPI) -> bytes:
 
 
 def _lines(figure: Figure, kind: str) -> bytes:
-    """Return `figure` as PDF or SVG."""
     target = io.BytesIO()
-    with mpl.rc_context(RULES):
+    with house_rules():
         _solve_layout(figure)
         canvas: Any = get_registered_canvas_class(kind)(figure)  # imported here: not for pages
         getattr(canvas, f"print_{kind}")(target)
@@ -411,7 +403,6 @@ def _solve_layout(figure: Figure) -> None:
 
 
 KINDS = ("png", "pdf", "svg")
-"""What a figure can be written as."""
 
 
 def rendered(figure: Figure, kinds: Sequence[str]) -> dict[str, bytes]:
@@ -428,16 +419,5 @@ def save_figure(
 
     Raises `FileError` if one cannot be written, `InputError` for another kind.
     """
-    return write_rendered(rendered(figure, kinds), folder, name)
-
-
-def write_rendered(files: Mapping[str, bytes], folder: Path, name: str) -> list[Path]:
-    """Write what `rendered` returned into `folder`; return the paths.
-
-    Raises `FileError` if one cannot be written.
-    """
-    paths = []
-    for kind, content in files.items():
-        write = methodcaller("write_bytes", content)
-        paths.append(write_whole(folder / f"{name}.{kind}", write))
-    return paths
+    files = rendered(figure, kinds)
+    return [write_bytes(folder / f"{name}.{kind}", content) for kind, content in files.items()]

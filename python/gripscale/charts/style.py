@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,6 +28,21 @@ RED = "#B00020"
 
 WIDE, NARROW = 7.0, 4.6
 """Widths of a figure over two columns and a little over one [inch]."""
+
+DPI = 200
+"""Pixels per inch of a PNG, and of what is rasterised in a PDF."""
+
+ROUND = (1, 2, 5, 10)
+"""Steps between the numbers of a linear axis that has few."""
+
+DASHES: dict[str, Any] = {
+    "": "",
+    "solid": "-",
+    "dashed": (0, (4, 2)),
+    "dotted": (0, (1, 1.5)),
+    "dashdot": (0, (6, 1.5, 1, 1.5)),
+}
+"""Lines on paper by name; dashed are only those beyond the measured band."""
 
 BEYOND_LABEL = "beyond the measured band"
 """What a dashed line and a hatched band mean, in legends."""

@@ -49,17 +49,12 @@ def docs(
     text = _COMMENT.sub("", texts[name].read_text(encoding="utf-8"))
     text = _PICTURE.sub(r"*Figure: \1.*", text)
     if heading:
-        text = _from_heading(text, heading)
+        text = text[anchors(text).get(anchor_of(heading), 0) :]
     if sys.stdout.isatty():
         with console.pager(styles=True):
             console.print(Markdown(text))
     else:
         console.print(Markdown(text))
-
-
-def _from_heading(text: str, anchor: str) -> str:
-    """Return a page from the heading on that a link names; all if there is none."""
-    return text[anchors(text).get(anchor_of(anchor), 0) :]
 
 
 def anchors(text: str) -> dict[str, int]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.terminal import argument, command, option, print_wrapped, screen
 
 if TYPE_CHECKING:
@@ -53,7 +52,7 @@ def rubber(
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
-    from gripscale.core.units import temperature_in_kelvin
+    from gripscale.core.units import parse_quantity, temperature_in_kelvin
     from gripscale.export import write_rubber
     from gripscale.export.reduction import reduced
 
@@ -61,8 +60,18 @@ def rubber(
     if temperature is not None:
         rubber = rubber.at(temperature_in_kelvin(temperature))
     console = screen()
-    if band is not None or terms is not None:
-        reduction = reduced(rubber, band=None if band is None else _band(band), terms=terms)
+    ends = None
+    if band is not None:
+        words = band.strip().removesuffix("Hz").strip().split("..")
+        try:
+            low, high = (parse_quantity(f"{end.strip()} Hz", "frequency") for end in words)
+        except ValueError as error:
+            raise InputError(
+                f"band must be two frequencies such as 1..1e6 Hz; got {band!r}"
+            ) from error
+        ends = low, high
+    if ends is not None or terms is not None:
+        reduction = reduced(rubber, band=ends, terms=terms)
         rubber = reduction.rubber
         print_wrapped(console, f"{reduction}.")
     names = ("name", "material", "modulus_unit", "temperature_unit")
@@ -71,18 +80,6 @@ def rubber(
     for remark in written.remarks:
         print_wrapped(console, remark)
     print_wrapped(console, f"The material is {output}")
-
-
-def _band(text: str) -> tuple[float, float]:
-    """Return the ends [Hz] of a band such as 1..1e6 Hz."""
-    from gripscale.core.units import parse_quantity
-
-    words = text.strip().removesuffix("Hz").strip()
-    try:
-        low, high = (parse_quantity(f"{end.strip()} Hz", "frequency") for end in words.split(".."))
-    except ValueError as error:
-        raise InputError(f"band must be two frequencies such as 1..1e6 Hz; got {text!r}") from error
-    return low, high
 
 
 @export.command("tables")
@@ -128,19 +125,8 @@ def mesh(
 def _rubber_of(source: Path) -> Rubber:
     """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
     from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
-    from gripscale.io.text_table import read_bytes
-    from gripscale.rubber import Rubber
 
     if source.suffix == ".toml":
         file = read_case_file(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
-    if source.suffix == ".json":
-        content = read_bytes(source)
-        try:
-            values = json.loads(content)
-        except ValueError as error:
-            raise FileError(f"{source} cannot be read as a rubber: {error}") from error
-        if not isinstance(values, dict):
-            raise FileError(f"{source} cannot be read as a rubber: it is no JSON object")
-        return Rubber.from_dict(values)
     return prepare_rubber(validate(RubberSource, {"file": str(source)}, str(source))).rubber

@@ -15,17 +15,16 @@ from gripscale.core.errors import about_keys
 from gripscale.terminal import (
     COLUMNS,
     argument,
-    as_options,
     column_of,
     columns_of,
     command,
-    keys_as_options,
     keys_of,
     lengths_of,
     option,
     print_parts,
     print_wrapped,
     screen,
+    with_options,
 )
 
 if TYPE_CHECKING:
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
 
 
 _FIGURES = ("png", "pdf")
-"""What figures of a command without a case are written as."""
 
 
 class ExampleName(StrEnum):
@@ -151,12 +149,7 @@ def fit_surface(
     from gripscale.case_file import SurfaceTable, prepare_surface, validate
     from gripscale.case_file.proposals import open_surface
     from gripscale.io.folders import make_folder, require_writable
-    from gripscale.questions.inputs.page import (
-        rms_slopes_table,
-        surface_lines,
-        texture_table,
-        waves_table,
-    )
+    from gripscale.questions.inputs import page
     from gripscale.surface import HeightMap
 
     values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
@@ -171,7 +164,7 @@ def fit_surface(
         # whether two steps are right depends on what the file holds
         validate(SurfaceTable, values | {"step": None}, "options")
         read_by = {key: values[key] for key in ("x_unit", "z_unit", "z_axis") if key in values}
-        with keys_as_options(context), about_keys("surface"):
+        with about_keys("surface"):
             measured, _ = open_surface(Path(files[0]), values.get("step"), **read_by)
         raw = measured if isinstance(measured, HeightMap) else [measured]
     if isinstance(raw, HeightMap):
@@ -179,22 +172,20 @@ def fit_surface(
     surface = validate(SurfaceTable, values, "options")
     if output is not None:
         require_writable(output)
-    with keys_as_options(context):
-        prepared = prepare_surface(surface, raw=raw)
+    prepared = prepare_surface(surface, raw=raw)
     console = screen()
     sines = prepared.sines
-    doubts = [as_options(doubt, context) for doubt in prepared.doubts]
     parts: list[str | Table] = [
-        *(f"doubt: {doubt}" for doubt in doubts),
-        *surface_lines(prepared),
-        *(f"note: {note}" for note in prepared.notes if note not in prepared.doubts),
-        waves_table(sines.wavelength, sines.amplitude),
+        *(f"doubt: {with_options(doubt.sentence, context.params)}" for doubt in prepared.doubts),
+        *page.surface_lines(prepared),
+        *(f"note: {finding}" for finding in prepared.findings if finding not in prepared.doubts),
+        page.waves_table(sines.wavelength, sines.amplitude),
         *_ambiguity(prepared),
     ]
     if prepared.measured is not None:
-        parts.append(texture_table(prepared.measured.texture))
+        parts.append(page.texture_table(prepared.measured.texture))
         if slopes:
-            parts.append(rms_slopes_table(prepared.measured.slopes))
+            parts.append(page.rms_slopes_table(prepared.measured.slopes))
     print_parts(console, parts)
     if output is not None:
         from gripscale.charts.figure_folder import FigureFolder
@@ -207,7 +198,6 @@ def fit_surface(
 
 
 def _ambiguity(prepared: Surface) -> Iterator[str]:
-    """Yield how far the correlation determines the waves, where there are several."""
     from gripscale.surface import sine_ambiguity
 
     if prepared.correlation is None or len(prepared.sines) < 2:
@@ -269,8 +259,7 @@ def fit_rubber(
     if output is not None:
         require_writable(output)
     console = screen()
-    with keys_as_options(context):
-        prepared = prepare_rubber(source)
+    prepared = prepare_rubber(source)
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     findings = () if prepared.fit is None else prepared.fit.findings

@@ -6,17 +6,8 @@ import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
+from gripscale import terminal
 from gripscale.core.errors import GripscaleError, InputError
-from gripscale.terminal import (
-    COLUMNS,
-    argument,
-    columns_of,
-    command,
-    lengths_of,
-    option,
-    print_wrapped,
-    screen,
-)
 
 CURES = {
     "shift": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
@@ -26,41 +17,44 @@ CURES = {
 """Options that state what is missing, by its key in a case."""
 
 
-@command
+@terminal.command
 def new(
     files: Annotated[
         list[Path],
-        argument(
+        terminal.argument(
             "Measured profiles or a map, and a master curve or sweeps, in any order; or folders.",
             "FILE...",
         ),
     ],
     output: Annotated[
         Path,
-        option("The case file to write.", "--output", "-o", metavar="CASE.toml"),
+        terminal.option("The case file to write.", "--output", "-o", metavar="CASE.toml"),
     ] = Path("case.toml"),
     temperature: Annotated[
-        str | None, option('Of the rubber before the contact, such as "20 C".')
+        str | None, terminal.option('Of the rubber before the contact, such as "20 C".')
     ] = None,
-    pressure: Annotated[str | None, option('Such as "3 bar", as by default.')] = None,
-    speed: Annotated[str | None, option('Such as "1 m/s", as by default.')] = None,
+    pressure: Annotated[str | None, terminal.option('Such as "3 bar", as by default.')] = None,
+    speed: Annotated[str | None, terminal.option('Such as "1 m/s", as by default.')] = None,
     footprint: Annotated[
-        str | None, option('Length of the nominal contact; "100 mm" by default.')
+        str | None, terminal.option('Length of the nominal contact; "100 mm" by default.')
     ] = None,
     step: Annotated[
         str | None,
-        option('Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'),
+        terminal.option(
+            'Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'
+        ),
     ] = None,
     wlf: Annotated[
         tuple[float, str] | None,
-        option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
+        terminal.option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
     ] = None,
-    columns: Annotated[str | None, option(COLUMNS)] = None,
+    columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
     temperature_unit: Annotated[
-        str | None, option("K, C or F, if the file of the rubber does not state it.")
+        str | None, terminal.option("K, C or F, if the file of the rubber does not state it.")
     ] = None,
     modulus_unit: Annotated[
-        str | None, option("Such as MPa, if that file does not state it, or states a wrong one.")
+        str | None,
+        terminal.option("Such as MPa, if that file does not state it, or states a wrong one."),
     ] = None,
 ) -> None:
     """Write a commented case for measured files, and list what is doubtful about it."""
@@ -68,11 +62,11 @@ def new(
 
     options: dict[str, Any] = {}
     if step is not None:
-        options["step"] = lengths_of(step)
+        options["step"] = terminal.lengths_of(step)
     if wlf is not None:
         options["shift"] = {"kind": "wlf", "c1": wlf[0], "c2": wlf[1]}
     layout = {
-        "columns": None if columns is None else columns_of(columns),
+        "columns": None if columns is None else terminal.columns_of(columns),
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
     }
@@ -85,16 +79,16 @@ def new(
         if error.missing not in CURES:
             raise
         raise InputError(f"{error}: here with {CURES[error.missing]}") from error
-    console = screen()
-    print_wrapped(console, f"Case: {case.path}")
+    console = terminal.screen()
+    terminal.print_wrapped(console, f"Case: {case.path}")
     if case.skipped:
         names = ", ".join(path.name for path in case.skipped)
-        print_wrapped(console, f"Neither a surface nor moduli: {names}")
-    if case.doubts:
+        terminal.print_wrapped(console, f"Neither a surface nor moduli: {names}")
+    if case.findings:
         console.print()
-        print_wrapped(console, "Doubts, the most important first:")
-        for number, doubt in enumerate(case.doubts, start=1):
-            print_wrapped(console, f"  {number}. {doubt.text}")
+        terminal.print_wrapped(console, "Doubts, the most important first:")
+        for number, finding in enumerate(case.findings, start=1):
+            terminal.print_wrapped(console, f"  {number}. {finding}")
     console.print()
-    print_wrapped(console, "Next:")
-    print_wrapped(console, f"  {shlex.join(['gripscale', 'run', str(case.path)])}")
+    terminal.print_wrapped(console, "Next:")
+    terminal.print_wrapped(console, f"  {shlex.join(['gripscale', 'run', str(case.path)])}")

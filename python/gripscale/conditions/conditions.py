@@ -84,12 +84,10 @@ class Conditions(Checked):
         """Return every effect as plain values, None where it is off."""
         return {
             "temperature": self.temperature,
-            "softening": None if self.softening is None else self.softening.to_dict(),
+            "softening": self.softening and self.softening.to_dict(),
             "strain_norm": self.strain_norm,
-            "heat": None if self.heat is None else asdict(self.heat),
-            "shear_stress": None
-            if self.shear_stress is None
-            else shear_stress_to_dict(self.shear_stress),
+            "heat": self.heat and asdict(self.heat),
+            "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
         }
 
     @classmethod
@@ -187,12 +185,13 @@ def rubber_under(
 
 
 @dataclass(frozen=True)
-class ScaleFactors:
-    """Factors of the moduli at some wavenumbers, arrays of shape (scales,)."""
+class RubberByScale:
+    """A rubber with factors of its moduli by scale, arrays of shape (scales,)."""
 
+    rubber: Rubber
     wavenumber: Array
     """Rising [rad/m]."""
-    shift: Array
+    a_t: Array
     """a_T [-]."""
     stiffening: Array
     """1/b_T [-]."""
@@ -200,19 +199,6 @@ class ScaleFactors:
     """f [-]."""
     loss: Array
     """g [-]."""
-
-    def at(self, name: str, wavenumber: Array) -> Array:
-        """Return a factor at `wavenumber` [rad/m], held beyond the ends."""
-        logs = np.log(getattr(self, name))
-        return np.asarray(np.exp(np.interp(np.log(wavenumber), np.log(self.wavenumber), logs)))
-
-
-@dataclass(frozen=True)
-class RubberByScale:
-    """A rubber with factors of its moduli by scale."""
-
-    rubber: Rubber
-    factors: ScaleFactors
 
     def complex_modulus(self, omega: ArrayLike, wavenumber: ArrayLike) -> ComplexArray:
         """Return E* [Pa] at `omega` [rad/s] and |q| [rad/m], broadcast together."""
@@ -230,15 +216,18 @@ class RubberByScale:
 
     def shift(self, wavenumber: Array) -> Array:
         """Return a_T [-] at |q| [rad/m]; the mean, |q| = 0, has that of the longest scale."""
-        return self.factors.at("shift", self._without_mean(wavenumber))
+        return self._at(self.a_t, wavenumber)
 
-    def _without_mean(self, wavenumber: Array) -> Array:
-        return np.where(wavenumber > 0.0, wavenumber, self.factors.wavenumber[0])
+    def _at(self, factor: Array, wavenumber: Array) -> Array:
+        """Return a factor at wavenumbers [rad/m], held beyond the ends."""
+        number = np.where(wavenumber > 0.0, wavenumber, self.wavenumber[0])
+        at, logs = np.log(number), np.log(self.wavenumber)
+        return np.asarray(np.exp(np.interp(at, logs, np.log(factor))))
 
     def _modulus(self, omega: Array, wavenumber: Array) -> ComplexArray:
-        number = self._without_mean(wavenumber)
         shift, stiffening, storage, loss = (
-            self.factors.at(name, number) for name in ("shift", "stiffening", "storage", "loss")
+            self._at(factor, wavenumber)
+            for factor in (self.a_t, self.stiffening, self.storage, self.loss)
         )
         modulus = self.rubber.complex_modulus(omega * shift) * stiffening
         return np.asarray(storage * modulus.real + 1j * loss * modulus.imag)
@@ -298,5 +287,5 @@ def state_by_scale(
         loss_modulus_ratio=loss,
         strain_extrapolated=outside,
         temperature_extrapolated=warm_outside,
-        rubber=RubberByScale(before, ScaleFactors(wavenumber, shift, stiffening, storage, loss)),
+        rubber=RubberByScale(before, wavenumber, shift, stiffening, storage, loss),
     )

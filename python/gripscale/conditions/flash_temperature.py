@@ -252,12 +252,7 @@ def passing_at_surface(
 
     In [K m^2/W], shape of `m`, which has no zero.
     """
-
-    def unsteady(decay: ComplexArray, length: float) -> ComplexArray:
-        mean = depth.average("depth", lambda z: _rise_in_time(z, decay, length), length)
-        return np.asarray(mean / thermal.conductivity)
-
-    return _steady_or_not(m, time, thermal, harmonic_at_surface(m, depth, thermal), unsteady)
+    return _passing(m, time, depth, thermal, harmonic_at_surface(m, depth, thermal), "depth")
 
 
 def passing_where_lost(
@@ -267,32 +262,32 @@ def passing_where_lost(
 
     In [K m^2/W], shape of `m`, which has no zero.
     """
-
-    def unsteady(decay: ComplexArray, length: float) -> ComplexArray:
-        distances: tuple[Distances, ...] = ("difference", "sum")
-        means = [
-            depth.average(of, lambda z: _rise_in_time(z, decay, length), length) for of in distances
-        ]
-        return np.asarray(sum(means) / (2.0 * thermal.conductivity))
-
-    return _steady_or_not(m, time, thermal, harmonic_where_lost(m, depth, thermal), unsteady)
+    steady = harmonic_where_lost(m, depth, thermal)
+    return _passing(m, time, depth, thermal, steady, "difference", "sum")
 
 
-def _steady_or_not(
+def _passing(
     m: ComplexArray,
     time: float,
+    depth: LossDepth,
     thermal: ThermalProperties,
     steady: ComplexArray,
-    unsteady: Callable[[ComplexArray, float], ComplexArray],
+    *distances: Distances,
 ) -> ComplexArray:
-    """Return the steady values, and the unsteady ones of harmonics that still change."""
-    length = 2.0 * math.sqrt(thermal.diffusivity * time)
+    """Return the steady values, and E r over the `distances` of harmonics that still change."""
+    length = _diffusion_length(time, thermal)
     changing = m.real * (0.5 * length) < STEADY
     if not changing.any():
         return steady
     out = steady.copy()
+    if length == 0.0:
+        out[changing] = 0.0
+        return out
     different, inverse = np.unique(m[changing], return_inverse=True)
-    out[changing] = unsteady(different, length)[inverse] if length > 0.0 else 0.0
+    means = [
+        depth.average(of, lambda z: _rise_in_time(z, different, length), length) for of in distances
+    ]
+    out[changing] = (sum(means) / (len(means) * thermal.conductivity))[inverse]
     return out
 
 

@@ -108,7 +108,6 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
 
 
 def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> Array:
-    """Return `value` as a 1-D float array without infinity."""
     expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
     result = array(value, expected)
     if result.ndim != 1:
@@ -166,7 +165,6 @@ def _above_zero(name: str, result: Array, unit: str) -> Array:
 
 
 def _refuse(values: Array, bad: Mask, expected: str, unit: str = "") -> None:
-    """Raise `InputError` about the first of the `bad` values, if there are any."""
     if bad.any():
         at = int(np.argmax(bad))
         raise InputError(f"{expected}; got {values[at]:g}{unit} at index {at}")
@@ -307,10 +305,7 @@ def _in(unit: str) -> str:
 
 
 def from_mapping(law: type[_T], kind: str, values: Mapping[str, Any]) -> _T:
-    """Return the dataclass `law` with parameters `values`; those with a default may be left out.
-
-    Raises `InputError` that lists the parameters if one is missing or unknown.
-    """
+    """Return the dataclass `law` with parameters `values`; those with a default may be left out."""
     parameters = [item for item in fields(law) if item.init]  # type: ignore[arg-type]
     names = [item.name for item in parameters]
     needed = [p.name for p in parameters if p.default is p.default_factory is MISSING]
@@ -324,11 +319,7 @@ def from_mapping(law: type[_T], kind: str, values: Mapping[str, Any]) -> _T:
 
 
 def of_kind(laws: Mapping[str, type[_T]], name: str, values: Any) -> _T:
-    """Return the law of a mapping such as {"kind": "wlf", "c1": 8.0, "c2": 120.0}.
-
-    Raises `InputError`, which calls it `name`, if it is no mapping, its kind is not one of `laws`
-    or `from_mapping` refuses its parameters.
-    """
+    """Return the law of a mapping such as {"kind": "wlf", "c1": 8.0, "c2": 120.0}."""
     if not isinstance(values, Mapping):
         raise InputError(f"{name} must be a mapping with its kind; got {short_repr(values)}")
     parameters = dict(values)

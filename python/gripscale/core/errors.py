@@ -6,21 +6,25 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from gripscale.core.wording import CaseKey, Words
+
 
 class GripscaleError(Exception):
     """Base of every error gripscale raises on purpose."""
 
     see = ""
     """A chapter of the documentation or a command that explains it, or empty."""
+    table = ""
+    """Table of a case whose keys it is about, such as "conditions.heat", or empty."""
 
     def __init__(self, message: str = "", *, missing: str = "", key: str = "") -> None:
-        super().__init__(f"{key}{message}")
+        self.words = Words(CaseKey(key), message) if key else Words(message)
+        """The message, which may name keys of a case."""
+        super().__init__(str(self.words))
         self.missing = missing
         """The key of a case, or argument of a reader, that was not stated and is needed."""
         self.key = key
         """Argument or key that the message is about, which then begins with it; or empty."""
-        self.detail = message
-        """The message without its key."""
 
 
 class InputError(GripscaleError, ValueError):
@@ -46,12 +50,29 @@ class RubberWarning(UserWarning):
 
 
 @contextmanager
+def using_extra(
+    extra: str, user: str, *libraries: str, kind: type[FileError] | type[InputError] = InputError
+) -> Iterator[None]:
+    """Say in one sentence which of the libraries of an extra of the package its user lacks."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in libraries:
+            raise
+        raise kind(
+            f"{user} needs {error.name}, which is not installed; "
+            f"install it with: pip install 'gripscale[{extra}]'"
+        ) from error
+
+
+@contextmanager
 def about_keys(table: str) -> Iterator[None]:
     """Let errors refer to the keys of a table of the case, unless they refer to something else."""
     try:
         yield
     except GripscaleError as error:
         error.see = error.see or f"`{f'gripscale keys {table}'.strip()}`"
+        error.table = error.table or table
         raise
 
 
@@ -67,6 +88,6 @@ def about_file(
     try:
         yield
     except InputError as error:
-        located = kind(f"{path}: {error}", missing=error.missing)
-        located.see = error.see
+        located = kind(Words(f"{path}: ", error.words), missing=error.missing)
+        located.see, located.table = error.see, error.table
         raise located from error

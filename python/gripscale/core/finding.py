@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from enum import IntEnum, StrEnum
 from typing import ClassVar
+
+from gripscale.core.wording import CaseKey, Words
 
 
 class Severity(StrEnum):
@@ -34,9 +36,10 @@ class Topic(IntEnum):
     """
 
     SOLUTION = 0
-    RUBBER = 1
-    SURFACE = 2
-    SOURCE = 3
+    LOAD = 1
+    RUBBER = 2
+    SURFACE = 3
+    SOURCE = 4
 
 
 @dataclass(frozen=True)
@@ -46,15 +49,22 @@ class Finding:
     severity: str
     """One of `Severity`."""
     sentence: str
-    friction: float = math.nan
+    friction: float = field(default=math.nan, compare=False)
     """Relative change of the friction that it may cause [-]; NaN if that is not known."""
-    area: float = math.nan
+    area: float = field(default=math.nan, compare=False)
     """Relative change of the contact area that it may cause [-]."""
     topic: Topic = Topic.SOLUTION
     key: str = ""
     """Key of a case that cures it, such as "rubber.reference_temperature"; empty if none does."""
     kind: ClassVar[str] = "notice"
     """Element of a page that shows it."""
+
+    def __str__(self) -> str:
+        return self.sentence
+
+    def about(self, name: str) -> Finding:
+        """Return the finding with the name of what it is about before its sentence."""
+        return replace(self, sentence=Words(f"{name}: ", self.sentence)) if name else self
 
     @property
     def effect(self) -> float:
@@ -70,9 +80,14 @@ def ranked(findings: Iterable[Finding]) -> list[Finding]:
     return sorted(findings, key=lambda f: (f.severity != Severity.ERROR, -f.effect, f.topic))
 
 
-def doubts(sentences: Iterable[str], topic: Topic = Topic.SOURCE) -> Iterator[Finding]:
-    """Yield a doubt for each sentence."""
-    yield from (Finding(Severity.DOUBT, text, topic=topic) for text in sentences)
+def doubt(*parts: str | CaseKey, topic: Topic = Topic.SOURCE) -> Finding:
+    """Return a doubt, whose sentence may name keys of a case."""
+    return Finding(Severity.DOUBT, Words(*parts), topic=topic)
+
+
+def sentences(findings: Iterable[Finding]) -> str:
+    """Return the sentences of findings as one text."""
+    return " ".join(finding.sentence for finding in findings)
 
 
 def to_json(findings: Iterable[Finding]) -> str:

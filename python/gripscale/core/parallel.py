@@ -73,10 +73,7 @@ def cores() -> int:
 
 
 def worker_count(workers: int | None) -> int:
-    """Return `workers`, by default one per core or the share of `in_threads` and `sharing`.
-
-    Raises `InputError` if it is not a whole number from 1 to 1024.
-    """
+    """Return `workers`, by default one per core or the share of `in_threads` and `sharing`."""
     if workers is not None:
         return checks.whole("workers", workers, least=1, most=1024)
     share: int | None = getattr(_here, "workers", None)

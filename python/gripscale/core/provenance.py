@@ -36,7 +36,7 @@ def version_of(name: str) -> str:
         return "unknown (not installed)"
 
 
-FACES = ("app", "charts", "cli", "page", "report")
+FACES = ("app", "charts", "cli", "page", "report", "summary")
 """First words of the names of rooms and files that only show results: they change no number."""
 
 

@@ -10,10 +10,8 @@ from __future__ import annotations
 import json
 import math
 import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -120,10 +118,7 @@ def spelled(unit: object, kind: str) -> str | None:
 
 
 def quantity_in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
-    """Return a number or array given in a `unit` of `kind` in the SI unit.
-
-    Raises `InputError`, which says that `name` must be one of the units of `kind`.
-    """
+    """Return a number or array given in a `unit` of `kind` in the SI unit."""
     spelling = spelled(unit, kind)
     if spelling is None:
         raise InputError(f"{name} must be one of {listed(kind)}; got {short_repr(unit)}")
@@ -251,21 +246,7 @@ def display_unit(name: str, units: Mapping[str, str] | None = None) -> DisplayUn
 
 def display_unit_of(attrs: Mapping[str, Any], name: str) -> DisplayUnit:
     """Return the unit in which one of `KEYS` is shown of a result with these attributes."""
-    if DISPLAY_UNITS in attrs:
-        return display_unit(name, json.loads(attrs[DISPLAY_UNITS]))
-    return display_unit(name, _units_in(str(attrs.get("case", ""))))
-
-
-@lru_cache(maxsize=64)
-def _units_in(case: str) -> Mapping[str, str]:
-    """Return the stated unit of each of `KEYS` in the text of a case.
-
-    For results of version 0.1, which have but this text.
-    """
-    try:
-        return stated_units(tomllib.loads(case))
-    except tomllib.TOMLDecodeError:
-        return {}
+    return display_unit(name, json.loads(attrs.get(DISPLAY_UNITS, "{}")))
 
 
 def stated_units(tables: Mapping[str, Any]) -> dict[str, str]:

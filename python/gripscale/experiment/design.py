@@ -20,13 +20,11 @@ from gripscale.model import (
     ADHESIVE_FRICTION,
     BASIS,
     CUT_OFF_EXPONENTS,
-    ESTIMATED_ERRORS,
     OUTSIDE_BAND,
     STATUS,
     STATUS_WORD,
     TOTALS,
     WHY_NO_EXPONENT,
-    error_of_total,
     status_words,
 )
 
@@ -119,6 +117,33 @@ def variable_attributes(long_name: str, unit: str = "1") -> dict[str, str]:
 def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
     """Return what an answer says of the whole surface."""
     return answer[[name for name in SURFACE if name in answer]]
+
+
+ESTIMATED_ERRORS = {
+    "total_contact_fraction_error": "error of the contact fraction as the model estimates it",
+    "total_friction_error": "error of the friction coefficient as the model estimates it",
+}
+"""Names of `error_of_total`, where it is kept."""
+
+
+def error_of_total(data: xr.Dataset, name: str) -> float:
+    """Return the error of a total as its model estimates it: of profiles by weight, of waves added.
+
+    `name` is `contact_fraction` or `friction`; NaN where the model has no estimate. Waves: their
+    relative errors add up in the product of areas, their errors in the sum of frictions; all in the
+    same direction, because the same mesh makes them.
+    """
+    errors = data.get(f"{name}_error")
+    if errors is None:
+        return math.nan
+    values = np.abs(errors.values)
+    if errors.dims == ("profile",):
+        return float(data["weight"].values @ values)
+    if errors.dims == ("scale",):
+        relative = name == "contact_fraction"
+        parts = values / data[name].values if relative else values
+        return float(parts.sum() * (data[f"total_{name}"] if relative else 1.0))
+    return float(values)
 
 
 def basis_numbers(answer: xr.Dataset) -> xr.Dataset:

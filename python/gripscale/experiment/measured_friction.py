@@ -20,6 +20,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.core.labels import labelled
 from gripscale.core.units import UNITS, listed, plain, quantity_in_si, spelled
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
@@ -157,7 +158,11 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
             values = table.numbers(at, f"a {word}", missing=word in _OPTIONAL)
             columns[word] = _in_si(path, word, column, values)
             if word in _UNITS and column.unit is None:
-                assumed.append(_assumption(path, word))
+                kind, usual = _UNITS[word]
+                assumed.append(
+                    f"The unit of {word} in {path.name} is not stated and {usual} is assumed: "
+                    f"write it in the title, such as '{word} [{list(UNITS[kind])[1]}]'."
+                )
     absent = [word for word in ("speed", "friction") if word not in columns]
     if absent:
         titles = table.titles or "no titles"
@@ -174,22 +179,12 @@ def _word(title: str) -> str | None:
     return next((word for word, names in _WORDS.items() if plain in names), None)
 
 
-def _assumption(path: Path, word: str) -> str:
-    """Return which unit is taken for a column whose title names none."""
-    kind, usual = _UNITS[word]
-    other = list(UNITS[kind])[1]
-    return (
-        f"The unit of {word} in {path.name} is not stated and {usual} is assumed: write it in the "
-        f"title, such as '{word} [{other}]'."
-    )
-
-
 _FAR = 30.0
 """Ratio of measured speeds to that of the case beyond which another unit is likely."""
 
 
-def speed_doubts(measured: MeasuredFriction, speed: float) -> list[str]:
-    """Return that the unit of measured speeds looks wrong beside a `speed` [m/s], as a sentence.
+def speed_doubts(measured: MeasuredFriction, speed: float) -> list[Finding]:
+    """Return that the unit of measured speeds looks wrong beside a `speed` [m/s].
 
     Empty if it does not; at rest any speeds up to the largest plausible one are right.
     """
@@ -197,25 +192,29 @@ def speed_doubts(measured: MeasuredFriction, speed: float) -> list[str]:
     most = PLAUSIBLE["speed"][1]
     where = f"The measured speeds, {plain(low, 3)} to {plain(high, 3)} m/s, are"
     if high > most:
-        return [f"{where} not all below {most:g} m/s: is their unit right?"]
+        return [_doubt(f"{where} not all below {most:g} m/s: is their unit right?")]
     if speed > 0.0 and (low > _FAR * speed or high < speed / _FAR):
         side = "above" if low > speed else "below"
+        of_case = f"that of the case, {plain(speed, 3)} m/s"
         return [
-            f"{where} all more than {_FAR:g} times {side} that of the case, {plain(speed, 3)} m/s: "
-            "is their unit right?"
+            _doubt(f"{where} all more than {_FAR:g} times {side} {of_case}: is their unit right?")
         ]
     return []
 
 
+def _doubt(sentence: str) -> Finding:
+    return doubt(sentence, topic=Topic.SOLUTION)
+
+
 FRICTION_DOUBTS = "friction_doubts"
-"""Attribute of a result that shows measured friction: its `friction_doubts`, a line each."""
+"""Attribute of a result that shows measured friction: its `friction_doubts`."""
 
 
-def friction_doubts(measured: MeasuredFriction | None, speed: float) -> list[str]:
+def friction_doubts(measured: MeasuredFriction | None, speed: float) -> list[Finding]:
     """Return what was assumed of measured friction, and `speed_doubts`; nothing of none."""
     if measured is None:
         return []
-    return [*filter(None, [measured.assumed]), *speed_doubts(measured, speed)]
+    return [*map(_doubt, filter(None, [measured.assumed])), *speed_doubts(measured, speed)]
 
 
 def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:

@@ -140,10 +140,7 @@ def bench_in(
     client: Any = None,
     on_task: OnTask | None = None,
 ) -> Iterator[Bench]:
-    """Give a bench with its store in the folder of a result; a temporary store without a folder.
-
-    Raises `FileError` if the store cannot be made.
-    """
+    """Give a bench with its store in the folder of a result; a temporary store without a folder."""
     with ExitStack() as ending:
         if folder is None:
             folder = ending.enter_context(TemporaryDirectory(prefix="gripscale-"))
@@ -160,17 +157,8 @@ def solve_all(
 ) -> dict[str, xr.Dataset]:
     """Return the answer of every task by its key, solving only what `store` does not have.
 
-    Parameters
-    ----------
-    tasks
-        Tasks by label. Equal tasks are solved once.
-    store, workers, client, on_task
-        As for `Bench`.
-
-    Raises
-    ------
-    InputError, FileError
-        As `Bench.solve`.
+    Tasks are given by label; `workers`, `client` and `on_task` are those of `Bench`, errors those
+    of `Bench.solve`.
     """
     return Bench(store, workers, client, on_task).solve(tasks)
 
@@ -213,18 +201,10 @@ CONNECT_SECONDS = 10
 
 @contextmanager
 def cluster(client: Any, workers: int) -> Iterator[_Solve]:
-    """Give a function that solves tasks on a cluster.
+    """Give a function that solves tasks on a cluster: "local", ended afterwards, or a scheduler's.
 
-    Parameters
-    ----------
-    client
-        "local" (a cluster of `workers` processes, ended afterwards), the address of a scheduler,
-        or a `distributed.Client`, which stays open.
-
-    Raises
-    ------
-    InputError
-        If Dask is not installed, the scheduler does not answer or has another gripscale.
+    A `distributed.Client` stays open. Raises `InputError` if Dask is not installed, the scheduler
+    does not answer or has another gripscale.
     """
     try:
         distributed = importlib.import_module("distributed")
@@ -255,25 +235,24 @@ def cluster(client: Any, workers: int) -> Iterator[_Solve]:
                 raise InputError(
                     f"worker {worker} has {there}, this machine {here}; install the same"
                 )
-        yield lambda tasks: _solve(distributed, client, tasks)
 
+        def solve(tasks: list[Task]) -> Generator[Solved, None, None]:
+            # whole tasks: what an answer rests on may come from parts its numbers do not need
+            futures = [client.submit(_alone, task, key=f"gripscale-{task.key}") for task in tasks]
+            stream = distributed.as_completed(futures, loop=client.loop, with_results=True)
+            try:
+                for future, result in stream:
+                    yield result
+                    future.release()
+            except distributed.KilledWorker as error:
+                raise ConvergenceError(
+                    f"the cluster gave up a prediction that {error.allowed_failures} workers died "
+                    "on; they may be short of memory"
+                ) from error
+            finally:
+                client.cancel(futures)
 
-def _solve(distributed: Any, client: Any, tasks: list[Task]) -> Generator[Solved, None, None]:
-    """Yield results as they come."""
-    # whole tasks: what an answer rests on may come from parts its numbers do not need
-    futures = [client.submit(_alone, task, key=f"gripscale-{task.key}") for task in tasks]
-    stream = distributed.as_completed(futures, loop=client.loop, with_results=True)
-    try:
-        for future, result in stream:
-            yield result
-            future.release()
-    except distributed.KilledWorker as error:
-        raise ConvergenceError(
-            f"the cluster gave up a prediction that {error.allowed_failures} workers died on; "
-            "they may be short of memory"
-        ) from error
-    finally:
-        client.cancel(futures)
+        yield solve
 
 
 def _alone(task: Task) -> Solved:

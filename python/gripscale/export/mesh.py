@@ -41,7 +41,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_bytes
 from gripscale.io.text_table import file_path
 from gripscale.wave import ScaleResult
 from gripscale.wave.result import waves_from_dataset
@@ -60,10 +60,7 @@ class ReferenceBlock:
 
     @classmethod
     def of(cls, result: ScaleResult) -> ReferenceBlock:
-        """Return the mesh on which a wave was solved.
-
-        Raises `InputError` if the solver of the wave has no mesh.
-        """
+        """Return the mesh on which a wave was solved; `InputError` if its solver has none."""
         names = ("columns", "rows", "depth", "element_order")
         if result.deformed_mesh is None or not set(names) <= set(result.details):
             raise InputError(
@@ -113,10 +110,7 @@ class ReferenceBlock:
         return along, up
 
     def slopes(self, values: Array) -> Array:
-        """Return d/dx and d/dz of nodal values at the Gauss points [1/m times their unit].
-
-        Shape (rows, columns, points across, points along, 2).
-        """
+        """Return d/dx and d/dz of nodal values at the Gauss points, shape (rows, ..., along, 2)."""
         local = self.elements(values)
         shape, slope = lagrange(self.order)
         along = np.einsum("rclk,pl,qk->rcpq", local, shape, slope) * (2.0 / self.width)
@@ -146,10 +140,7 @@ class ReferenceBlock:
 
 
 def lagrange(order: int) -> tuple[Array, Array]:
-    """Return the Lagrange functions on [-1, 1] and their derivatives at the Gauss points.
-
-    Both of shape (points, nodes).
-    """
+    """Return Lagrange functions and their derivatives at the Gauss points, (points, nodes) each."""
     s, _ = np.polynomial.legendre.leggauss(order + 1)
     if order == 1:
         shape = [0.5 * (1.0 - s), 0.5 * (1.0 + s)]
@@ -186,10 +177,7 @@ class BlockStress:
         return np.asarray(np.linalg.det(self.gradient))
 
     def element_mean(self, values: Array) -> Array:
-        """Return the mean of values at the points over each deformed element.
-
-        Shape (rows, columns, ...).
-        """
+        """Return the mean of values at the points over each deformed element, (rows, columns)."""
         volume = self.block.weights * self.jacobian
         extra = (None,) * (values.ndim - 4)
         total = (volume[(..., *extra)] * values).sum(axis=(2, 3))
@@ -197,22 +185,10 @@ class BlockStress:
 
 
 def block_stress(result: ScaleResult) -> BlockStress:
-    """Return the stress in the block of a wave.
+    """Return the stress in the block of a wave, by the material law in its deformed mesh.
 
-    Parameters
-    ----------
-    result : ScaleResult
-        Of the finite-strain block, solved or read from a file, with its mesh and its rubber.
-
-    Returns
-    -------
-    BlockStress
-        Stress of the material law in the deformed mesh, as in the solver.
-
-    Raises
-    ------
-    InputError
-        If the wave has no mesh or no rubber, or is not in equilibrium.
+    The `result` is of the finite-strain block, solved or read from a file. Raises `InputError` if
+    it has no mesh or no rubber, or is not in equilibrium.
     """
     checks.instance("result", result, ScaleResult)
     block, rubber = ReferenceBlock.of(result), result.rubber
@@ -267,19 +243,12 @@ def write_vtu(
     data: Mapping[str, Mapping[str, Array]],
     numbers: Mapping[str, float],
 ) -> Path:
-    """Write quadrilaterals to `path`; return it. Raises `FileError` if it cannot be written.
+    """Write quadrilaterals; `cells` are numbers of points in VTK's order, (cells, points of each).
 
-    `points` has shape (points, 3), `cells` their numbers in VTK's order, shape (cells, points of a
-    cell), `data` fields by name of `PointData` and `CellData`, shape (places,) or (places,
-    components), and `numbers` those of the whole grid.
+    `data` holds fields by name of `PointData` and `CellData`, `numbers` those of the whole grid.
     """
-    root = ET.Element(
-        "VTKFile",
-        type="UnstructuredGrid",
-        version="1.0",
-        byte_order="LittleEndian",
-        header_type="UInt64",
-    )
+    form = {"version": "1.0", "byte_order": "LittleEndian", "header_type": "UInt64"}
+    root = ET.Element("VTKFile", {"type": "UnstructuredGrid", **form})
     whole = ET.SubElement(root, "UnstructuredGrid")
     part = ET.SubElement(whole, "FieldData")
     for name, value in numbers.items():
@@ -298,7 +267,7 @@ def write_vtu(
     _array(part, "types", np.full(count, CELL_TYPES[corners], dtype=np.uint8))
     ET.indent(root)
     text = ET.tostring(root, xml_declaration=True, encoding="utf-8")
-    return write_whole(path, lambda part: part.write_bytes(text))
+    return write_bytes(path, text)
 
 
 def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: str) -> None:
@@ -313,20 +282,8 @@ def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: s
     element.text = base64.b64encode(length + content).decode("ascii")
 
 
-_NUMBERS = (
-    "wavelength",
-    "amplitude",
-    "pressure_received",
-    "speed",
-    "load_time",
-    "contact_fraction",
-    "friction",
-)
-"""Attributes of the wave in the field data, in SI units."""
-
-
 def write_mesh(result: ScaleResult, path: str | Path) -> Path:
-    """Write the deformed block of a wave as VTU; return the path.
+    """Write the deformed block of a wave as VTU to `path`; return the path.
 
     Coordinates are those of gripscale, in m: x along the sliding, z up, y = 0. Points are the
     deformed nodes, with
@@ -342,20 +299,9 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
     - `pressure` [Pa], less a third of its trace,
     - `volume_ratio` [-], J.
 
-    Parameters
-    ----------
-    result : ScaleResult
-        Of the finite-strain block, solved or read from a file. If it is not in equilibrium (its
-        status is neither converged nor that of a missed accuracy), cells have no data.
-    path : str or Path
-        The file.
-
-    Raises
-    ------
-    InputError
-        If the wave has no mesh.
-    FileError
-        If the file cannot be written.
+    The `result` is of the finite-strain block, solved or read from a file. If it is not in
+    equilibrium (its status is neither converged nor that of a missed accuracy), cells have no data.
+    Raises `InputError` if it has no mesh, `FileError` if the file cannot be written.
     """
     checks.instance("result", result, ScaleResult)
     block = ReferenceBlock.of(result)
@@ -381,7 +327,8 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
         "contact_pressure": contact_pressure.ravel(),
     }
     data = {"PointData": point_data, "CellData": cell_data}
-    numbers = {name: float(getattr(result, name)) for name in _NUMBERS}
+    names = ("wavelength", "amplitude", "pressure_received", "speed", "load_time")
+    numbers = {n: float(getattr(result, n)) for n in (*names, "contact_fraction", "friction")}
     return write_vtu(file_path(path), _vectors(x, z), element_nodes(block), data, numbers)
 
 
@@ -404,15 +351,12 @@ def wave_of(data: xr.Dataset, number: int) -> ScaleResult:
 
 
 def element_nodes(block: ReferenceBlock) -> NDArray[np.int64]:
-    """Return the points of each element in VTK's order, row by row from the contact surface.
-
-    Corners anticlockwise with x to the right and z up, then the middles of the edges in the same
-    order, then the centre.
-    """
+    """Return the points of each element in VTK's order, row by row from the contact surface."""
     layers, nodes = block.shape
     number = np.arange(layers * nodes).reshape(layers, nodes).astype(float)
     local = block.elements(number).astype(np.int64)
     last = block.order
+    # anticlockwise with x to the right and z up; then the middles of the edges, then the centre
     corners = [(0, 0), (0, last), (last, last), (last, 0)]
     inner = [(0, 1), (1, 2), (2, 1), (1, 0), (1, 1)] if last == 2 else []
     points = [local[..., layer, node].ravel() for layer, node in corners + inner]

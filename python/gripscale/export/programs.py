@@ -41,17 +41,8 @@ from xml.etree import ElementTree as ET
 
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.export.rubber import (
-    ProgramFile,
-    Units,
-    coefficients,
-    comment,
-    heading,
-    label,
-    prony_shares,
-    with_one_series,
-    wlf,
-)
+from gripscale.export import rubber as parts
+from gripscale.export.rubber import ProgramFile, Units, coefficients, comment, prony_shares
 from gripscale.rubber import Rubber
 
 FORMS: dict[str, tuple[str, str, int, tuple[tuple[int, int], ...], int]] = {
@@ -73,6 +64,9 @@ def abaqus_rubber(
 ) -> ProgramFile:
     """Return a rubber as an Abaqus material, to be included in an input file.
 
+    Numbers have 15 digits, as many as fit into the 20 characters that Abaqus reads of each. Raises
+    `InputError` if a unit or the name cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
+
     Parameters
     ----------
     rubber : Rubber
@@ -83,22 +77,12 @@ def abaqus_rubber(
     modulus_unit : str
         Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
     temperature_unit : str
-        K or C, for the reference temperature of *TRS.
-
-    Returns
-    -------
-    ProgramFile
-        Numbers have 15 digits, as many as fit into the 20 characters that Abaqus reads of each.
-
-    Raises
-    ------
-    InputError
-        If a unit or the name cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
+        K or C, for the reference temperature of the shift.
     """
     checks.instance("rubber", rubber, Rubber)
     units = Units(modulus_unit, temperature_unit)
     about = "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber."
-    remarks, law = with_one_series(rubber, units, "Abaqus", "hybrid elements", about)
+    remarks, law = parts.with_one_series(rubber, units, "Abaqus", "hybrid elements", about)
     c = coefficients(rubber)
     form, _, _, orders, compliances = FORMS[rubber.strain_energy.kind]
     constants = [units.stress(c.get(powers, 0.0)) for powers in orders]
@@ -106,7 +90,7 @@ def abaqus_rubber(
     moduli = ", MODULI=LONG TERM" if len(rubber.moduli) else ""
     lines = [
         *comment(remarks, "**"),
-        f"*MATERIAL, NAME={label(rubber, name)}",
+        f"*MATERIAL, NAME={parts.label(rubber, name)}",
         f"*HYPERELASTIC, {form}{moduli}",
         _row(constants),
     ]
@@ -129,18 +113,13 @@ def _row(numbers: Sequence[float]) -> str:
     return ", ".join(texts)
 
 
-_ON_A_LINE = 6
-"""Constants in a line of TBDATA."""
-
-
 def ansys_rubber(
-    rubber: Rubber,
-    *,
-    material: int = 1,
-    modulus_unit: str = "Pa",
-    temperature_unit: str = "K",
+    rubber: Rubber, *, material: int = 1, modulus_unit: str = "Pa", temperature_unit: str = "K"
 ) -> ProgramFile:
     """Return a rubber as commands for Ansys MAPDL, to be read with /INPUT in PREP7.
+
+    Raises `InputError` if a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf +
+    sum E_i.
 
     Parameters
     ----------
@@ -149,26 +128,15 @@ def ansys_rubber(
         reference temperature; a shift becomes TB,SHIFT if it is, or can be fitted by, WLF.
     material : int
         Number of the material, 1 to 99999.
-    modulus_unit : str
-        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
-    temperature_unit : str
-        K or C, for the reference temperature of TB,SHIFT.
-
-    Returns
-    -------
-    ProgramFile
-        The commands.
-
-    Raises
-    ------
-    InputError
-        If a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
+    modulus_unit, temperature_unit : str
+        As for `abaqus_rubber`.
     """
     checks.instance("rubber", rubber, Rubber)
     number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit, temperature_unit)
     about = "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them."
-    remarks, law = with_one_series(rubber, units, "Ansys MAPDL", "elements with mixed u-P", about)
+    program = "Ansys MAPDL", "elements with mixed u-P"
+    remarks, law = parts.with_one_series(rubber, units, *program, about)
     fast = rubber.glassy_modulus / rubber.equilibrium_modulus
     relaxed = coefficients(rubber)
     compliance = 2.0 / units.stress(rubber.bulk_modulus)
@@ -193,11 +161,11 @@ def ansys_rubber(
 
 
 def _data(values: Sequence[float]) -> list[str]:
-    """Return lines of TBDATA, each with the number of its first constant."""
+    """Return lines of TBDATA: the number of the first constant, and six constants at most."""
     numbers = [repr(float(value)) for value in values]
     return [
-        ",".join(["TBDATA", str(start + 1), *numbers[start : start + _ON_A_LINE]])
-        for start in range(0, len(values), _ON_A_LINE)
+        ",".join(["TBDATA", str(start + 1), *numbers[start : start + 6]])
+        for start in range(0, len(values), 6)
     ]
 
 
@@ -206,13 +174,12 @@ TERMS = 6
 
 
 def febio_rubber(
-    rubber: Rubber,
-    *,
-    name: str | None = None,
-    material: int = 1,
-    modulus_unit: str = "Pa",
+    rubber: Rubber, *, name: str | None = None, material: int = 1, modulus_unit: str = "Pa"
 ) -> ProgramFile:
     """Return a rubber as the Material section of an FEBio file.
+
+    The file, of version 4.0, has this section only, to be copied or included. Raises `InputError`
+    if a unit, the name or the id cannot be used, or FEBio has no material with the strain energy.
 
     Parameters
     ----------
@@ -224,25 +191,14 @@ def febio_rubber(
     material : int
         Id of the material, 1 to 99999.
     modulus_unit : str
-        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
-
-    Returns
-    -------
-    ProgramFile
-        A file of version 4.0 with the Material section only, to be copied or included.
-
-    Raises
-    ------
-    InputError
-        If a unit, the name or the id cannot be used, or FEBio has no material with the strain
-        energy.
+        As for `abaqus_rubber`.
     """
     checks.instance("rubber", rubber, Rubber)
     number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit)
     root = ET.Element("febio_spec", version="4.0")
     section = ET.SubElement(root, "Material")
-    attributes = {"id": str(number), "name": label(rubber, name)}
+    attributes = {"id": str(number), "name": parts.label(rubber, name)}
     solids = 1 + -(-len(rubber.moduli) // TERMS)
     bulk = units.stress(rubber.bulk_modulus)
     if solids == 1:
@@ -266,12 +222,12 @@ def febio_rubber(
             _value(elastic, "c1", units.stress(0.5 * total))
             _value(elastic, "c2", 0.0)
     remarks = [
-        *heading(rubber, units, "FEBio"),
+        *parts.heading(rubber, units, "FEBio"),
         "FEBio's volume energy is K/2 (ln J)^2, gripscale's K/2 (J-1)^2: equal at small changes of "
         "volume.",
     ]
     if solids > 1:
-        law, shift_remark = wlf(rubber)
+        law, shift_remark = parts.wlf(rubber)
         if law is not None:
             shift_remark = "FEBio has no time-temperature shift: for another temperature, export "
             shift_remark += "the rubber there."
@@ -320,25 +276,12 @@ PROGRAMS: dict[str, Callable[..., ProgramFile]] = {
 
 
 def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -> ProgramFile:
-    """Write a rubber for a finite element program; return the file.
+    """Write a rubber for a finite element program to the file `path`; return its contents.
 
-    Parameters
-    ----------
-    rubber : Rubber
-        The rubber, at the temperature of the analysis (`Rubber.at`).
-    path : str or Path
-        The file.
-    to : str
-        abaqus, ansys or febio.
-    options
-        Options of `abaqus_rubber`, `ansys_rubber` or `febio_rubber`.
-
-    Raises
-    ------
-    InputError
-        If the program is unknown, does not take an option, or has no such material.
-    FileError
-        If the file cannot be written.
+    The rubber is that at the temperature of the analysis (`Rubber.at`). `to` is abaqus, ansys or
+    febio, and `options` are those of `abaqus_rubber`, `ansys_rubber` or `febio_rubber`. Raises
+    `InputError` if the program is unknown, does not take an option, or has no such material,
+    `FileError` if the file cannot be written.
     """
     program = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
     allowed = [name for name in signature(program).parameters if name != "rubber"]

@@ -41,7 +41,6 @@ class Reduction:
     """Largest relative error of E''/E'."""
 
     def __str__(self) -> str:
-        """Return the terms, the band and the misfit as a sentence."""
         low, high = (end / (2.0 * math.pi) for end in self.rubber.valid_band or (0.0, math.inf))
         return (
             f"Reduced to {len(self.rubber.moduli)} Maxwell elements for {low:.4g} to {high:.4g} "
@@ -51,26 +50,13 @@ class Reduction:
 
 
 def reduced(
-    rubber: Rubber,
-    *,
-    band: tuple[float, float] | None = None,
-    terms: int | None = None,
+    rubber: Rubber, *, band: tuple[float, float] | None = None, terms: int | None = None
 ) -> Reduction:
     """Return a rubber with fewer terms, for a band of frequencies.
 
-    Parameters
-    ----------
-    rubber : Rubber
-        With at least one Maxwell element.
-    band : (float, float), optional
-        Lowest and highest frequency [Hz]; by default what the numbers rest on, or all terms.
-    terms : int, optional
-        Number of Maxwell elements, 1 to 200; by default as many as the rubber has in the band.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range, or the rubber is elastic.
+    The `band` [Hz] is by default what the numbers rest on, or all terms; the number of Maxwell
+    elements, `terms`, 1 to 200, is by default that of the rubber in the band. Raises `InputError`
+    if an argument is out of range, or the rubber is elastic.
     """
     checks.instance("rubber", rubber, Rubber)
     if not len(rubber.moduli):
@@ -99,7 +85,7 @@ def reduced(
         )
     with warnings.catch_warnings():  # of a bulk modulus that the rubber has already
         warnings.simplefilter("ignore", RubberWarning)
-        series = replace(
+        fewer = replace(
             rubber,
             equilibrium_modulus=float(solution[0]),
             moduli=solution[1:][kept],
@@ -107,14 +93,9 @@ def reduced(
             valid_band=(low, high),
             admissible=None,
         )
-    modulus = series.complex_modulus(omega)
-    errors = (
-        modulus.real / exact.real - 1.0,
-        modulus.imag / exact.imag - 1.0,
-        (modulus.imag / modulus.real) / (exact.imag / exact.real) - 1.0,
-    )
-    reduction = Reduction(series, *(float(np.abs(error).max()) for error in errors))
-    source = f"{rubber.source}; {reduction}" if rubber.source else str(reduction)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RubberWarning)
-        return replace(reduction, rubber=replace(series, source=source))
+        modulus = fewer.complex_modulus(omega)
+        factor = (modulus.imag / modulus.real) / (exact.imag / exact.real)
+        ratios = modulus.real / exact.real, modulus.imag / exact.imag, factor
+        reduction = Reduction(fewer, *(float(np.abs(ratio - 1.0).max()) for ratio in ratios))
+        source = f"{rubber.source}; {reduction}" if rubber.source else str(reduction)
+        return replace(reduction, rubber=replace(fewer, source=source))

@@ -19,19 +19,10 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path
-from gripscale.rubber import (
-    WLF,
-    Isihara,
-    MooneyRivlin,
-    NeoHookean,
-    Rubber,
-    ShiftTable,
-    WLFArrhenius,
-    Yeoh,
-    fit_wlf,
-)
+from gripscale.rubber import WLF, Rubber, ShiftTable, WLFArrhenius, fit_wlf
+from gripscale.rubber.strain_energy import Isihara, MooneyRivlin, NeoHookean, Yeoh
 
 _WIDTH = 76
 """Characters in a line of comment: Abaqus reads 256, people read fewer."""
@@ -47,21 +38,13 @@ class ProgramFile:
     """Comments of the file: units, limits of validity, properties that are not exported."""
 
     def write(self, path: str | Path) -> Path:
-        """Write the file, completely or not at all; return its path.
-
-        Raises `FileError` if it cannot be written.
-        """
-        return write_whole(
-            file_path(path), lambda part: part.write_text(self.text, encoding="utf-8")
-        )
+        """Write the file, completely or not at all, or raise `FileError`; return its path."""
+        return write_text(file_path(path), self.text)
 
 
 @dataclass(frozen=True)
 class Units:
-    """Units of a file: of moduli and of temperatures; times are in s.
-
-    Raises `InputError` if a unit is unknown.
-    """
+    """Units of a file: of moduli and of temperatures; times are in s."""
 
     modulus: str = "Pa"
     temperature: str = "K"
@@ -119,10 +102,7 @@ def comment(remarks: list[str], mark: str) -> list[str]:
 
 
 def label(rubber: Rubber, name: str | None) -> str:
-    """Return a name that all programs accept: at most 38 letters, digits and underscores.
-
-    Raises `InputError` if a stated `name` is not of this kind.
-    """
+    """Return a name that all programs accept; `InputError` for a stated one that they do not."""
     if name is None:
         plain = "".join(c if c.isascii() and c.isalnum() else "_" for c in rubber.name).strip("_")
         return f"rubber_{plain}"[:38].strip("_")
@@ -141,10 +121,7 @@ _LEAST_SHARE = 1e-7
 
 
 def coefficients(rubber: Rubber) -> dict[tuple[int, int], float]:
-    """Return C_ij [Pa] of the permanent network by (i, j).
-
-    Raises `InputError` if its strain energy has no such polynomial.
-    """
+    """Return C_ij [Pa] of the permanent network by (i, j); `InputError` for another energy."""
     half, energy = 0.5 * rubber.equilibrium_shear_modulus, rubber.strain_energy
     match energy:
         case NeoHookean():
@@ -162,10 +139,7 @@ def coefficients(rubber: Rubber) -> dict[tuple[int, int], float]:
 
 
 def prony_shares(rubber: Rubber) -> Array:
-    """Return g_i = E_i / (E_inf + sum E_j) [-], shape (terms,).
-
-    Raises `InputError` if E_inf is lost in 1 - sum g_i: less than `_LEAST_SHARE` of the sum.
-    """
+    """Return g_i = E_i / (E_inf + sum E_j) [-]; `InputError` if E_inf is lost in 1 - sum g_i."""
     if rubber.equilibrium_modulus < _LEAST_SHARE * rubber.glassy_modulus:
         raise InputError(
             f"equilibrium_modulus must be at least {_LEAST_SHARE:g} of E_inf + sum E_i where the "
@@ -176,11 +150,7 @@ def prony_shares(rubber: Rubber) -> Array:
 
 
 def wlf(rubber: Rubber) -> tuple[WLF | None, str]:
-    """Return the WLF law of a rubber at its reference temperature, or None, and a remark on it.
-
-    A shift table is fitted, and the remark states the misfit; WLF with Arrhenius below the glass
-    transition is reduced to its upper part.
-    """
+    """Return the WLF law of a rubber at its reference temperature, or None, and a remark on it."""
     shift, reference = rubber.shift, rubber.reference_temperature
     if shift is None or reference is None:
         return None, "The rubber has no shift: its numbers hold for one temperature."
@@ -222,11 +192,7 @@ def wlf(rubber: Rubber) -> tuple[WLF | None, str]:
 def with_one_series(
     rubber: Rubber, units: Units, program: str, elements: str, constants: str
 ) -> tuple[list[str], WLF | None]:
-    """Return remarks and shift for a program that relaxes the whole energy by one Prony series.
-
-    `elements` is its word for elements for rubber, `constants` a sentence on its constants. The
-    shift is None for an elastic rubber.
-    """
+    """Return remarks and shift for a program that relaxes the whole energy by one Prony series."""
     remarks = heading(rubber, units, program)
     remarks.append(f"Use {elements}: the rubber is nearly incompressible.")
     if not len(rubber.moduli):

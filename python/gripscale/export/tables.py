@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.core import checks
 from gripscale.io import netcdf
@@ -29,23 +28,10 @@ SINGLE, ATTRIBUTES = "single_values", "attributes"
 
 
 def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
-    """Return a result as tables.
+    """Return a result as tables: a Dataset, such as a prediction, or all groups of a tree.
 
-    Parameters
-    ----------
-    result : Dataset or DataTree
-        A prediction, a study, a comparison or any other Dataset; of a tree all groups.
-
-    Returns
-    -------
-    list of Table
-        One for each set of dimensions, named by them, that of numbers without any first; then all
-        attributes. Those of a group begin with its name.
-
-    Raises
-    ------
-    InputError
-        If it is neither.
+    There is one for each set of dimensions, named by them, that of numbers without any first; then
+    all attributes. Those of a group begin with its name. Raises `InputError` for anything else.
     """
     if isinstance(result, xr.DataTree):
         parts = {
@@ -55,7 +41,12 @@ def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
     else:
         parts = {"": checks.instance("result", result, xr.Dataset)}
     tables = [table for group, data in parts.items() for table in _tables(group, data)]
-    rows = [row for group, data in parts.items() for row in _attributes(group, data)]
+    rows = []
+    for group, data in parts.items():
+        rows += [(group, str(key), _text(value)) for key, value in data.attrs.items()]
+        for name, variable in data.variables.items():
+            owner = f"{group}/{name}" if group else str(name)
+            rows += [(owner, str(key), _text(value)) for key, value in variable.attrs.items()]
     texts = np.array(rows, dtype=object).reshape(len(rows), 3).T
     names = ("of", "attribute", "value")
     columns = [Column(name, values) for name, values in zip(names, texts, strict=True)]
@@ -65,23 +56,12 @@ def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
 def write_tables(
     result: xr.Dataset | xr.DataTree | str | Path, folder: str | Path, *, format: str = "csv"
 ) -> list[Path]:
-    """Write a result as tables into a folder; return the files.
+    """Write a result, or that of a .nc file, as tables into a folder; return the files.
 
-    Parameters
-    ----------
-    result : Dataset, DataTree, str or Path
-        A result, or the .nc file of one.
-    folder : str or Path
-        Made if it does not exist; files of the same names are replaced.
-    format : str
-        csv, a file for each table, or xlsx, one workbook `tables.xlsx` with a sheet for each.
-
-    Raises
-    ------
-    InputError
-        If the result or the format cannot be used, or a table has more rows than a sheet.
-    FileError
-        If a file cannot be read or written.
+    The folder is made if it does not exist; files of the same names are replaced. `format` is csv,
+    a file for each table, or xlsx, one workbook `tables.xlsx` with a sheet for each. Raises
+    `InputError` if the result or the format cannot be used, or a table has more rows than a sheet,
+    `FileError` if a file cannot be read or written.
     """
     checks.one_of("format", format, ["csv", "xlsx"])
     read = netcdf.load_tree(result) if isinstance(result, str | Path) else result
@@ -104,12 +84,14 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
     by_dimensions |= {(str(index),): [] for index in data.indexes if str(index) not in used}
     for dims in sorted(by_dimensions, key=len):
         places = [_place_column(data, dims, dim) for dim in dims]
-        columns = [
-            Column(name, np.asarray(variable.values).ravel(), unit=_unit(variable))
-            for name, variable in ((name, data.variables[name]) for name in by_dimensions[dims])
-        ]
+        columns = []
+        for name in by_dimensions[dims]:
+            variable = data.variables[name]
+            columns.append(Column(name, np.asarray(variable.values).ravel(), unit=_unit(variable)))
         if len(dims) > 1:
-            kept = ~np.all([_missing(column.values) for column in columns], axis=0)
+            kinds = [(c.values, c.values.dtype.kind) for c in columns]
+            missing = [np.isnan(v) if kind == "f" else np.zeros(len(v), bool) for v, kind in kinds]
+            kept = ~np.all(missing, axis=0)
             columns, places = (
                 [column.of(column.values[kept]) for column in part] for part in (columns, places)
             )
@@ -126,20 +108,8 @@ def _place_column(data: xr.Dataset, dims: tuple[str, ...], dim: str) -> Column:
     return Column(dim, full.ravel(), unit="1" if along is None else _unit(along))
 
 
-def _missing(values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Return whether each value is NaN."""
-    return np.isnan(values) if values.dtype.kind == "f" else np.zeros(len(values), dtype=bool)
-
-
 def _unit(variable: xr.Variable) -> str:
     return "" if variable.dtype.kind in "OUS" else str(variable.attrs.get("units", ""))
-
-
-def _attributes(group: str, data: xr.Dataset) -> Iterator[tuple[str, str, str]]:
-    yield from ((group, str(key), _text(value)) for key, value in data.attrs.items())
-    for name, variable in data.variables.items():
-        owner = f"{group}/{name}" if group else str(name)
-        yield from ((owner, str(key), _text(value)) for key, value in variable.attrs.items())
 
 
 def _text(value: Any) -> str:

@@ -173,10 +173,7 @@ class PointsInContact:
         return self.missing(self.displacement(pressure)[self._where])
 
     def _spread(self, values: AnyArray) -> AnyArray:
-        """Return `values` at the points and zero elsewhere.
-
-        In single precision the array is reused by the next call.
-        """
+        """Return `values` at the points, else zero; a single array is reused by the next call."""
         single = values.dtype == np.float32
         full = self._single if single else np.zeros(self._single.size, dtype=values.dtype)
         full[self._where] = values
@@ -198,10 +195,9 @@ def close_gap(
 ) -> ClosedGap:
     """Return the pressure that closes the gap at the points `where`, of the heights `height` [m].
 
-    `start` is a pressure there with the required load [Pa], whose sum is kept, `displacement` what
-    it gives over the whole grid [m], `tolerance` the missing pressure at the end over the pressure
-    [-], or over what is missing first if the start is zero. With `check` the missing pressure is
-    computed at the end and not taken from GMRES.
+    `start` is a pressure there, whose sum is kept, `displacement` what it gives over the whole grid
+    [m], `tolerance` the missing pressure at the end over the pressure, or over what is missing
+    first if the start is zero. With `check` GMRES is not believed at the end.
     """
     points = PointsInContact(response, where)
     pressure = start.copy()

@@ -61,10 +61,7 @@ class OctaveHeat:
 
 
 def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
-    """Return the heat of every octave that loses energy, long waves first.
-
-    The friction `lost` by each harmonic [-] is that of `lost_by_harmonic`, of the half spectrum.
-    """
+    """Return the heat of every octave, long waves first, from the friction `lost` by harmonic."""
     number = np.broadcast_to(grid.wavenumber, grid.spectrum_shape)
     longest = 2.0 * np.pi / max(grid.lengths)
     octave = np.floor(np.log2(np.maximum(number, longest) / longest) + 1e-9).astype(int)
@@ -187,9 +184,7 @@ def solve_coupled_contact(
 ) -> RoughContact:
     """Return the contact whose strains and temperatures are those of its rubber.
 
-    `solve` and `quick` solve the contact with the rubber of every scale from known levels, the
-    second in less time; `time` is the duration of the nominal contact [s]. The status is
-    `conditions not settled` if the iteration did not converge.
+    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s].
     """
     fine = _ContactEvaluation(solve, rubber, conditions, time)
     fixed_point = solve_fixed_point(fine, replace(fine, solve=quick))

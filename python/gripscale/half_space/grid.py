@@ -169,10 +169,7 @@ class PeriodicHeights:
     """Shorter waves are left out [m]."""
 
     def on(self, shape: tuple[int, ...], cut_off: float | None = None) -> Array:
-        """Return the heights [m] at the points of another grid.
-
-        `cut_off` leaves out all waves shorter than it [m], whatever their direction.
-        """
+        """Return the heights [m] at the points of another grid, without waves below `cut_off`."""
         shortest = max(cut_off or 0.0, self.smallest_wavelength)
         kept = self.grid.wavenumber <= 2.0 * np.pi / shortest * (1.0 + 1e-9)
         return resampled(np.where(kept, self.spectrum, 0.0), self.grid.shape, shape)

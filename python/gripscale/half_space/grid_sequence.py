@@ -147,14 +147,6 @@ class Level:
     grid: Grid
     cut_off: float
 
-    @property
-    def key(self) -> LevelKey:
-        """Points and shortest wave, which identify a level of a surface."""
-        return (self.grid.shape, self.cut_off)
-
-
-LevelKey = tuple[tuple[int, ...], float]
-
 
 @dataclass(frozen=True)
 class GridRecord:
@@ -212,7 +204,7 @@ def finer(level: Level) -> Level:
     return replace(level, grid=Grid(tuple(2 * n for n in level.grid.shape), level.grid.lengths))
 
 
-KnownLevels = Mapping[LevelKey, LevelContact]
+KnownLevels = Mapping[Level, LevelContact]
 
 
 @dataclass
@@ -226,18 +218,15 @@ class GridSequence:
     most_iterations: int
     start: KnownLevels = field(default_factory=dict)
     """Contacts with another rubber, to start from."""
-    solved: dict[LevelKey, LevelContact] = field(default_factory=dict)
+    solved: dict[Level, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
     on_iteration: OnIteration | None = None
     deadline: float = math.inf
     """When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s]."""
 
     def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
-        """Return the contact on `level`, from its contact in `start` or the level before.
-
-        `tolerance` is the missing pressure at the end, over the pressure.
-        """
-        self.last = self.start.get(level.key, self.last)
+        """Return the contact on `level`, from its contact in `start` or the level before."""
+        self.last = self.start.get(level, self.last)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers, self.deadline)
         following = response.full_contact(height, self.pressure)
@@ -269,7 +258,7 @@ class GridSequence:
             in_contact=int(contact.active.sum()),
         )
         self.last = LevelContact(level, height, contact, record)
-        self.solved[level.key] = self.last
+        self.solved[level] = self.last
         return self.last
 
     def _contact(
@@ -281,10 +270,7 @@ class GridSequence:
     def _through_losses(
         self, response: Response, height: Array, start: Array, contact: GridContact
     ) -> GridContact:
-        """Return the contact, reached by raising the loss angle of the rubber step by step.
-
-        It counts the products and iterations of every step, and of `contact`, which did not settle.
-        """
+        """Return the contact, reached by raising the loss angle from that of `contact` in steps."""
         for loss in LOSSES:
             part = response
             if loss != 1.0:

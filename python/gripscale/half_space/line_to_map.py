@@ -97,15 +97,7 @@ def upper_height(profile: Profile | Sequence[Profile], largest_wavelength: float
 
     Both are from the mean of pieces of sixteen largest waves, or of the whole line where it is
     shorter; the mean over all pieces counts. Missing heights are left out.
-
     Raises `InputError` if an argument is out of its range, or no piece has two heights.
-
-    Parameters
-    ----------
-    profile : Profile or sequence of Profile
-        Cleaned profiles of one surface.
-    largest_wavelength : float
-        Largest wave that counts as roughness [m].
     """
     longest = _PIECE * checks.positive("largest_wavelength", largest_wavelength, unit="m")
     ratios = []

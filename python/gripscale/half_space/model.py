@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
@@ -16,20 +17,18 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
-from gripscale.half_space.location import SHARES_BY_SLOPE, contact_trace, with_traces
+from gripscale.core.status import Status
+from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
+from gripscale.half_space.location import contact_trace, with_traces
+from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
 from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
+from gripscale.model import Load, OnProgress
+from gripscale.rubber import Rubber
+from gripscale.rubber.extrapolation import of_sum
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
-from gripscale.wave.profile import solve_profile
+from gripscale.wave.block import solve_profile
 from gripscale.wave.result import waves_to_dataset
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from gripscale.half_space.result import RoughContact
-    from gripscale.model import Load, OnProgress
-    from gripscale.rubber import Rubber
-
 
 JUDGED_TO = 0.05
 """Estimated relative error of the contact that every run judges its chain by."""
@@ -51,10 +50,7 @@ def smallest_wavelength(surface: Surface, measured: Profile | HeightMap) -> floa
 
 
 def resolved_wavelength(surface: Surface) -> float:
-    """Return the shortest wave [m] that counts in all measurements of a surface.
-
-    A cut-off that was stated may be shorter; without a measurement it is what counts.
-    """
+    """Return the shortest wave [m] in all measurements; without one, the stated cut-off."""
     measured = () if surface.measured is None else surface.measured.surfaces
     ends = [smallest_wavelength(surface, each) for each in measured]
     return max(ends, default=surface.cutoff_wavelength)
@@ -68,8 +64,6 @@ def _with_basis(
     The profiles are independent: their sampling errors, from pieces of a length [m], add up in
     squares.
     """
-    import xarray as xr
-
     errors = [sampling_error(contact, piece) for contact in contacts]
     area, friction = (
         np.multiply(lengths, [getattr(contact, name) for contact in contacts])
@@ -107,6 +101,50 @@ def _weighted(weight: Array, shares: Sequence[float] | Sequence[Array]) -> Array
     """Return the mean of shares, or of rows of them; NaN where nothing is shared."""
     total, mean = float(weight.sum()), weight @ np.asarray(shares)
     return np.asarray(mean / total if total > 0.0 else mean * math.nan)
+
+
+def _answer_by_length(
+    data: xr.Dataset,
+    parts: Sequence[Any],
+    why_not: Sequence[str],
+    lengths: Sequence[float],
+    name: str,
+    load: Load,
+    cut_off_exponents: Sequence[CutOffExponents] = (),
+) -> xr.Dataset:
+    """Return `data` over `profile` with the answers of the profiles averaged by length [m].
+
+    `parts` are their results, with the attributes of `TOTALS` without `total_`, `extrapolation`
+    and `status`. `why_not` says why a profile does not count: then there are no totals.
+    """
+    weight = np.asarray(lengths) / np.sum(lengths)
+    bad = [
+        f"profile {number} of {len(parts)}: {why}"
+        for number, why in enumerate(why_not, start=1)
+        if why
+    ]
+    totals = {
+        total: math.nan
+        if bad
+        else float(weight @ [getattr(part, total.removeprefix("total_")) for part in parts])
+        for total in model.TOTALS
+    }
+    attrs = {"units": "1", "long_name": "share of the length"}
+    weighted = data.assign(weight=("profile", weight, attrs))
+    beyond = of_sum(
+        [part.extrapolation for part in parts],
+        weight * [part.friction_from_dissipation for part in parts],
+    )
+    exponents = NOT_CONVERGED
+    if not bad:
+        names = ("contact_fraction", "friction_from_dissipation")
+        added = [weight * [getattr(part, name) for part in parts] for name in names]
+        exponents = of_mean(cut_off_exponents, *added)
+    status = "; ".join(bad) or Status.CONVERGED
+    words = [str(part.status) for part, why in zip(parts, why_not, strict=True) if why]
+    return model.predicted_answer(
+        weighted, totals, status, name, load, beyond, exponents, status_word=next(iter(words), "")
+    )
 
 
 class DirectContact(Checked, model.Model):
@@ -167,12 +205,10 @@ class DirectContact(Checked, model.Model):
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:
         """Return the answer of the contacts of all profiles."""
-        import xarray as xr
-
         # patches and grids differ in number from profile to profile: only the contacts have them
         parts = [c.to_dataset(fields=False).drop_dims(["patch", "grid"]) for c in contacts]
         lengths = [contact.grid.lengths[0] for contact in contacts]
-        answer = model.answer_by_length(
+        answer = _answer_by_length(
             xr.concat(parts, dim="profile", join="outer", combine_attrs="override"),
             contacts,
             ["" if contact.usable else str(contact.status) for contact in contacts],
@@ -242,4 +278,4 @@ class BlockOnProfile(Checked, model.Model):
         )
         why_not = ["" if result.converged else result.why for result in results]
         lengths = [result.wavelength for result in results]
-        return model.answer_by_length(data, results, why_not, lengths, self.name, load)
+        return _answer_by_length(data, results, why_not, lengths, self.name, load)

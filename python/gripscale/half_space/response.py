@@ -184,8 +184,7 @@ class Response:
 
 _LEAST, _MOST = 1e-12, 1e15
 """Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single
-precision,
-where products must stay within 1e-38 to 1e38. A number beyond these limits has the wrong unit."""
+precision, where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit."""
 
 
 def half_space(rubber: Rubber, speed: float) -> HalfSpace:

@@ -37,19 +37,11 @@ from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
-from gripscale.half_space.location import SHARES_BY_SLOPE as BY_SLOPE
-from gripscale.half_space.location import SLOPES, shares_by_slope
 from gripscale.half_space.response import HalfSpace
-from gripscale.model import (
-    CUT_OFF_EXPONENTS,
-    NOT_CONVERGED,
-    OCTAVE,
-    OUTSIDE_BAND,
-    CutOffExponents,
-    between,
-)
+from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NOTHING_BEYOND, Extrapolation, of_spectrum
 
@@ -58,10 +50,7 @@ if TYPE_CHECKING:
 
 
 def patch_points(active: Mask) -> NDArray[np.int64]:
-    """Return the number of points of each patch, largest first.
-
-    Points belong together if they are neighbours along x or y, across the period too.
-    """
+    """Return the number of points of each patch of neighbours across the period, largest first."""
     labels, count = scipy.ndimage.label(active)
     first, second = [], []
     for axis in range(active.ndim):
@@ -121,6 +110,47 @@ _NUMBERS = {
     "smallest_wavelength": ("m", "smallest wavelength of the surface as solved"),
     "full_contact": ("1", "1 where the contact is full"),
 }
+
+
+SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
+"""Lower ends of the classes of |dh/dx|; the last has no upper end."""
+SHARES_BY_SLOPE = {
+    "friction_by_slope": "share of the friction from contact on slopes of the class",
+    "load_by_slope": "share of the load carried on slopes of the class",
+    "contact_by_slope": "share of the contact area on slopes of the class",
+}
+
+
+def shares_by_slope(contact: RoughContact) -> xr.Dataset:
+    """Return the shares of friction, load and contact area by slope of the surface.
+
+    The friction from the contact traction, sum_i p_i h'_i / (N p_0), is a sum over the points of
+    the grid, so that a class of slopes has a share in it as in the load and in the contact area.
+
+    Parameters
+    ----------
+    contact : RoughContact
+        The contact; the slope is dh/dx along the sliding direction, up or down.
+
+    Returns
+    -------
+    xarray.Dataset
+        `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the lower end
+        of the classes 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1; the friction is NaN
+        where there is none.
+    """
+    slope = contact.grid.slope(contact.height)
+    index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
+    force = contact.pressure * slope
+    if not (contact.speed > 0.0 and force.sum() > 0.0):
+        force = np.full(force.shape, math.nan)
+    data = {}
+    amounts = (force, contact.pressure, contact.active)
+    for (name, text), amount in zip(SHARES_BY_SLOPE.items(), amounts, strict=True):
+        sums = np.bincount(index, np.asarray(amount, dtype=float).reshape(-1), len(SLOPES))
+        data[name] = labelled("slope", sums / amount.sum(), "1", text, _SOURCE)
+    ends = labelled("slope", np.array(SLOPES), "1", "lower end of |dh/dx|", "input")
+    return xr.Dataset(data, {"slope": ends})
 
 
 @dataclass(frozen=True)
@@ -191,6 +221,11 @@ class RoughContact:
     def total_friction(self) -> float:
         """Sum of hysteresis and area term [-]; NaN without an area term."""
         return self.friction + self.adhesive_friction
+
+    @cached_property
+    def body(self) -> HalfSpace:
+        """The rubber as it slides; it keeps its moduli on lines."""
+        return HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
 
     @property
     def converged(self) -> bool:
@@ -272,7 +307,7 @@ class RoughContact:
 
     @cached_property
     def shares_by_slope(self) -> xr.Dataset:
-        """Shares of friction, load and contact area by slope, see `half_space.location`."""
+        """Shares of friction, load and contact area by slope, as the function of this name."""
         return shares_by_slope(self)
 
     @property
@@ -311,8 +346,7 @@ class RoughContact:
 
     @cached_property
     def _lost(self) -> Array:
-        body = HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
-        lost = lost_by_harmonic(body.compliance(self.grid), self.grid, self.pressure)
+        lost = lost_by_harmonic(self.body.compliance(self.grid), self.grid, self.pressure)
         lost.flags.writeable = False
         return lost
 
@@ -334,16 +368,12 @@ class RoughContact:
             index = round(float(octave.max() - np.log2(grid.cut_off / self.smallest_wavelength)))
             if grid.settled and 0 <= index < order.size:
                 fraction[index] = grid.contact_fraction
+        ends = self.smallest_wavelength * 2.0**order
         columns = {
             "friction": (friction, "1", "friction of the octave", _SOURCE),
             "running_friction": (np.cumsum(friction), "1", "friction down to the octave", _SOURCE),
             "contact_fraction": (fraction, "1", "contact fraction without shorter waves", _SOURCE),
-            "wavelength": (
-                self.smallest_wavelength * 2.0**order,
-                "m",
-                "lower end of octave",
-                "input",
-            ),
+            "wavelength": (ends, "m", "lower end of octave", "input"),
         }
         data = {name: labelled("wavelength", *column) for name, column in columns.items()}
         return xr.Dataset(data).set_coords("wavelength")
@@ -374,7 +404,7 @@ class RoughContact:
         for name in (entry.name for entry in fields_of(GridRecord)):
             values = [float(getattr(grid, name)) for grid in self.grids]
             add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
-        data |= {name: self.shares_by_slope[name].variable for name in BY_SLOPE}
+        data |= {name: self.shares_by_slope[name].variable for name in SHARES_BY_SLOPE}
         pressures = self.pressure_quantiles(_SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]

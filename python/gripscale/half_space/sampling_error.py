@@ -24,7 +24,6 @@ import scipy
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
-from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
 
 FEWEST_PIECES = 4
@@ -45,25 +44,15 @@ class SamplingError(NamedTuple):
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     """Return the relative standard errors of a contact as an estimate for its road.
 
-    NaN for fewer than four pieces; of friction also at rest, and where it is not positive.
-
-    Raises `InputError` if `piece` is not above zero.
-
-    Parameters
-    ----------
-    contact : RoughContact
-        Of a line or map.
-    piece : float
-        Length of a piece along each axis [m], such as two largest waves; the pieces are equal and
-        at least this long.
+    The pieces are equal and at least as long as `piece` along each axis [m]. NaN for fewer than
+    four; of friction also at rest, and where it is not positive.
     """
     counts = _counts(contact, checks.positive("piece", piece, unit="m"))
     pieces = math.prod(counts)
     if pieces < FEWEST_PIECES:
         return SamplingError(math.nan, math.nan, pieces)
-    load, touched = (
-        _by_piece(field, counts) for field in (contact.pressure, contact.active.astype(float))
-    )
+    load = _by_piece(contact.pressure, counts)
+    touched = _by_piece(contact.active.astype(float), counts)
     friction = math.nan
     if contact.speed > 0.0:
         friction = _relative_error(_by_piece(_losses(contact), counts), load)
@@ -80,18 +69,16 @@ def _by_piece(field: Array, counts: Sequence[int]) -> Array:
 
 def _losses(contact: RoughContact) -> Array:
     """Return pressure times the slope [Pa] that the losses of the rubber make."""
-    body = HalfSpace(contact.rubber, contact.speed, by_scale=contact.by_scale)
-    slope = -contact.grid.along * body.compliance(contact.grid).imag
+    slope = -contact.grid.along * contact.body.compliance(contact.grid).imag
     waves = slope * scipy.fft.rfftn(contact.pressure)
     return np.asarray(contact.pressure * scipy.fft.irfftn(waves, s=contact.grid.shape))
 
 
 def friction_residuals(contact: RoughContact, piece: float) -> Array:
-    """Return the residuals of the pieces of a contact, whose squares make its sampling error [-].
+    """Return y/sum(y) - p/sum(p) of the friction force y and the load p of each piece [-].
 
-    With the friction force y and the load p of each piece, y/sum(y) - p/sum(p), and so for fewer
-    pieces than an error needs, too. Those of two contacts of one surface have the same pieces: the
-    differences make the error of the ratio of the two frictions.
+    Two contacts of one surface have the same pieces: the differences of their residuals make the
+    error of the ratio of the two frictions.
     """
     counts = _counts(contact, checks.positive("piece", piece, unit="m"))
     return _residuals(_by_piece(_losses(contact), counts), _by_piece(contact.pressure, counts))

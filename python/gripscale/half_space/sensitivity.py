@@ -42,7 +42,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -75,6 +75,20 @@ too few points of a grid in and out of contact."""
 MOST_ITERATIONS = 60
 _SOURCE = "gripscale adjoint of the direct contact"
 
+Derivatives = Mapping[str, Array | float]
+"""By the end of their name in a Dataset."""
+
+TEXTS = {
+    "ln_storage": ("1", "E' in the band"),
+    "ln_loss": ("1", "E'' in the band"),
+    "ln_modulus": ("1", "a modulus of the Prony series"),
+    "ln_speed": ("1", "speed"),
+    "ln_pressure": ("1", "nominal pressure"),
+    "ln_bulk_modulus": ("1", "bulk modulus"),
+    "ln_cut_off": ("1", "smallest wavelength"),
+    "temperature": ("1/K", "temperature"),
+}
+
 
 @dataclass(frozen=True)
 class FrictionAdjoint:
@@ -94,7 +108,7 @@ class FrictionAdjoint:
     def of(cls, contact: RoughContact) -> FrictionAdjoint:
         """Return the multipliers of a contact that slides."""
         grid = contact.grid
-        response = Response.of(half_space_of(contact), grid, 1)
+        response = Response.of(contact.body, grid, 1)
         where = np.flatnonzero(contact.active)
         lost = -2.0 * grid.along * response.compliance.imag * scipy.fft.rfftn(contact.pressure)
         right = scipy.fft.irfftn(lost, s=grid.shape).reshape(-1)[where]
@@ -123,15 +137,10 @@ class FrictionAdjoint:
         return self.rigid - self.contact.friction_from_dissipation
 
     @cached_property
-    def body(self) -> HalfSpace:
-        """The rubber of the contact; it keeps its moduli on lines."""
-        return half_space_of(self.contact)
-
-    @cached_property
     def weight(self) -> ComplexArray:
         """c(q) [-], over the half spectrum of the grid."""
         contact, grid = self.contact, self.contact.grid
-        compliance = self.body.compliance(grid)
+        compliance = contact.body.compliance(grid)
         pressure = scipy.fft.rfftn(contact.pressure)
         other = scipy.fft.rfftn(self.multiplier) + 1j * grid.along * pressure
         scale = grid.weight / (grid.points**2 * contact.nominal_pressure)
@@ -143,8 +152,43 @@ class FrictionAdjoint:
 
     def by_log_terms(self) -> Array:
         """Return d mu / d ln E_i [-] of the Prony moduli, the equilibrium modulus first."""
-        changes = term_changes(self.contact)
-        return np.array([float(self.by_modulus(change).sum()) for change in changes])
+        contact, (_, relative) = self.contact, relative_change(self.contact)
+        scales = contact.by_scale
+        rubber = contact.rubber if scales is None else scales.rubber
+
+        def young_modulus(terms: slice) -> ComplexArray:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RubberWarning)  # the whole rubber has warned
+                alone = Rubber(
+                    rubber.equilibrium_modulus,
+                    rubber.moduli[terms],
+                    rubber.relaxation_times[terms],
+                    rubber.bulk_modulus,
+                )
+            by_scale = None if scales is None else replace(scales, rubber=alone)
+            return HalfSpace(alone, contact.speed, by_scale=by_scale).young_modulus(contact.grid)
+
+        relaxed = young_modulus(slice(0))
+        terms = [slice(at, at + 1) for at in range(rubber.moduli.size)]
+        changes = [relaxed, *(young_modulus(term) - relaxed for term in terms)]
+        return np.array([float(self.by_modulus(relative * change).sum()) for change in changes])
+
+    def log_derivatives(self, bands: Bands) -> Derivatives:
+        """Return the derivatives of ln mu; those of E' and E'' by band."""
+        contact = self.contact
+        friction = contact.friction_from_dissipation
+        storage, loss = modulus_changes(contact)
+        scalars = scalar_changes(contact)
+        by = {name: float(self.by_modulus(change).sum()) for name, change in scalars.items()}
+        return {
+            "temperature": math.nan,
+            "ln_storage": bands.sums(self.by_modulus(storage)) / friction,
+            "ln_loss": bands.sums(self.by_modulus(loss)) / friction,
+            "ln_modulus": self.by_log_terms() / friction,
+            **{name: value / friction for name, value in by.items()},
+            "ln_pressure": self.by_log_pressure / friction,
+            "ln_cut_off": contact.cut_off_exponents.friction,
+        }
 
 
 def _on_grid(change: ComplexArray, grid: Grid) -> ComplexArray:
@@ -181,67 +225,42 @@ def modulus_changes(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
     return relative * modulus.real, relative * 1j * modulus.imag
 
 
-def term_changes(contact: RoughContact) -> Iterator[ComplexArray]:
-    """Yield dln M / dln E_i of each wave [-] of every Prony term, the equilibrium modulus first."""
-    rubber, body = contact.rubber, half_space_of(contact)
-    body, (_, relative) = half_space_of(contact), relative_change(contact)
-    rubber = contact.rubber if body.by_scale is None else body.by_scale.rubber
-
-    def young_modulus(terms: slice) -> ComplexArray:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RubberWarning)  # the whole rubber has warned
-            alone = Rubber(
-                rubber.equilibrium_modulus,
-                rubber.moduli[terms],
-                rubber.relaxation_times[terms],
-                rubber.bulk_modulus,
-            )
-        scales = None if body.by_scale is None else replace(body.by_scale, rubber=alone)
-        return HalfSpace(alone, body.speed, by_scale=scales).young_modulus(contact.grid)
-
-    relaxed = young_modulus(slice(0))
-    yield relative * relaxed
-    for term in range(rubber.moduli.size):
-        yield relative * (young_modulus(slice(term, term + 1)) - relaxed)
-
-
 def relative_change(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
     """Return E* [Pa] and dln M / dE* [1/Pa] of each wave, over the half spectrum."""
     grid = contact.grid
-    modulus = np.broadcast_to(half_space_of(contact).young_modulus(grid), grid.spectrum_shape)
+    modulus = np.broadcast_to(contact.body.young_modulus(grid), grid.spectrum_shape)
     bulk, shear = 3.0 * contact.rubber.bulk_modulus, modulus / 3.0
     together = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
     return modulus, together / modulus
 
 
-def _log_change(low: HalfSpace, high: HalfSpace, grid: Grid, step: float) -> ComplexArray:
-    """Return the derivative of ln M from rubbers a `step` below and above, over the spectrum."""
-    change = np.log(high.modulus(grid) / low.modulus(grid)) / (2.0 * step)
-    return np.asarray(np.broadcast_to(change, grid.spectrum_shape))
-
-
 def scalar_changes(contact: RoughContact) -> dict[str, ComplexArray]:
-    """Return the derivatives of ln M of each wave by the inputs that are one number each.
+    """Return the derivatives of ln M of each wave by speed, bulk modulus and temperature [1/K].
 
-    Over the half spectrum, by the end of their name in a Dataset: speed, bulk modulus and, with a
-    shift, temperature [1/K].
+    Over the half spectrum, by the end of their name in a Dataset; without a shift there is none by
+    temperature.
     """
     grid, rubber = contact.grid, contact.rubber
+
+    def difference(low: HalfSpace, high: HalfSpace, step: float) -> ComplexArray:
+        change = np.log(high.modulus(grid) / low.modulus(grid)) / (2.0 * step)
+        return np.asarray(np.broadcast_to(change, grid.spectrum_shape))
+
     slow, fast = (
         half_space_of(contact, speed=contact.speed * math.exp(by))
         for by in (-SPEED_STEP, SPEED_STEP)
     )
-    shear, bulk = half_space_of(contact).young_modulus(grid) / 3.0, 3.0 * rubber.bulk_modulus
+    shear, bulk = contact.body.young_modulus(grid) / 3.0, 3.0 * rubber.bulk_modulus
     stiffening = bulk / (bulk + shear) - bulk / (bulk + 4.0 * shear)
     changes = {
-        "ln_speed": _log_change(slow, fast, grid, SPEED_STEP),
+        "ln_speed": difference(slow, fast, SPEED_STEP),
         "ln_bulk_modulus": np.broadcast_to(stiffening, grid.spectrum_shape),
     }
     if rubber.shift is not None and rubber.reference_temperature is not None:
         cold, warm = (
             half_space_of(contact, warmer=by) for by in (-TEMPERATURE_STEP, TEMPERATURE_STEP)
         )
-        changes["temperature"] = _log_change(cold, warm, grid, TEMPERATURE_STEP)
+        changes["temperature"] = difference(cold, warm, TEMPERATURE_STEP)
     return changes
 
 
@@ -264,11 +283,6 @@ class Bands:
         omega = np.broadcast_to(np.abs(grid.along) * contact.speed * shift, grid.spectrum_shape)
         if contact.by_scale is not None:
             omega = omega * contact.by_scale.shift(grid.wavenumber)
-        return cls.over(omega, per_decade)
-
-    @classmethod
-    def over(cls, omega: Array, per_decade: int) -> Bands:
-        """Return the bands of waves that excite the rubber at `omega` [rad/s], not all zero."""
         moving = omega > 0.0
         decade = np.floor(per_decade * np.log10(np.where(moving, omega, np.inf)) + 1e-9)
         first, last = decade.min(), decade[moving].max()
@@ -295,7 +309,30 @@ class ContactFractionDifferences:
     @cached_property
     def compliance(self) -> ComplexArray:
         """K(q) of the contact [m/Pa], over the half spectrum."""
-        return half_space_of(self.contact).compliance(self.contact.grid)
+        return self.contact.body.compliance(self.contact.grid)
+
+    def log_derivatives(self, bands: Bands) -> Derivatives:
+        """Return the derivatives of ln(A_r/A_0); those of E' and E'' by band."""
+        contact = self.contact
+        moduli = {
+            name: np.array(
+                [
+                    self.by_modulus(np.where(bands.of_wave == band, change, 0.0))
+                    for band in range(bands.centre.size)
+                ]
+            )
+            for name, change in zip(
+                ("ln_storage", "ln_loss"), modulus_changes(contact), strict=True
+            )
+        }
+        scalars = scalar_changes(contact)
+        return {
+            "temperature": math.nan,
+            **moduli,
+            **{name: self.by_modulus(change) for name, change in scalars.items()},
+            "ln_pressure": self.by_log_pressure(),
+            "ln_cut_off": contact.cut_off_exponents.contact_fraction,
+        }
 
     def by_modulus(self, change: ComplexArray) -> float:
         """Return d ln(A_r/A_0) along a derivative of ln M of each wave, over the half spectrum."""
@@ -384,127 +421,47 @@ def contact_sensitivity(
         shift = float(contact.rubber.relaxation_times[0] / reference.relaxation_times[0])
     bands = Bands.of(contact, per_decade, shift)
     axes = ("x", "y")[: contact.height.ndim]
+    friction_text = "friction coefficient from the energy lost"
     data = {
         name: labelled((), value, "1", text, _SOURCE)
         for name, value, text in (
-            (
-                "friction",
-                contact.friction_from_dissipation,
-                "friction coefficient from the energy lost",
-            ),
+            ("friction", contact.friction_from_dissipation, friction_text),
             ("contact_fraction", contact.contact_fraction, "real over nominal contact area"),
             ("residual_adjoint", adjoint.residual, "residual of the adjoint system"),
             ("products", float(adjoint.products), "products with the transposed response"),
         )
     }
-    data |= derivative_variables("friction", _friction_derivatives(adjoint, bands))
+    derivatives = {"friction": adjoint.log_derivatives(bands)}
     if contact_fraction:
-        data |= derivative_variables("contact_fraction", _area_derivatives(contact, bands))
+        differences = ContactFractionDifferences(contact)
+        derivatives["contact_fraction"] = differences.log_derivatives(bands)
+    for quantity, by in derivatives.items():
+        for name, value in by.items():
+            unit, text = TEXTS[name]
+            along = "term" if name == "ln_modulus" else "frequency"
+            data[f"d_ln_{quantity}_d_{name}"] = labelled(
+                () if np.ndim(value) == 0 else along,
+                value,
+                unit,
+                f"d ln {quantity.replace('_', ' ')} by {text}",
+                _SOURCE,
+            )
     data["d_friction_d_height"] = labelled(
         axes, adjoint.by_height, "1/m", "d friction / d height of a point", _SOURCE
     )
+    times = [math.inf, *contact.rubber.relaxation_times]
     coordinates = {
-        axis: labelled(axis, getattr(contact, axis), "m", axis, "input") for axis in axes
+        "frequency": labelled("frequency", bands.centre, "rad/s", "centre of the band", _SOURCE),
+        **{axis: labelled(axis, getattr(contact, axis), "m", axis, "input") for axis in axes},
+        "relaxation_time": labelled("term", times, "s", "of the Prony term", "input"),
     }
-    coordinates["relaxation_time"] = labelled(
-        "term", [math.inf, *contact.rubber.relaxation_times], "s", "of the Prony term", "input"
-    )
-    return derivatives_dataset(
-        data,
-        bands,
-        title="Derivatives of the friction of a direct contact",
-        status=str(contact.status),
-        bands_per_decade=per_decade,
-        settled=int(contact.by_scale is not None),
-        rubber=f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
-        nominal_pressure=contact.nominal_pressure,
-        speed=contact.speed,
-    ).assign_coords(coordinates)
-
-
-def derivatives_dataset(
-    data: dict[str, xr.Variable], bands: Bands, **attributes: str | float
-) -> xr.Dataset:
-    """Return derivatives as a Dataset over the `frequency` of bands."""
-    centre = labelled("frequency", bands.centre, "rad/s", "centre of the band", _SOURCE)
-    return xr.Dataset(
-        data, {"frequency": centre}, {**attributes, **provenance.version_attributes()}
-    )
-
-
-Derivatives = Mapping[str, Array | float]
-"""By the end of their name in a Dataset."""
-
-TEXTS = {
-    "ln_storage": ("1", "E' in the band"),
-    "ln_loss": ("1", "E'' in the band"),
-    "ln_modulus": ("1", "a modulus of the Prony series"),
-    "ln_speed": ("1", "speed"),
-    "ln_pressure": ("1", "nominal pressure"),
-    "ln_bulk_modulus": ("1", "bulk modulus"),
-    "ln_cut_off": ("1", "smallest wavelength"),
-    "temperature": ("1/K", "temperature"),
-}
-
-
-def _friction_derivatives(adjoint: FrictionAdjoint, bands: Bands) -> Derivatives:
-    contact = adjoint.contact
-    friction = contact.friction_from_dissipation
-    storage, loss = modulus_changes(contact)
-    scalars = scalar_changes(contact)
-    by = {name: float(adjoint.by_modulus(change).sum()) for name, change in scalars.items()}
-    by["ln_pressure"] = adjoint.by_log_pressure
-    moduli = {
-        "ln_storage": bands.sums(adjoint.by_modulus(storage)) / friction,
-        "ln_loss": bands.sums(adjoint.by_modulus(loss)) / friction,
-        "ln_modulus": adjoint.by_log_terms() / friction,
+    attributes = {
+        "title": "Derivatives of the friction of a direct contact",
+        "status": str(contact.status),
+        "bands_per_decade": per_decade,
+        "settled": int(contact.by_scale is not None),
+        "rubber": f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
+        "nominal_pressure": contact.nominal_pressure,
+        "speed": contact.speed,
     }
-    cut_off = contact.cut_off_exponents.friction
-    return (
-        {"temperature": math.nan}
-        | moduli
-        | {name: value / friction for name, value in by.items()}
-        | {"ln_cut_off": cut_off}
-    )
-
-
-def _area_derivatives(contact: RoughContact, bands: Bands) -> Derivatives:
-    differences = ContactFractionDifferences(contact)
-    moduli = {
-        name: np.array(
-            [
-                differences.by_modulus(np.where(bands.of_wave == band, change, 0.0))
-                for band in range(bands.centre.size)
-            ]
-        )
-        for name, change in zip(("ln_storage", "ln_loss"), modulus_changes(contact), strict=True)
-    }
-    scalars = {
-        name: differences.by_modulus(change) for name, change in scalar_changes(contact).items()
-    }
-    return (
-        {"temperature": math.nan}
-        | moduli
-        | scalars
-        | {
-            "ln_pressure": differences.by_log_pressure(),
-            "ln_cut_off": contact.cut_off_exponents.contact_fraction,
-        }
-    )
-
-
-def derivative_variables(
-    quantity: str, derivatives: Derivatives, source: str = _SOURCE
-) -> dict[str, xr.Variable]:
-    """Return derivatives of "friction" or "contact_fraction" by their names in a Dataset."""
-    symbol = quantity.replace("_", " ")
-    return {
-        f"d_ln_{quantity}_d_{name}": labelled(
-            () if np.ndim(value) == 0 else "term" if name == "ln_modulus" else "frequency",
-            value,
-            TEXTS[name][0],
-            f"d ln {symbol} by {TEXTS[name][1]}",
-            source,
-        )
-        for name, value in derivatives.items()
-    }
+    return xr.Dataset(data, coordinates, attributes | provenance.version_attributes())

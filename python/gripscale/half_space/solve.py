@@ -239,7 +239,7 @@ def _known_level(start: RoughContact, heights: PeriodicHeights) -> KnownLevels:
         raise InputError("start must be a contact of the same surface with the same cut-off")
     level = Level(start.grid, start.smallest_wavelength)
     contact = GridContact(start.pressure, start.gap, start.active, 0, settled=True)
-    return {level.key: LevelContact(level, start.height, contact, start.grids[-1])}
+    return {level: LevelContact(level, start.height, contact, start.grids[-1])}
 
 
 def _solve_sequence(
@@ -275,6 +275,15 @@ def _solve_sequence(
             plan.append(following)
 
     contact, record, height = solved.contact, solved.record, solved.height
+    status = Status.CONVERGED if _met(_same_surface(grids), goal) else Status.TOLERANCE_NOT_MET
+    if not in_time:
+        status = Status.TIME_LIMIT
+    elif not np.isfinite(contact.pressure).all():
+        status = Status.NOT_FINITE
+    elif not record.settled:
+        status = Status.ACTIVE_SET_NOT_SETTLED
+    elif record.in_contact < FEWEST_IN_CONTACT:
+        status = Status.CONTACT_TOO_NARROW
     area_error, friction_error = errors(_same_surface(grids))
     violation = np.where(contact.active, np.abs(contact.gap), np.maximum(-contact.gap, 0.0))
     rms = float(np.sqrt(np.mean(height**2)))
@@ -288,7 +297,7 @@ def _solve_sequence(
         friction_from_dissipation=record.friction_from_dissipation,
         contact_fraction_error=area_error,
         friction_error=friction_error,
-        status=_status(solved, grids, goal) if in_time else Status.TIME_LIMIT,
+        status=status,
         residuals={
             "pressure": contact.missing,
             "gap": float(violation.max() / rms) if rms > 0.0 else 0.0,
@@ -305,16 +314,6 @@ def _solve_sequence(
         by_scale=body.by_scale,
     )
     return GridSequenceResult(result, {**sequence.start, **sequence.solved})
-
-
-def _status(solved: LevelContact, grids: list[GridRecord], goal: float) -> Status:
-    if not np.isfinite(solved.contact.pressure).all():
-        return Status.NOT_FINITE
-    if not grids[-1].settled:
-        return Status.ACTIVE_SET_NOT_SETTLED
-    if grids[-1].in_contact < FEWEST_IN_CONTACT:
-        return Status.CONTACT_TOO_NARROW
-    return Status.CONVERGED if _met(_same_surface(grids), goal) else Status.TOLERANCE_NOT_MET
 
 
 def _judged(contact: RoughContact, goal: float) -> Status:

@@ -23,9 +23,9 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
-from gripscale.surface.periodic import one_period as one_period
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import fill_gaps
+from gripscale.surface.resampling import one_period as one_period
 
 LEAST_VALID = 0.5
 """Share of heights that a window must have."""

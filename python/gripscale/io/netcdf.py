@@ -26,20 +26,6 @@ ENGINE: Final = "netcdf4"
 _SEAL: Final = b"\ngripscale sha256 "
 _SEAL_LENGTH: Final = len(_SEAL) + 65
 _PART: Final = 1 << 20
-"""Bytes read together."""
-
-
-RENAMED: Final = {
-    "storage_factor": "storage_modulus_ratio",
-    "loss_factor_left": "loss_modulus_ratio",
-    "beyond_sweep": "strain_extrapolated",
-    "beyond_shift": "temperature_extrapolated",
-    "rubber_beyond_shift": "rubber_temperature_extrapolated",
-    "warming_uniform": "flash_temperature_rise_uniform",
-    "warming_larger_waves": "flash_temperature_rise_larger_waves",
-    "warming_own": "flash_temperature_rise_own",
-}
-"""Variables by their names in files of version 0.1; a file is read with the new names."""
 
 
 def save(
@@ -73,7 +59,7 @@ def load_dataset(path: str | Path) -> xr.Dataset:
     import xarray as xr
 
     with _reading(path) as file:
-        return _with_new_names(xr.load_dataset(file, engine=ENGINE))
+        return xr.load_dataset(file, engine=ENGINE)
 
 
 def load_tree(path: str | Path) -> xr.DataTree:
@@ -84,14 +70,7 @@ def load_tree(path: str | Path) -> xr.DataTree:
     import xarray as xr
 
     with _reading(path) as file, xr.open_datatree(file, engine=ENGINE) as tree:
-        tree.load()
-        # A node that got another dataset would no longer be closed with the tree.
-        nodes = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
-        return xr.DataTree.from_dict({name: _with_new_names(data) for name, data in nodes.items()})
-
-
-def _with_new_names(data: xr.Dataset) -> xr.Dataset:
-    return data.rename({name: RENAMED[name] for name in RENAMED if name in data.data_vars})
+        return tree.load()
 
 
 @contextmanager

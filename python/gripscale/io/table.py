@@ -106,7 +106,6 @@ class Column:
     heading: str | None = None
     """Printed above it; `name` without a heading."""
     unit: str = ""
-    """Printed below the heading."""
     size: float = 1.0
     """Of the unit, in SI units."""
     zero: float = 0.0
@@ -123,7 +122,6 @@ class Column:
     words: bool | None = None
     """Whether it is set as text: to the left, wrapped; by default if it holds texts."""
     joint: str = " to "
-    """Between the two ends of a range."""
 
     def of(self, values: Any, **changes: Any) -> Column:
         """Return this column with `values`, and further fields changed."""
@@ -161,7 +159,7 @@ class Column:
         return self.format((number - self.zero) / self.size)
 
     def mark(self, row: int) -> str:
-        """Return the mark of a row."""
+        """Return the text behind the number of a row."""
         return self.marks[row] if len(self.marks) else ""
 
     def raw(self) -> list[tuple[str, list[Any]]]:
@@ -194,19 +192,13 @@ class Table:
     name: str
     """Good for a file, a sheet or an anchor."""
     columns: Sequence[Column]
-    """All of the same length."""
     caption: str = ""
-    """One line above it."""
     notes: Sequence[str] = ()
-    """Sentences below it."""
     keys: int = 1
     """Leading columns that every part of a table divided for the terminal begins with."""
     bad: Flags = ()
-    """Flags of rows that must not be trusted."""
     strong: Collection[int] = ()
-    """Rows that are emphasised."""
     rules: Collection[int] = ()
-    """Rows with a line below them."""
     kind: ClassVar[str] = "table"
 
     def __len__(self) -> int:
@@ -262,7 +254,6 @@ class Table:
         yield [*keys, *part]
 
     def _lines(self, columns: Sequence[Column], width: int) -> Iterator[tuple[Any, ...]]:
-        """Yield the lines of one part of the table, each made of pieces of text and style."""
         gap = " " * (2 if _width(columns, 2) <= width else 1)
         widths = _widths(columns)
         # words take what the numbers leave, each column in proportion to what it lacks
@@ -359,7 +350,6 @@ def _bound(head: str) -> str:
 
 
 def _heading(column: Column) -> list[str]:
-    """Return the lines of the heading, the unit last."""
     widest = WIDEST_WORDS if column.as_words else WIDEST_HEAD
     lines = textwrap.wrap(column.head, widest) or [""]
     return [*lines, *([column.unit] if column.unit else [])]
@@ -386,12 +376,10 @@ def _width(columns: Sequence[Column], gap: int) -> int:
 
 
 def _placed(text: str, column: Column, width: int) -> str:
-    """Return a text in its column: words to the left, numbers to the right."""
     return text.ljust(width) if column.as_words else text.rjust(width)
 
 
 def _group_line(columns: Sequence[Column], widths: Sequence[int], gap: str) -> str:
-    """Return the line with the names of groups above their columns."""
     line, start = "", 0
     for group, members in itertools.groupby(range(len(columns)), lambda at: columns[at].group):
         places = list(members)
@@ -426,10 +414,7 @@ def as_text(*parts: str | Table, width: int = 100) -> str:
 
 
 def write_csv(table: Table, path: Path) -> Path:
-    """Write a table as CSV: commas, points, UTF-8, numbers to their last digit; return the path.
-
-    Missing values are empty cells. Raises `FileError` if it cannot be written.
-    """
+    """Write a table as CSV: commas, points, UTF-8, all digits, empty cells for missing values."""
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:

@@ -14,6 +14,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -30,8 +31,9 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import MOST, short_repr, shortened, whole
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError, using_extra
 from gripscale.core.units import spelled
+from gripscale.core.wording import CaseKey, Words
 
 Line = tuple[int, str]
 """A line with its number in the file, from 1."""
@@ -85,7 +87,6 @@ def cells_of(line: str, separator: str | None) -> list[str]:
 
 
 EXCEL = (".xlsx", ".xlsm")
-"""Suffixes of Excel files."""
 
 _Rows = list[tuple[object, ...]]
 
@@ -96,30 +97,15 @@ def is_excel(path: Path) -> bool:
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
-    """Return the rows of each sheet by its name, in the order of the file.
-
-    Raises `FileError` if openpyxl is missing (`pip install 'gripscale[export]'`), or the file is no
-    xlsx file or has no sheet of cells.
-    """
-    if path.is_dir():
-        raise FileError(f"{path}: expected a file; got a directory")
-    if not path.is_file():
-        raise FileError(f"{path}: cannot be read (no such file)")
-    if not path.stat().st_size:
+    """Return the rows of each sheet by its name, in the order of the file."""
+    content = read_bytes(path)
+    if not content:
         raise FileError(f"{path}: expected an xlsx file; got an empty file")
-    try:
+    with using_extra("export", f"{path}: xlsx", "openpyxl", kind=FileError):
         openpyxl = import_module("openpyxl")
-    except ImportError as error:
-        raise FileError(
-            f"{path}: xlsx needs openpyxl, which is not installed; "
-            "install it with: pip install 'gripscale[export]'"
-        ) from error
     try:
-        with path.open("rb") as file:  # openpyxl leaves files open that it cannot read
-            book = openpyxl.load_workbook(file, read_only=True, data_only=True)
-            sheets = {
-                sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets
-            }
+        book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+        sheets = {sheet.title: list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets}
     except Exception as error:  # openpyxl, zipfile and the XML parser each fail in their own way
         raise FileError(
             f"{path}: expected an xlsx file; got a damaged file or another kind with this ending: "
@@ -133,9 +119,7 @@ def read_sheets(path: Path) -> dict[str, _Rows]:
 def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
     """Return a sheet as lines whose cells are parted by tabs, without its empty columns.
 
-    Without a `sheet`, by name or number from 1, the one that holds rows of numbers. Raises
-    `FileError` as `read_sheets` does, `InputError` if there is no such sheet, or several hold rows
-    of numbers and none is named.
+    Without a `sheet`, by name or number from 1, the one that holds rows of numbers.
     """
     sheets = {}
     for name, rows in read_sheets(path).items():
@@ -151,8 +135,12 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
         full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
         if len(full) > 1:
             raise InputError(
-                f"{path}: sheet must be given, because {len(full)} sheets hold rows of numbers "
-                f"({', '.join(full)})",
+                Words(
+                    f"{path}: ",
+                    CaseKey("sheet"),
+                    f" must be given, because {len(full)} sheets hold rows of numbers "
+                    f"({', '.join(full)})",
+                ),
                 missing="sheet",
             )
         return sheets[full[0]] if full else next(iter(sheets.values()))
@@ -170,12 +158,10 @@ def _cell_text(value: object) -> str:
 _BINARY = {
     b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
     b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
-    b"%PDF": "a PDF",
 }
 """Binary files that are mistaken for text, by their first bytes."""
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
-"""Largest number of lines above the rows."""
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
@@ -203,7 +189,6 @@ class TextTable:
 
     path: Path
     columns: list[ColumnTitle]
-    """Title of each column, empty if the file has no titles."""
     rows: list[list[str]]
     line_numbers: list[int]
     decimal: str
@@ -220,11 +205,7 @@ class TextTable:
         return shortened(", ".join(self.names))
 
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
-        """Return a column of numbers; with `missing`, NaN where a value is missing.
-
-        Raises `FileError`, with the line and what was `expected`, for the first other cell or
-        number beyond `MOST`.
-        """
+        """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
         cells = self._cells(column)
         if missing:
             cells = ["nan" if cell.lower() in MISSING else cell for cell in cells]
@@ -255,7 +236,6 @@ class TextTable:
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
     def _cells(self, column: int) -> list[str]:
-        """Return the cells of a column, their decimal sign a point."""
         cells = [row[column] for row in self.rows]
         return [cell.replace(",", ".") for cell in cells] if self.decimal == "," else cells
 
@@ -273,10 +253,6 @@ def read_table(
     `expected` is the content of the rows, for messages. A line with a unit of one of the `kinds` of
     `gripscale.core.units`, or a name of a column by `named`, holds the titles. `sheet` is the name
     of the Excel sheet or its number from 1, where several hold numbers.
-
-    Raises `FileError`, which names path and line, if the file cannot be read, is not text or has no
-    rows, a row has another number of cells than the first, or the decimal sign changes;
-    `InputError` if `sheet` is missing or is not in the file.
     """
     return table_in(path, read_lines(path, sheet=sheet), expected, kinds=kinds, named=named)
 
@@ -287,9 +263,6 @@ def read_lines(
     """Return the lines of a text file or of a sheet of an Excel file that are not empty.
 
     Rows of numbers among the first `header` lines are turned into comments.
-
-    Raises `FileError` and `InputError` as `read_table` does, and `InputError` if `header` is no
-    number of lines.
     """
     above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
     if is_excel(path):
@@ -311,10 +284,7 @@ def read_lines(
 
 
 def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextTable | None:
-    """Return the one number of each of `lines`, with the title above; None if they are no such.
-
-    `kinds` are those of its unit. Raises `FileError` if the decimal sign changes.
-    """
+    """Return the one number of each of `lines`, with the title above; None if they are no such."""
     titles: list[ColumnTitle] = []
     numbers: list[int] = []
     cells: list[list[str]] = []
@@ -464,7 +434,6 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
 
 
 def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
-    """Return the decimal sign that all numbers of the file use."""
     first: dict[str, tuple[int, str]] = {}
     for sign, form in ((",", COMMA_NUMBER), (".", _NUMBER)):
         for at, row in enumerate(rows):
@@ -484,7 +453,6 @@ def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
 def _columns(
     above: list[str], count: int, kinds: Collection[str], named: Callable[[str], bool]
 ) -> list[ColumnTitle]:
-    """Return names and units of the columns from the lines `above` the rows."""
     columns, units = [ColumnTitle()] * count, [""] * count
     for cells in filter(None, (_titles(line, count) for line in above)):
         bare = [cell.strip("()[] ") for cell in cells]

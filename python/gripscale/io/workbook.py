@@ -16,16 +16,12 @@ if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet
 
 _MOST_ROWS = 1_048_576
-"""Rows of an Excel sheet, its heading included."""
 MOST_LETTERS = 32_767
-"""Letters of an Excel cell."""
 MOST_TITLE = 31
-"""Letters of the title of an Excel sheet."""
 CUT = " ... [cut: longer than a cell of a workbook; csv has all of it]"
 _NO_LETTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 """What XML 1.0 cannot hold."""
 _WIDEST = 40
-"""Letters of the widest column."""
 
 
 def write_workbook(tables: Sequence[Table], path: Path) -> Path:
@@ -49,31 +45,28 @@ def write_workbook(tables: Sequence[Table], path: Path) -> Path:
     def write(part: Path) -> None:
         with part.open("wb") as file, xlsxwriter.Workbook(file) as book:
             for title, rows in zip(titles, sheets, strict=True):
-                _fill(book.add_worksheet(title), rows)
+                sheet = book.add_worksheet(title)
+                sheet.freeze_panes(1, 0)
+                for column, heading in enumerate(rows[0]):
+                    sheet.set_column(column, column, min(max(len(heading) + 2, 9), _WIDEST))
+                for row, values in enumerate(rows):
+                    for column, value in enumerate(values):
+                        _write_cell(sheet, row, column, value)
 
     return write_whole(path, write)
 
 
-def _fill(sheet: Worksheet, rows: Sequence[Sequence[Any]]) -> None:
-    """Write rows into a sheet, the titles of the columns first."""
-    sheet.freeze_panes(1, 0)
-    for column, title in enumerate(rows[0]):
-        sheet.set_column(column, column, min(max(len(title) + 2, 9), _WIDEST))
-    for row, values in enumerate(rows):
-        for column, value in enumerate(values):
-            if value is None:
-                continue
-            if isinstance(value, float | int) and math.isfinite(value):
-                write = sheet.write_boolean if isinstance(value, bool) else sheet.write_number
-                write(row, column, value)
-            else:  # a text stays a text, whatever it begins with
-                sheet.write_string(row, column, _short_text(str(value)))
-
-
-def _short_text(text: str) -> str:
-    """Return a text that fits into a cell."""
-    plain = _NO_LETTER.sub("?", text)
-    return plain if len(plain) <= MOST_LETTERS else plain[: MOST_LETTERS - len(CUT)] + CUT
+def _write_cell(sheet: Worksheet, row: int, column: int, value: Any) -> None:
+    """Write a number, truth or text, which is cut where it is longer than a cell."""
+    if isinstance(value, bool):
+        sheet.write_boolean(row, column, value)
+    elif isinstance(value, float | int) and math.isfinite(value):
+        sheet.write_number(row, column, value)
+    elif value is not None:  # a text stays a text, whatever it begins with
+        text = _NO_LETTER.sub("?", str(value))
+        if len(text) > MOST_LETTERS:
+            text = text[: MOST_LETTERS - len(CUT)] + CUT
+        sheet.write_string(row, column, text)
 
 
 def _sheet_titles(names: Sequence[str]) -> list[str]:

@@ -18,8 +18,8 @@ from .chain.charts import effects_figure as effects_figure
 from .chain.charts import heat_figure as heat_figure
 from .chain.charts_of_blocks import block_figure as block_figure
 from .chain.charts_of_blocks import blocks_figure as blocks_figure
+from .compare.comparison import SolvedLadder as SolvedLadder
 from .compare.comparison import at_measured as at_measured
-from .compare.comparison_dataset import SolvedLadder as SolvedLadder
 from .compare.ladder import LADDER as LADDER
 from .compare.ladder import ComparisonSetup as ComparisonSetup
 from .compare.ladder import Rung as Rung
@@ -38,6 +38,7 @@ from .inputs.charts_of_rubber import superposition_figure as superposition_figur
 from .inputs.charts_of_rubber import superposition_tests_figure as superposition_tests_figure
 from .inputs.charts_of_surface import correlation_figure as correlation_figure
 from .inputs.charts_of_surface import profile_figure as profile_figure
+from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity
 from .uncertainty.first_order import first_order as first_order

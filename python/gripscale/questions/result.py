@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from gripscale.charts.chart import Drawing
+    from gripscale.charts.draw import Drawing
     from gripscale.core.finding import Finding
     from gripscale.report.elements import Page
 
@@ -73,9 +73,12 @@ class Result(ABC):
         """The answer in words: what to believe, then what it rests on."""
 
     @property
-    @abstractmethod
     def findings(self) -> Sequence[Finding]:
-        """What may change the result, the most important first."""
+        """What may change the result, the most important first; at least what its inputs tell."""
+        from gripscale.questions.answer.findings import case_notices
+        from gripscale.questions.inputs.page_record import InputRecord
+
+        return tuple(case_notices(None, InputRecord(self.inputs)))
 
     def parts(self) -> Iterator[str | Table]:
         """Yield tables and sentences that stand below the answer."""
@@ -94,7 +97,7 @@ class Result(ABC):
 
         Raises `InputError` if there is nothing to draw.
         """
-        from gripscale.charts.chart import Drawing
+        from gripscale.charts.draw import Drawing
 
         _, figure = next(self.figures(), ("", None))
         if figure is None:

@@ -9,7 +9,6 @@ from gripscale.core.provenance import versions
 from gripscale.report.elements import Code, Element, Facts, Section, Text
 
 _KEY = "prediction_key"
-"""Attribute of a result: the key of its prediction."""
 
 
 def case_name(attrs: dict[Any, Any]) -> str:

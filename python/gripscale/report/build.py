@@ -1,51 +1,40 @@
-"""From a result to the file: read, compose, render, write."""
+"""From a page to its file: render and write."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
-from functools import lru_cache
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from bokeh.resources import Resources
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from gripscale.charts.bokeh_parts import document
 from gripscale.core.errors import FileError
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.report.elements import Page, with_code
-from gripscale.report.source import page_of, read_result
-
-_REPORT = "report.html"
-
-
-def build(result: Path, output: Path | None) -> Path:
-    """Write the report of `result` to `output`, by default into the folder of the result."""
-    source = read_result(result)
-    if output is None:
-        output = (result if result.is_dir() else result.parent) / _REPORT
-    return write(page_of(source), output)
 
 
 def write(page: Page, output: Path) -> Path:
     """Write a page; raise `FileError` if that fails."""
     if not output.parent.is_dir():
         raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
-    text = render(page)
-
-    def write_text(path: Path) -> None:
-        path.write_text(text, encoding="utf-8")
-
-    return write_whole(output, write_text)
+    return write_text(output, render(page))
 
 
 def render(page: Page) -> str:
     """Return `page` as HTML; all texts in it are escaped by the template."""
-    library, script = _bokeh(), "\n".join(map(_template_file, ("outlines.js", "page.js")))
-    style = "\n".join(map(_template_file, ("page.css", "elements.css", "media.css")))
-    return _template().render(
+    # Bokeh's core script alone: widgets, tables and WebGL are not needed
+    resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
+    library = "\n".join(resources.js_raw)
+    room, styles = "gripscale.report", ("page.css", "elements.css", "media.css")
+    script = "\n".join(template_text(room, name) for name in ("outlines.js", "page.js"))
+    template = templates(room).get_template("page.html")
+    return template.render(
         page=page,
         # the template turns plain data into JSON without any markup
         figures={
@@ -53,40 +42,27 @@ def render(page: Page) -> str:
             "document": document([chart.figure for chart in page.charts]),
         },
         library=Markup(library),
-        style=Markup(style),
+        style=Markup("\n".join(template_text(room, name) for name in styles)),
         script=Markup(script),
         policy=_policy(library, script),
     )
 
 
-@lru_cache(maxsize=1)
-def _template() -> Template:
-    environment = Environment(
-        loader=PackageLoader("gripscale.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+@cache
+def templates(package: str) -> Environment:
+    """Return the templates of a room."""
+    options: Any = {"trim_blocks": True, "lstrip_blocks": True, "undefined": StrictUndefined}
+    environment = Environment(loader=PackageLoader(package), autoescape=True, **options)
     environment.filters["with_code"] = with_code
     # Bokeh's figures name an object where it first occurs: the order of keys matters.
-    environment.policies["json.dumps_kwargs"] = {
-        "sort_keys": False,
-        "separators": (",", ":"),
-        "allow_nan": False,
-    }
-    return environment.get_template("page.html")
+    settings = {"sort_keys": False, "separators": (",", ":"), "allow_nan": False}
+    environment.policies["json.dumps_kwargs"] = settings
+    return environment
 
 
-@lru_cache(maxsize=1)
-def _bokeh() -> str:
-    """Return Bokeh's core script; widgets, tables and WebGL are not needed."""
-    resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
-    return "\n".join(resources.js_raw)
-
-
-def _template_file(name: str) -> str:
-    return files("gripscale.report").joinpath("templates", name).read_text(encoding="utf-8")
+def template_text(package: str, name: str) -> str:
+    """Return a script or style of a room."""
+    return files(package).joinpath("templates", name).read_text(encoding="utf-8")
 
 
 def _policy(*scripts: str) -> str:

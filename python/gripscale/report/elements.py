@@ -74,7 +74,6 @@ class Section:
     title: str
     elements: Sequence[Element]
     folded: bool = False
-    """Whether the reader has to open it."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,6 @@ class Page:
     title: str
     subtitle: str
     notices: Sequence[Finding]
-    """Ranked."""
     cards: Sequence[Card]
     sections: Sequence[Section] = field(default_factory=tuple)
     basis: Sequence[str] = ()
@@ -134,9 +132,7 @@ class Page:
     @property
     def notices_open(self) -> list[Finding]:
         """The first few warnings, below the numbers."""
-        return [
-            each for each in open_and_folded(self.notices)[0] if each.severity != Severity.ERROR
-        ]
+        return open_and_folded(self.notices)[0][len(self.errors) :]
 
     @property
     def notices_folded(self) -> list[Finding]:

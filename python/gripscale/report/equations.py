@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 import io
 import re
-from functools import lru_cache
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -111,26 +111,24 @@ _EQUATIONS = [
 ]
 
 
-@lru_cache(maxsize=1)
-def method_equations() -> tuple[Equation, ...]:
-    """Return the equations of the method, in the order of the chain."""
-    return tuple(
-        Equation(name, latex, *_embedded(picture(name)), words, source)
-        for name, latex, words, source in _EQUATIONS
-    )
+@cache
+def method_equations() -> list[Equation]:
+    """Return the equations of the method, in the order of the chain, with pictures in base64."""
+    equations = []
+    for name, latex, words, source in _EQUATIONS:
+        svg = picture(name)
+        sizes = re.search(r'<svg[^>]* width="([\d.]+)pt" height="([\d.]+)pt"', svg)
+        assert sizes is not None
+        width, height = (round(float(points) * 4.0 / 3.0) for points in sizes.groups())
+        data = base64.b64encode(svg.encode("utf-8")).decode("ascii")
+        equations.append(Equation(name, latex, data, width, height, words, source))
+    return equations
 
 
 def picture(name: str) -> str:
     """Return the picture of an equation, SVG."""
     stored = files("gripscale.report").joinpath("templates", "equations", f"{name}.svg")
     return stored.read_text(encoding="utf-8")
-
-
-def _embedded(svg: str) -> tuple[str, int, int]:
-    """Return a picture in base64, with width and height [px]."""
-    sizes = [re.search(rf'<svg[^>]* {side}="([\d.]+)pt"', svg) for side in ("width", "height")]
-    width, height = (round(float(size[1]) * 4.0 / 3.0) for size in sizes if size is not None)
-    return base64.b64encode(svg.encode("utf-8")).decode("ascii"), width, height
 
 
 def draw_equations(latex: str) -> str:
@@ -143,13 +141,9 @@ def draw_equations(latex: str) -> str:
     with mpl.rc_context(rules):
         figure = Figure()
         figure.text(0.0, 0.0, f"${latex}$", fontsize=_POINTS)
-        look: dict[str, Any] = {
-            "format": "svg",
-            "bbox_inches": "tight",
-            "pad_inches": 0.02,
-            "transparent": True,
-        }
-        figure.savefig(drawn, metadata={"Date": None, "Creator": None}, **look)
+        look: dict[str, Any] = {"bbox_inches": "tight", "pad_inches": 0.02, "transparent": True}
+        metadata = {"Date": None, "Creator": None}
+        figure.savefig(drawn, format="svg", metadata=metadata, **look)
     return drawn.getvalue()
 
 

@@ -14,7 +14,7 @@ class Failure:
 
     sentence: str
     word: str = ""
-    """Of its `Status`; empty if there is none, or the file is of an older version."""
+    """Of its `Status`; empty if there is none."""
 
     @property
     def status(self) -> Status | None:

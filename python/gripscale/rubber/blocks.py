@@ -18,27 +18,14 @@ from pathlib import Path
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
-from gripscale.io.text_table import (
-    ColumnTitle,
-    Line,
-    TextTable,
-    is_row,
-    parse_number,
-    read_lines,
-    table_in,
-)
-from gripscale.rubber.columns import (
-    FileLayout,
-    quantity,
-    raised,
-    stated_temperature,
-    with_logarithms,
-    with_primes,
-)
+from gripscale.core.wording import CaseKey, Words
+from gripscale.io import text_table
+from gripscale.io.text_table import ColumnTitle, Line, TextTable, parse_number
+from gripscale.rubber import columns
+from gripscale.rubber.columns import FileLayout, quantity, stated_temperature
 from gripscale.rubber.shift import WLF
 
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
-"""Kinds of quantities whose units titles may hold."""
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _STEP = re.compile(r"\[\w+\]")
 """Begins a step of a file of TRIOS: [step]."""
@@ -53,15 +40,15 @@ class Block:
     temperature: float | None = None
     """Temperature [K]."""
     shift: WLF | None = None
-    """Time-temperature shift."""
+
+    def states_temperature(self, layout: FileLayout) -> bool:
+        """Return whether a line above the table, or a column, states the temperature."""
+        return self.temperature is not None or layout.column(self.table, "temperature") is not None
 
 
 def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
-    """Return the tables of a file, in its order; errors as of `read_sweeps`.
-
-    `temperature_unit` is that of temperatures above a table which have none.
-    """
-    lines = read_lines(path, sheet=layout.sheet, header=layout.header)
+    """Return the tables of a file; `temperature_unit` is that of temperatures that state none."""
+    lines = text_table.read_lines(path, sheet=layout.sheet, header=layout.header)
     return blocks_in(path, lines, layout, temperature_unit=temperature_unit)
 
 
@@ -70,7 +57,7 @@ def blocks_in(
 ) -> list[Block]:
     """Return the tables in `lines` of the file `path`, as `read_blocks` does."""
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
-    lines = [(number, with_logarithms(with_primes(line))) for number, line in lines]
+    lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []
@@ -85,17 +72,13 @@ def blocks_in(
             titles = []  # those of another step are not its own
         whole = [*titles, *rows] if titles else [*above, *rows]
         blocks.append(Block(_table(path, whole, expected), temperature))
-    blocks = blocks or [Block(_table(path, lines, expected))]
-    return _with_moduli(blocks, layout) or blocks if len(blocks) > 1 else blocks
-
-
-def _with_moduli(blocks: list[Block], layout: FileLayout) -> list[Block]:
-    """Return the blocks of frequency and modulus, without steps that condition the sample."""
-    kept = []
+    if len(blocks) < 2:
+        return blocks or [Block(_table(path, lines, expected))]
+    with_moduli = []  # without steps that condition the sample
     for block in blocks:
         with suppress(InputError):
-            kept += [block] if layout.suffices(block.table) else []
-    return kept
+            with_moduli += [block] if layout.suffices(block.table) else []
+    return with_moduli or blocks
 
 
 def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line], list[Line]]]:
@@ -107,7 +90,7 @@ def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line],
         # A line below rows that begins with a number is a row with a fault, to be named later.
         first = parse_number(re.split(r"[\t;,\s]", line[1].strip(), maxsplit=1)[0])
         broken = bool(rows) and first is not None and first == first
-        if not is_row(line[1]) and not broken:
+        if not text_table.is_row(line[1]) and not broken:
             between.append(line)
             continue
         begins = any(
@@ -148,8 +131,12 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
         chosen = unit if spelled(written, "temperature") is None else written
         if chosen is None:
             raise InputError(
-                f"{path}, line {number}: temperature_unit must be given ({listed('temperature')}), "
-                f"because the line states none with {value}",
+                Words(
+                    f"{path}, line {number}: ",
+                    CaseKey("temperature_unit"),
+                    f" must be given ({listed('temperature')}), because the line states none with "
+                    f"{value}",
+                ),
                 missing="temperature_unit",
             )
         degrees = float(value.replace(",", "."))
@@ -158,14 +145,14 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
 
 
 def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
-    table = table_in(
+    table = text_table.table_in(
         path,
         lines,
         "rows of frequency, storage and loss",
         kinds=KINDS,
         named=lambda name: quantity(name) is not None or name in expected,
     )
-    return raised(table)
+    return columns.raised(table)
 
 
 def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
@@ -188,14 +175,14 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
         others = [ColumnTitle()] * (len(table.columns) - len(_REPTATE))
         table = replace(table, columns=[*_REPTATE, *others])
     units = {quantity(title.name): title.unit for title in _REPTATE}
-    columns = [
+    titles = [
         replace(title, unit=title.unit or units.get(quantity(title.name)))
         for title in table.columns
     ]
     numbers = {key: number for key, text in parameters.items() if (number := parse_number(text))}
     isofrictional = parameters.get("iso", parameters.get("isof", "true")).lower() == "true"
     return Block(
-        replace(table, columns=columns),
+        replace(table, columns=titles),
         celsius + ZERO_CELSIUS,
         _reptate_shift(numbers, celsius, isofrictional),
     )

@@ -38,9 +38,8 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import listed, quantity_in_si, spelled
-from gripscale.io.text_table import (
-    TextTable,
-)
+from gripscale.core.wording import CaseKey, Words
+from gripscale.io.text_table import TextTable
 
 _TITLES = {
     meaning: re.compile(pattern)
@@ -53,6 +52,10 @@ _TITLES = {
         "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul",
         "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
     }.items()
+}
+_KINDS = {
+    "E": re.compile(r"(?<![A-Za-z])E(?![A-Za-z])|(?i:young|tensile)"),
+    "G": re.compile(r"(?<![A-Za-z])G(?![A-Za-z])|(?i:shear|schub)"),
 }
 _LOGARITHM = re.compile(
     r"(?<![A-Za-z])(log10|log|lg|ln)(?:[\s_]*\(([^()]*)\)|[\s_]+(?=[A-Za-zωγ|]))", re.IGNORECASE
@@ -79,7 +82,7 @@ _STATED = re.compile(
 
 def quantity(name: str) -> str | None:
     """Return the quantity a column `name` clearly means, else None."""
-    text = _SHIFTED.sub("", plain_title(name))
+    text = _SHIFTED.sub("", name.strip().translate(_PRIMES))
     if logarithm := _RAISED.fullmatch(text):
         return quantity(logarithm[2])
     if _PHASE.fullmatch(text):
@@ -96,18 +99,8 @@ def quantity(name: str) -> str | None:
 
 def modulus_kind(name: str) -> str | None:
     """Return `E` or `G` if the column `name` says which modulus it is, else None."""
-    text = plain_title(name)
-    kinds = set()
-    for kind, words in (("E", "young|tensile"), ("G", "shear|schub")):
-        letter = re.search(rf"(?<![A-Za-z]){kind}(?![A-Za-z])", text.replace("_", " "))
-        if letter or re.search(words, text, re.IGNORECASE):
-            kinds.add(kind)
-    return kinds.pop() if len(kinds) == 1 else None
-
-
-def plain_title(name: str) -> str:
-    """Return the name with one kind of prime, so that E'' can be told from E'."""
-    return name.strip().translate(_PRIMES)
+    kinds = [kind for kind, pattern in _KINDS.items() if pattern.search(name)]
+    return kinds[0] if len(kinds) == 1 else None
 
 
 def with_primes(line: str) -> str:
@@ -150,10 +143,7 @@ def raised(table: TextTable) -> TextTable:
 
 
 def stated_temperature(line: str) -> tuple[str, str | None] | None:
-    """Return number and unit of the temperature a line above the rows states, such as T = 20 °C.
-
-    The unit is None where the line has none. None if the line states no temperature.
-    """
+    """Return number and unit, if any, of the temperature a line states, such as T = 20 °C."""
     match = _STATED.search(line.strip())
     return None if match is None else (match["number"], match["before"] or match["after"])
 
@@ -172,12 +162,10 @@ PAIRS = (
 )
 """Two that state the modulus, the first choice first."""
 _QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
-"""What a column of a file of moduli may hold."""
 THREE = ("frequency", "storage", "loss")
 """What three columns without names hold, in this order."""
 
 _Columns = Mapping[str, str | int] | Sequence[str | int]
-"""Columns by quantity, or three of them; each by its title or its number from 1."""
 
 
 def unit_name(name: str, value: object) -> str:
@@ -187,7 +175,6 @@ def unit_name(name: str, value: object) -> str:
 
 
 ReadColumn = Callable[[TextTable, int, str], Array]
-"""Reads the column of a quantity, such as `above_zero`."""
 
 
 class FileLayout(Checked):
@@ -219,10 +206,7 @@ class FileLayout(Checked):
 
     @property
     def by_quantity(self) -> Mapping[str, str | int]:
-        """Title or number of the column of each quantity that is stated.
-
-        Raises `InputError` if `columns` are neither three columns nor a mapping of quantities.
-        """
+        """Title or number of the column of each quantity; `InputError` for other `columns`."""
         columns = self.columns
         if columns is None:
             return {}
@@ -245,10 +229,9 @@ class FileLayout(Checked):
 
     def for_table(self, table: TextTable) -> FileLayout:
         """Return the layout of one table: without columns where its titles count and suffice."""
-        if not (self.titles_first and self.columns):
-            return self
         titles = replace(self, columns=None)
-        return titles if titles.suffices(table) else self
+        count = self.titles_first and self.columns and titles.suffices(table)
+        return titles if count else self
 
     def suffices(self, table: TextTable) -> bool:
         """Return whether frequency and modulus are in a table; `InputError` as `column`."""
@@ -256,10 +239,7 @@ class FileLayout(Checked):
         return "frequency" in quantities and any(quantities.issuperset(pair) for pair in PAIRS)
 
     def column(self, table: TextTable, wanted: str) -> int | None:
-        """Return the column of a quantity; None if no title means it and none is stated.
-
-        Raises `InputError` if several titles mean it, or there is no such column.
-        """
+        """Return the column of a quantity, or None; `InputError` if several titles mean it."""
         columns = self.by_quantity
         if wanted in columns:
             return position_of(table, columns[wanted])
@@ -269,8 +249,12 @@ class FileLayout(Checked):
         first = [row[hits[0]] for row in table.rows] if hits else []
         if any([row[at] for row in table.rows] != first for at in hits[1:]):
             raise InputError(
-                f"{table.path}: columns must say which is the {wanted}, because {len(hits)} titles "
-                f"mean it ({shortened(', '.join(table.columns[at].name for at in hits))})",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey("columns"),
+                    f" must say which is the {wanted}, because {len(hits)} titles mean it "
+                    f"({shortened(', '.join(table.columns[at].name for at in hits))})",
+                ),
                 missing="columns",
             )
         return hits[0] if hits else None
@@ -299,8 +283,11 @@ class FileLayout(Checked):
             what = "no unit" if header is None else checks.short_repr(header)
             title = shortened(table.columns[column].name) or f"column {column + 1}"
             raise InputError(
-                f"{table.path}: {kind}_unit must be given ({listed(kind)}), because the header "
-                f"states {what} of {title}",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey(f"{kind}_unit"),
+                    f" must be given ({listed(kind)}), because the header states {what} of {title}",
+                ),
                 missing=f"{kind}_unit",
             )
         return unit
@@ -313,8 +300,12 @@ class FileLayout(Checked):
             return self.modulus
         if title is None:
             raise InputError(
-                f"{table.path}: modulus must be given (E for Young's or G for shear), because the "
-                "header does not tell",
+                Words(
+                    f"{table.path}: ",
+                    CaseKey("modulus"),
+                    " must be given (E for Young's or G for shear), because the header does not "
+                    "tell",
+                ),
                 missing="modulus",
             )
         return title
@@ -326,8 +317,12 @@ def position_of(table: TextTable, column: str | int) -> int:
         return checks.counted(f"{table.path}: a column", column, len(table.columns))
     if table.names.count(column) != 1:
         raise InputError(
-            f"{table.path}: columns must be among the header's names "
-            f"({table.titles or 'no names'}); got {checks.short_repr(column)}"
+            Words(
+                f"{table.path}: ",
+                CaseKey("columns"),
+                f" must be among the header's names ({table.titles or 'no names'}); got "
+                f"{checks.short_repr(column)}",
+            )
         )
     return table.names.index(column)
 
@@ -338,7 +333,8 @@ def missing(table: TextTable, what: str) -> InputError:
     header = f"the header has {names}" if names else "no header"
     if what == "frequency":
         header += "; where no column holds it, add one, such as Frequency [Hz] with 10 in every row"
-    return InputError(f"{table.path}: columns must give the {what}; {header}", missing="columns")
+    words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
+    return InputError(words, missing="columns")
 
 
 _ROUNDING = 0.05
@@ -348,11 +344,7 @@ _ROUNDING = 0.05
 def young_moduli(
     table: TextTable, layout: FileLayout, numbers: ReadColumn | None = None
 ) -> tuple[Array, Array]:
-    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing.
-
-    Raises `InputError` if columns, units or the kind of modulus are not known, or the loss factor
-    beside E' and E'' is E'/E''.
-    """
+    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing."""
     read = numbers or above_zero
     positions = {name: layout.column(table, name) for name in MODULI}
     at = {name: position for name, position in positions.items() if position is not None}
@@ -425,10 +417,7 @@ _OFTEN = 3
 
 
 def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:
-    """Return by which factor moduli of one frequency and temperature differ, in the median.
-
-    Of E' and E'' the larger counts. One where fewer than a third of the conditions come again.
-    """
+    """Return by which factor E' or E'' of one frequency and temperature differ, in the median."""
     conditions = np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE
     _, row, count = np.unique(np.round(conditions), axis=1, return_inverse=True, return_counts=True)
     again = count > 1

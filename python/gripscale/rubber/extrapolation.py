@@ -70,8 +70,7 @@ def of_frequencies(rubber: Rubber, omega: ArrayLike) -> Extrapolation:
 def of_spectrum(rubber: Rubber, omega: ArrayLike, friction: ArrayLike) -> Extrapolation:
     """Return what of a friction lies beyond the band: `omega` [rad/s] and what each adds [-].
 
-    Both have one shape. The slowest and the fastest frequencies that `WORTH_SAYING` of the friction
-    comes from do not count in how far it goes.
+    The slowest and the fastest frequencies that `WORTH_SAYING` of it comes from count as nothing.
     """
     if rubber.valid_band is None:
         return UNKNOWN
@@ -91,11 +90,9 @@ def of_spectrum(rubber: Rubber, omega: ArrayLike, friction: ArrayLike) -> Extrap
 def by_wavelength(
     rubber: Rubber, speed: float, wavelength: Array, running_friction: Array
 ) -> Extrapolation:
-    """Return what of a friction lies beyond the band, of a model that tells it by wavelength.
+    """Return what of a friction lies beyond the band, from that of the waves down to each [m].
 
-    `speed` is that of sliding [m/s], `wavelength` falls [m] and `running_friction` is that of the
-    waves not shorter [-], both of shape (n,). What an interval adds counts at its middle, at the
-    frequency 2 pi speed/wavelength.
+    What an interval of wavelength adds counts at its middle, at 2 pi speed/wavelength.
     """
     if speed == 0.0:
         return NOTHING_BEYOND
@@ -105,10 +102,7 @@ def by_wavelength(
 
 
 def of_sum(parts: Sequence[Extrapolation], friction: ArrayLike) -> Extrapolation:
-    """Return the extrapolation of a sum of which each of `parts` adds its `friction` [-].
-
-    The share is NaN where a friction is, or all are zero.
-    """
+    """Return the extrapolation of a sum of which each of `parts` adds its `friction` [-]."""
     if not parts:
         return UNKNOWN
     weight = np.abs(np.asarray(friction, dtype=float))
@@ -134,11 +128,7 @@ def _decades(band: tuple[float, float], omega: Array) -> tuple[float, float]:
 
 
 def require_measured(rubber: Rubber, wavelength: ArrayLike, speed: float) -> None:
-    """Raise `ExtrapolationError` if a wave excites the rubber beyond its band.
-
-    Looked at are the fundamental frequencies 2 pi speed/wavelength of falling wavelengths [m] at a
-    speed [m/s]. Without a band nothing is refused, and at rest nothing is excited.
-    """
+    """Raise `ExtrapolationError` if a fundamental of falling wavelengths [m] is beyond the band."""
     lengths = np.atleast_1d(np.asarray(wavelength, dtype=float))
     omega = 2.0 * np.pi * speed / lengths
     if rubber.valid_band is None or speed == 0.0 or not rubber.outside_band(omega).any():

@@ -45,29 +45,16 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 
 
 class UniaxialTest(Checked, eq=False):
-    """A measured history of stretch with its nominal stress.
-
-    Parameters
-    ----------
-    name : str
-        What the test is called in messages and figures.
-    time : array_like, shape (samples,)
-        Rising [s], at least two samples.
-    stretch : array_like, shape (samples,)
-        Deformed over undeformed length [-], above zero; 1 at rest before the first sample.
-    stress : array_like, shape (samples,)
-        Nominal stress [Pa], somewhere above zero.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ or a value is out of range.
-    """
+    """A history of stretch with its nominal stress; `InputError` for values out of range."""
 
     name: str = checked(checks.text)
+    """What the test is called in messages and figures."""
     time: Vector = checked(checks.vector, unit="s", repr=False)
+    """Rising [s], shape (samples,), at least two samples."""
     stretch: Vector = checked(checks.positive_vector, repr=False)
+    """Deformed over undeformed length [-], shape (samples,), above zero; 1 at rest, at first."""
     stress: Vector = checked(checks.vector, unit="Pa", repr=False)
+    """Nominal stress [Pa], shape (samples,), somewhere above zero."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -93,19 +80,9 @@ class UniaxialTest(Checked, eq=False):
 def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> UniaxialTest:
     """Read a test from the first sheet of an Excel file: time [s], stretch [-], nominal stress.
 
-    Parameters
-    ----------
-    path : str or Path
-        An xlsx file whose first three columns hold numbers in every row; no header.
-    stress_unit : str
-        Unit of the third column, e.g. "kPa".
-
-    Raises
-    ------
-    FileError
-        If openpyxl is missing (`pip install 'gripscale[export]'`) or the file is not as expected.
-    InputError
-        If the unit is unknown.
+    These are the first three columns, with numbers in every row and no header; `stress_unit` is the
+    unit of the third, such as kPa. Raises `FileError` if openpyxl is missing (`pip install
+    'gripscale[export]'`) or the file is not as expected, `InputError` if the unit is unknown.
     """
     pascal = quantity_in_si(1.0, stress_unit, "modulus", "stress_unit")
     path = file_path(path)
@@ -124,27 +101,20 @@ _SMALL_STEP = 1e-3
 
 
 def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Array:
-    """Return the nominal stress [Pa] of a bar in uniaxial tension or compression.
+    """Return the nominal stress [Pa] of a bar in uniaxial tension or compression, shape (samples,).
+
+    The bulk modulus is taken as infinite. Raises `InputError` if a time falls, a stretch is not
+    positive, or the lengths differ.
 
     Parameters
     ----------
     rubber : Rubber
-        Its bulk modulus is taken as infinite.
+        The viscoelastic solid.
     time : array_like, shape (samples,)
         Times of the samples [s], not falling; two equal times make a step.
     stretch : array_like, shape (samples,)
         Deformed over undeformed length [-], above zero. Before the first sample the bar is at rest
         and undeformed: a first stretch other than 1 is a step.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-        Force over the undeformed cross-section.
-
-    Raises
-    ------
-    InputError
-        If a time falls, a stretch is not positive, or the lengths differ.
     """
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive_vector("stretch", stretch)
@@ -156,25 +126,11 @@ def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Arra
 
 
 def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Array:
-    """Return the shear stress [Pa] of a block in simple shear; nominal and true stress agree.
+    """Return the shear stress [Pa] of a block in simple shear, nominal and true, shape (samples,).
 
-    Parameters
-    ----------
-    rubber : Rubber
-        Volume does not change, so its bulk modulus does not matter.
-    time : array_like, shape (samples,)
-        Times of the samples [s], not falling; two equal times make a step.
-    shear : array_like, shape (samples,)
-        Displacement over height [-]. Before the first sample the block is at rest and undeformed.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-
-    Raises
-    ------
-    InputError
-        If a time falls, a value is not finite, or the lengths differ.
+    `shear` is displacement over height [-], shape (samples,). Volume does not change, so the bulk
+    modulus does not matter; `time` and the rest before it are as in `uniaxial_stress`. Raises
+    `InputError` if a time falls, a value is not finite, or the lengths differ.
     """
     checks.instance("rubber", rubber, Rubber)
     amount = checks.vector("shear", shear)
@@ -186,11 +142,7 @@ def simple_shear_stress(rubber: Rubber, time: ArrayLike, shear: ArrayLike) -> Ar
 
 
 def uniaxial_network_stresses(relaxation_times: Array, time: Array, stretch: Array) -> Array:
-    """Return s A_11 - s^-2 A_22, each temporary network's nominal stress over its shear modulus.
-
-    `relaxation_times` [s] has shape (terms,), `time` [s] and `stretch` [-] have shape (samples,);
-    the result [-] has shape (samples, terms).
-    """
+    """Return s A_11 - s^-2 A_22: nominal stress over shear modulus [-], shape (samples, terms)."""
     inverse = np.column_stack([stretch**-2, stretch])
     states = network_states(relaxation_times, time, inverse, rest=(1.0, 1.0))
     return np.asarray(
@@ -201,11 +153,9 @@ def uniaxial_network_stresses(relaxation_times: Array, time: Array, stretch: Arr
 def network_states(
     relaxation_times: Array, time: Array, inverse: Array, rest: tuple[float, ...]
 ) -> Array:
-    """Return the states A_i of the temporary networks along a history, by the recurrence above.
+    """Return the states A_i of the networks, (samples, terms, components), by the recurrence above.
 
-    `relaxation_times` [s] has shape (terms,), `time` [s], not falling, (samples,) and `inverse`,
-    components of C^-1 [-], (samples, components); `rest` are those of the unit tensor: the state at
-    the first time. The result has shape (samples, terms, components).
+    `inverse` are components of C^-1, (samples, components), `rest` those of the unit tensor.
     """
     step = np.diff(time)[:, None] / relaxation_times
     kept = np.exp(-step)
@@ -239,25 +189,18 @@ def _times(time: ArrayLike, driven: Array, name: str) -> Array:
 
 _LEAST_EQUILIBRIUM = 1e-3
 """The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
-
 _FASTEST = 0.01
 """Shortest fitted relaxation time, as a share of the shortest test."""
 
 
 @dataclass(frozen=True)
 class FiniteStrainFit:
-    """The rubber found, and how well it carries each test.
-
-    Attributes
-    ----------
-    rubber : Rubber
-        Elements whose fitted modulus is zero are left out.
-    tests : tuple of UniaxialTest
-        What it was fitted to.
-    """
+    """The rubber found, and how well it carries each test."""
 
     rubber: Rubber
+    """Elements whose fitted modulus is zero are left out."""
     tests: tuple[UniaxialTest, ...]
+    """What it was fitted to."""
 
     @property
     def rms_errors(self) -> Array:
@@ -303,6 +246,8 @@ def fit_finite_strain(
 ) -> FiniteStrainFit:
     """Fit one rubber to all `tests` together.
 
+    Raises `InputError` if there is no test, or an argument is out of range.
+
     Parameters
     ----------
     tests : sequence of UniaxialTest
@@ -314,15 +259,6 @@ def fit_finite_strain(
     band : tuple of two floats, optional
         Shortest and longest relaxation time [s]. Default: a hundredth of the shortest test to the
         longest test. Beyond the longest test nothing tells a slow network from a permanent one.
-
-    Returns
-    -------
-    FiniteStrainFit
-
-    Raises
-    ------
-    InputError
-        If there is no test, or an argument is out of range.
     """
     tests = checks.instances("tests", tests, UniaxialTest)
     law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]

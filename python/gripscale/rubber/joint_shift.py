@@ -28,46 +28,37 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array
 from gripscale.rubber.sweeps import Sweeps
 
-_DEGREE = 3
+_DEGREE, _SPACING = 3, 0.5
+"""Of the splines, and of their knots [decades]."""
 _PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
 """Tried, over the mean trust of a row."""
 _RIDGE = 1e-9
 """Penalty of the coefficients themselves, over the same: one row determines no straight line."""
 
 
-@dataclass(frozen=True)
-class Basis:
-    """B-splines on evenly spaced knots that reach from below `low` to above `high`."""
+def splines(x: Array) -> tuple[Array, Array, Array]:
+    """Return values and slopes of B-splines at `x`, and second differences of their coefficients.
 
-    knots: Array
+    The knots are at multiples of `_SPACING` and reach beyond `x`.
+    """
+    from scipy.interpolate import BSpline
 
-    @classmethod
-    def over(cls, low: float, high: float, spacing: float) -> Basis:
-        """Return the basis over an interval, its knots at multiples of `spacing`."""
-        first, last = np.floor(low / spacing), np.ceil(high / spacing)
-        if last - first < 1.0:
-            last = first + 1.0
-        return cls(spacing * np.arange(first - _DEGREE, last + _DEGREE + 1.0))
-
-    def at(self, x: Array, derivative: bool = False) -> Array:
-        """Return the value, or the slope, of each function at `x`, shape (rows, functions)."""
-        from scipy.interpolate import BSpline
-
-        splines = BSpline(self.knots, np.eye(len(self.knots) - _DEGREE - 1), _DEGREE)
-        return np.asarray(splines(x, nu=int(derivative), extrapolate=True))
-
-    def penalty(self) -> Array:
-        """Return second differences of the coefficients, shape (functions - 2, functions)."""
-        return np.diff(np.eye(len(self.knots) - _DEGREE - 1), n=2, axis=0)
+    first, last = np.floor(x.min() / _SPACING), np.ceil(x.max() / _SPACING)
+    if last - first < 1.0:
+        last = first + 1.0
+    knots = _SPACING * np.arange(first - _DEGREE, last + _DEGREE + 1.0)
+    each = np.eye(len(knots) - _DEGREE - 1)
+    curves = BSpline(knots, each, _DEGREE)
+    values, slopes = (np.asarray(curves(x, nu=order, extrapolate=True)) for order in (0, 1))
+    return values, slopes, np.diff(each, n=2, axis=0)
 
 
 @dataclass(frozen=True)
 class Smooth:
-    """Coefficients of a fitted curve, its penalty weight and its effective number of freedoms."""
+    """A fitted curve: coefficients, normal equations, penalty weight and effective freedoms."""
 
     coefficients: Array
     matrix: Array
-    """Of the normal equations, with the penalty."""
     weight: float
     freedoms: float
 
@@ -75,10 +66,7 @@ class Smooth:
 def smooth(
     functions: Array, penalty: Array, values: Array, trust: Array, weight: float | None = None
 ) -> Smooth:
-    """Return the curve through `values` of shape (rows,), each counted `trust` times.
-
-    `weight` is that of the penalty, the best one if not given.
-    """
+    """Return the curve through `values`, each counted `trust` times; the best `weight` if None."""
     normal = functions.T @ (trust[:, None] * functions)
     right = functions.T @ (trust * values)
     best, least = None, np.inf
@@ -143,8 +131,6 @@ def sweep_rows(sweeps: Sweeps, moduli: str) -> Rows:
 
 _AT = 1e-9
 """Distance from a limit that is rounding [decades]."""
-_SPACING = 0.5
-"""Of the knots [decades]."""
 _MOST_ITERATIONS = 60
 _FREE_PENALTY = 8
 """Iterations after which the weight of the penalty stays as it is."""
@@ -178,13 +164,15 @@ class Joint:
     """Of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held."""
     scatter: Array
     """Of each modulus about the curve, in the median sweep [decades], shape (moduli,)."""
-    correlation: float
-    """Of neighbouring residuals of one sweep."""
 
 
 def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     """Return the best shifts near a start against the middle sweep; log_b only if `lifted`."""
     held = rows.sweeps // 2
+    # limits of log_a of the colder less that of the warmer: neither may begin where the other ends
+    ends = np.array([rows.of(sweep)[0][[0, -1]] for sweep in range(rows.sweeps)])
+    least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
+    low, high = ends[1:, 0] - ends[:-1, 1] + least, ends[1:, 1] - ends[:-1, 0] - least
     shifts = np.concatenate([log_a - log_a[held], log_b - log_b[held]])
     others = np.delete(np.arange(rows.sweeps, dtype=np.intp), held)
     free = np.concatenate([others, others + rows.sweeps]) if lifted else others
@@ -195,7 +183,10 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
         last = _gauss_newton_step(rows, shifts, free, trust / scatter**2, weights)
         largest = float(np.abs(last.step).max(initial=0.0))
         shifts[free] += last.step * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
-        shifts[: rows.sweeps] = _overlapping(rows, shifts[: rows.sweeps], held)
+        # no neighbours farther apart than where they hardly overlap
+        steps = np.clip(-np.diff(shifts[: rows.sweeps]), low, high)
+        total = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
+        shifts[: rows.sweeps] = total - total[held]
         scatter, trust = _scatter(rows, last, trust)
         if iteration >= _FREE_PENALTY:
             weights = last.weights
@@ -211,13 +202,11 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     covariance = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
     covariance[np.ix_(free, free)] = last.covariance * (1.0 + r) / (1.0 - r)
     log_a = shifts[: rows.sweeps]
-    low, high = _step_limits(rows)
     for colder in np.flatnonzero((-np.diff(log_a) <= low + _AT) | (-np.diff(log_a) >= high - _AT)):
         # all sweeps beyond the step, seen from the middle one
         beyond = others[(others <= colder) if colder < held else (others > colder)]
         covariance[np.ix_(beyond, beyond)] += _BOUND_ERROR**2
-    middle = np.median(scatter, axis=1)
-    return Joint(shifts[: rows.sweeps], shifts[rows.sweeps :], covariance, middle, r)
+    return Joint(log_a, shifts[rows.sweeps :], covariance, np.median(scatter, axis=1))
 
 
 @dataclass(frozen=True)
@@ -242,9 +231,7 @@ def _gauss_newton_step(
 ) -> _Step:
     """Return the step of the free shifts; the splines are eliminated."""
     s, v = np.split(shifts, 2)
-    x = rows.x + s[rows.sweep]
-    basis = Basis.over(float(x.min()), float(x.max()), _SPACING)
-    functions, slopes, penalty = basis.at(x), basis.at(x, derivative=True), basis.penalty()
+    functions, slopes, penalty = splines(rows.x + s[rows.sweep])
     # Neighbours are expected to have nearly the same log_b.
     apart = np.diff(np.eye(rows.sweeps), axis=0) / _LIFT
     expected = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
@@ -271,23 +258,6 @@ def _gauss_newton_step(
     freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
     weight = tuple(curve.weight for curve in curves)
     return _Step(inverse @ right, inverse, np.array(residuals), freedoms, weight)
-
-
-def _step_limits(rows: Rows) -> tuple[Array, Array]:
-    """Return the limits of log_a of the colder less that of the warmer, by pair of neighbours.
-
-    Neither may begin where the other ends.
-    """
-    ends = np.array([rows.of(sweep)[0][[0, -1]] for sweep in range(rows.sweeps)])
-    least = _LEAST_SHARE * np.minimum(np.ptp(ends[1:], axis=1), np.ptp(ends[:-1], axis=1))
-    return ends[1:, 0] - ends[:-1, 1] + least, ends[1:, 1] - ends[:-1, 0] - least
-
-
-def _overlapping(rows: Rows, log_a: Array, held: int) -> Array:
-    """Return the shifts, no neighbours farther apart than where they hardly overlap."""
-    low, high = _step_limits(rows)
-    total = np.append(np.cumsum(np.clip(-np.diff(log_a), low, high)[::-1])[::-1], 0.0)
-    return np.asarray(total - total[held])
 
 
 def _scatter(rows: Rows, last: _Step, trust: Array) -> tuple[Array, Array]:

@@ -12,51 +12,33 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
+from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
-from gripscale.rubber.columns import (
-    APART,
-    THREE,
-    FileLayout,
-    quantity,
-    spread_of_repeats,
-    young_moduli,
-)
+from gripscale.rubber.columns import APART, THREE, FileLayout
 from gripscale.rubber.shift import Shift, shift_at
 
 
 class MasterCurve(Checked, eq=False):
     """Storage and loss modulus in uniaxial deformation, sorted by ascending frequency.
 
-    Parameters
-    ----------
-    frequency : array_like, shape (rows,)
-        Frequency [Hz], above zero, in any order; equal frequencies may occur (overlapping sets).
-    storage, loss : array_like, shape (rows,)
-        E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], above zero.
-    reference_temperature : float, optional
-        Temperature the curve holds for [K].
-    name, source : str
-        What was measured and where the numbers come from.
-    shift : Shift, optional
-        What the curve becomes at other temperatures; a law without a reference temperature of its
-        own takes that of the curve.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, not positive or beyond 1e-100 to 1e100, the lengths differ or
-        there are fewer than 2 rows.
+    Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
+    lengths differ or there are fewer than 2 rows.
     """
 
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    """Frequency [Hz], shape (rows,), in any order; it may repeat where sets overlap."""
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """Temperature the curve holds for [K]."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What was measured, and where the numbers come from."""
     shift: Shift | None = field(default=None, repr=False)
+    """What the curve becomes at other temperatures; a law may take its temperature."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -89,7 +71,6 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     """Write a master curve as CSV in Hz and Pa; return the path.
 
     The reference temperature stands in a comment, for people: whoever reads the file states it.
-
     Raises `FileError` if the file cannot be written.
     """
     checks.instance("master", master, MasterCurve)
@@ -99,8 +80,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     lines.append("frequency (Hz),storage modulus E' (Pa),loss modulus E'' (Pa)")
     rows = zip(master.frequency, master.storage, master.loss, strict=True)
     lines += [",".join(repr(float(value)) for value in row) for row in rows]
-    text = "\n".join(lines) + "\n"
-    return write_whole(file_path(path), lambda part: part.write_bytes(text.encode("utf-8")))
+    return write_text(file_path(path), "\n".join([*lines, ""]))
 
 
 _ONE_TEMPERATURE = 2.0
@@ -119,7 +99,10 @@ def read_master_curve(
 
     Titles are read in English and German; two of storage modulus, loss modulus, loss factor and
     |E*| state both moduli. The rules of `gripscale.io.text_table` hold. What the file states need
-    not be given; what is given goes before it. Nothing is guessed.
+    not be given; what is given goes before it. Nothing is guessed. Raises `FileError` if the file
+    cannot be read or holds something else, such as sweeps at several temperatures; the message
+    names path and line. Raises `InputError` if a unit, the kind of modulus or the columns are
+    neither stated nor given, or storage and loss are exchanged.
 
     Parameters
     ----------
@@ -134,19 +117,6 @@ def read_master_curve(
         `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
         `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`. Without `columns`
         three columns without titles are frequency, storage and loss.
-
-    Returns
-    -------
-    MasterCurve
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or holds something else, such as sweeps at several temperatures;
-        the message names path and line.
-    InputError
-        If a unit, the kind of modulus or the columns are neither stated nor given, or storage and
-        loss are exchanged.
     """
     file, layout = file_path(path), FileLayout(**options)
     unit = layout.temperature_unit
@@ -172,8 +142,9 @@ def read_master_curve(
     layout = layout.for_table(table)
     column = layout.needed_column(table, "frequency")
     _refuse_sweeps(table, column, with_columns=bool(layout.columns))
-    columns = layout.read(table, "frequency", _positive), *young_moduli(table, layout, _positive)
-    spread = spread_of_repeats(*columns, np.zeros(len(table.rows)))
+    hertz = layout.read(table, "frequency", _positive)
+    rows = hertz, *columns.young_moduli(table, layout, _positive)
+    spread = columns.spread_of_repeats(*rows, np.zeros(len(table.rows)))
     if spread > APART:
         raise FileError(
             f"{file}: expected one master curve; got the same frequencies again with moduli "
@@ -184,16 +155,13 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    return MasterCurve(*columns, reference_temperature, name, source)
+    return MasterCurve(*rows, reference_temperature, name, source)
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:
-    """Raise `FileError` for sweeps at several temperatures; a shifted curve may have them, too.
-
-    Its frequencies do not repeat from one to the next, and the caller has stated the columns.
-    """
+    """Raise `FileError` for sweeps; frequencies of a shifted curve with columns do not repeat."""
     for column, title in enumerate(table.columns):
-        if quantity(title.name) != "temperature":
+        if columns.quantity(title.name) != "temperature":
             continue
         kelvin = table.numbers(column, "a temperature", missing=True)
         kelvin = kelvin[np.isfinite(kelvin)]

@@ -40,7 +40,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
-from gripscale.rubber.strain_energy import NeoHookean, StrainEnergy, strain_energy_from_dict
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -65,10 +65,7 @@ def loss_shape(phase: Array) -> Array:
 
 
 def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
-    """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa] at `omega` [rad/s], same shape.
-
-    `times` [s] and `moduli` [Pa] have shape (terms,). In blocks that stay in the processor's cache.
-    """
+    """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa], in blocks that fit the processor's cache."""
     flat = np.abs(omega).reshape(-1)
     total = np.empty(flat.size, dtype=np.complex128)
     for first in range(0, flat.size, _BLOCK):
@@ -89,30 +86,16 @@ _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
 
 
 class AdmissibleSeries(Checked, eq=False):
-    """Prony series on common relaxation times, one a row.
-
-    Parameters
-    ----------
-    relaxation_times : array_like, shape (terms,)
-        Relaxation times [s], above zero.
-    equilibrium_moduli : array_like, shape (series,)
-        E_inf of each series [Pa], above zero.
-    moduli : array_like, shape (series, terms)
-        Moduli of their Maxwell elements [Pa], not negative.
-    belongs_to : str
-        Fingerprint of the rubber's own series, which the first rubber they are given to leaves: the
-        others tell nothing of another one.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite or out of its range, or the shapes do not match.
-    """
+    """Prony series on common relaxation times, one a row; `InputError` for other shapes."""
 
     relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
+    """Relaxation times [s], shape (terms,), above zero."""
     equilibrium_moduli: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E_inf of each series [Pa], shape (series,), above zero."""
     moduli: Vector = field(repr=False)
+    """Moduli of their Maxwell elements [Pa], shape (series, terms), not negative."""
     belongs_to: str = field(default="", repr=False, compare=False)
+    """Fingerprint of the rubber's own series, set by the first rubber that gets these."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -189,10 +172,7 @@ def least_bulk_modulus(modulus: float) -> float:
 
 
 def too_compressible(bulk: float, modulus: float, where: str) -> str:
-    """Return a sentence if Poisson's ratio at K and |E*| [Pa] is below 0.3, else nothing.
-
-    `where` is the frequency in words.
-    """
+    """Return a sentence if Poisson's ratio at K and |E*| [Pa] is below 0.3, else nothing."""
     ratio = float(poisson_ratio(bulk, modulus))
     if ratio >= LEAST_POISSON_RATIO:
         return ""
@@ -224,58 +204,36 @@ def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
 class Rubber(Checked, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
-    Parameters
-    ----------
-    equilibrium_modulus : float
-        Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero.
-    moduli : array_like, shape (terms,)
-        Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], above zero. Empty: elastic.
-    relaxation_times : array_like, shape (terms,)
-        Their relaxation times [s], above zero.
-    bulk_modulus : float
-        Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio stays positive
-        at every frequency.
-    name, source : str
-        What the rubber is and where its numbers come from.
-    valid_band : tuple of two floats, optional
-        Lowest and highest angular frequency the numbers rest on [rad/s].
-    strain_energy : StrainEnergy
-        Strain energy of the permanent network at finite strain.
-    admissible : AdmissibleSeries, optional
-        Other series that fit the same measurement: what it leaves open. It is of this series only,
-        and refused with others: whoever changes moduli or times leaves it out, or states another.
-    reference_temperature : float, optional
-        Temperature the numbers hold for [K].
-    shift : Shift, optional
-        What they become at other temperatures (`at`); a law without a reference temperature of its
-        own takes that of the rubber.
-
-    Raises
-    ------
-    InputError
-        If a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the lengths
-        differ, or `admissible` belongs to other moduli or times.
-
-    Warns
-    -----
-    RubberWarning
-        Once, if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any frequency
-        without one. Of a rubber with `admissible` the report on its fit says so.
+    Raises `InputError` if a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the
+    lengths differ, or `admissible` belongs to other moduli or times. Warns once
+    (`RubberWarning`) if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any
+    frequency without one; of a rubber with `admissible` the report on its fit says so.
     """
 
     equilibrium_modulus: float = checked(check_modulus)
+    """Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero."""
     moduli: Vector = checked(checks.in_limits, unit="Pa", default=(), repr=False)
+    """Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], shape (terms,). Empty: elastic."""
     relaxation_times: Vector = checked(checks.in_limits, unit="s", default=(), repr=False)
+    """Their relaxation times [s], shape (terms,), above zero."""
     bulk_modulus: float = checked(check_modulus, default=BULK_MODULUS)
+    """Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio is positive."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What the rubber is and where its numbers come from."""
     valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)
+    """Lowest and highest angular frequency the numbers rest on [rad/s]."""
     strain_energy: StrainEnergy = checked(check_strain_energy, default=NeoHookean())
+    """Strain energy of the permanent network at finite strain."""
     admissible: AdmissibleSeries | None = checked(
         checks.instance, kind=AdmissibleSeries, default=None, repr=False
     )
+    """Other series that fit the same measurement: what it leaves open. It is refused with
+    other moduli or times."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """Temperature the numbers hold for [K]."""
     shift: Shift | None = field(default=None, repr=False)
+    """What they become at other temperatures (`at`); a law may take the rubber's temperature."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -329,7 +287,9 @@ class Rubber(Checked, eq=False):
             raise InputError(f"values must have the keys {', '.join(names)}; got {list(values)}")
         others, shift = values.get("admissible"), values.get("shift")
         parts = {
-            "strain_energy": strain_energy_from_dict(values["strain_energy"]),
+            "strain_energy": checks.of_kind(
+                STRAIN_ENERGIES, "strain_energy", values["strain_energy"]
+            ),
             "admissible": None if others is None else AdmissibleSeries.from_dict(others),
             "shift": None if shift is None else shift_from_dict(shift),
         }
@@ -337,10 +297,7 @@ class Rubber(Checked, eq=False):
 
     @property
     def glassy_modulus(self) -> float:
-        """Young's modulus of the series at once after a step, E_inf + sum E_i [Pa].
-
-        The modulus of the glass only where the data reach it.
-        """
+        """Modulus at once after a step, E_inf + sum E_i [Pa]; of the glass if the data reach it."""
         return float(self.equilibrium_modulus + self.moduli.sum())
 
     @property
@@ -368,12 +325,8 @@ class Rubber(Checked, eq=False):
 
         The envelope of this series and the admissible ones: E' lies between the real parts, E''
         between the imaginary parts. Stated within the measured band and two decades beyond its
-        ends; further out the series have no relaxation times.
-
-        Raises
-        ------
-        InputError
-            If `omega` is not finite, or the rubber has no admissible series.
+        ends; further out the series have no relaxation times. Raises `InputError` if `omega` is not
+        finite, or the rubber has no admissible series.
         """
         modulus = self.complex_modulus(omega)
         if self.admissible is None:
@@ -414,12 +367,8 @@ class Rubber(Checked, eq=False):
         `valid_band` divided by it, and all Young's moduli, E_inf as well as E_i, divided by b_T.
         The bulk modulus, which does not relax, and the strain energy's parameters, which have no
         dimension, stay. The shift is kept, so that `at` goes on from any temperature to any other.
-
-        Raises
-        ------
-        InputError
-            If the rubber has no shift, the shift no value at `temperature`, or the moduli there do
-            not go with the bulk modulus.
+        Raises `InputError` if the rubber has no shift, the shift no value at `temperature`, or the
+        moduli there do not go with the bulk modulus.
         """
         kelvin = checks.positive("temperature", temperature, unit="K")
         if self.shift is None or self.reference_temperature is None:
@@ -503,15 +452,12 @@ class End:
 
 
 def slow_end(rubber: Rubber) -> End:
-    """Return the relaxed modulus, or what was measured last on the way to it.
-
-    A rubber without a measured band is what its series says it is.
-    """
+    """Return the relaxed modulus, or what was measured last on the way to it."""
     return _end(rubber, rubber.equilibrium_modulus, 0)
 
 
 def fast_end(rubber: Rubber) -> End:
-    """Return the glassy modulus, or what was measured last on the way to it, likewise."""
+    """Return the glassy modulus, or what was measured last on the way to it."""
     return _end(rubber, rubber.glassy_modulus, 1)
 
 
@@ -530,15 +476,12 @@ def _end(rubber: Rubber, limit: float, side: int) -> End:
 
 
 MOST_PRESSURE = 10.0
-"""Mean pressure over relaxation modulus that is let through; at slopes near one, three is full."""
+"""Mean pressure over relaxation modulus that is let through: far beyond, no contact is partial; at
+slopes near one, three is full."""
 
 
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
-    """Raise `InputError` unless E(t) after `load_time` [s], infinite at rest, carries the pressure.
-
-    Under a mean `pressure` [Pa] of many times its modulus a block has no partial contact; no
-    sliding rubber is stiffer than E(0).
-    """
+    """Raise `InputError` unless E(t) after `load_time` [s] carries a pressure; infinity is rest."""
     checks.instance("rubber", rubber, Rubber)
     modulus = float(rubber.relaxation_modulus(load_time))
     if pressure <= MOST_PRESSURE * modulus:
@@ -563,16 +506,8 @@ _SAME = 0.5
 def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
     """Return what is doubtful about comparing rubbers, a sentence each; empty if nothing is.
 
-    Parameters
-    ----------
-    rubbers
-        The rubbers by what they are called.
-
-    Returns
-    -------
-    tuple of str
-        That they hold for different temperatures, that some have none stated beside others that
-        do, or that a temperature lies beyond those its shift rests on.
+    `rubbers` are named by their keys. They may hold for different temperatures, some without one
+    beside others that state it, or for one beyond those that their shift rests on.
     """
     kelvins = {
         name: rubber.reference_temperature

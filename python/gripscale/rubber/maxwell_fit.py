@@ -115,6 +115,11 @@ class Equations:
     scale: Array
     times: Array
 
+    def squares(self, solution: Array) -> float:
+        """Return the sum of squares of a solution."""
+        error = self.matrix @ solution - self.right
+        return float(error @ error)
+
     def spectrum(self, solution: Array) -> Spectrum:
         """Return the moduli a solution stands for."""
         equilibrium = self.floor + self.unit * float(solution[0])
@@ -122,10 +127,7 @@ class Equations:
 
 
 def relaxation_times(omega: Array, terms: int, beyond: float) -> Array:
-    """Return log-spaced times [s]: `terms` over the band of `omega` [rad/s], a single one mid-band.
-
-    Beyond each end they go on for `beyond` decades, half a decade apart or wider, as in the band.
-    """
+    """Return log-spaced times [s]: `terms` in the band of `omega` and others `beyond` [decades]."""
     low, high = -math.log10(omega.max()), -math.log10(omega.min())
     if terms == 1:
         return np.array([10.0 ** (0.5 * (low + high))])
@@ -152,13 +154,18 @@ def non_negative(matrix: Array, right: Array) -> Array:
 def fit_equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     """Return the least-squares problem of a fit to `curve` on the given `times` [s]."""
     floor, unit = _LEAST_EQUILIBRIUM * float(curve.storage.min()), float(curve.storage.min())
-    scale = np.minimum(_expected_modulus(curve, -np.log(times)), prior.largest_modulus)
+    # m(w) at w = 1/tau: E' in the band, beyond it with the slope of E''
+    measured, position = np.log(curve.omega), -np.log(times)
+    low, high = (_end_slope(measured, np.log(curve.loss), end) for end in (0, -1))
+    below, above = np.minimum(position - measured[0], 0.0), np.maximum(position - measured[-1], 0.0)
+    expected = np.interp(position, measured, curve.storage) * np.exp(low * below + high * above)
+    scale = np.minimum(expected, prior.largest_modulus)
     nothing = np.zeros((len(curve.omega), 1))
     phase = np.outer(curve.omega, times)
     storage = np.hstack([nothing + unit, storage_shape(phase) * scale, nothing])
     loss = np.hstack([nothing, loss_shape(phase) * scale, nothing])
     limit = np.concatenate([[unit], scale, [prior.largest_modulus]]) / prior.largest_modulus
-    slow = -np.log(times) < np.log(curve.omega[0]) - 1e-9
+    slow = position < measured[0] - 1e-9
     # Second differences within the data, shrinkage beyond the slow end; E_inf and slack are free.
     terms = len(times)
     shrinking = np.eye(terms, terms + 2, 1)
@@ -181,16 +188,6 @@ def fit_equations(curve: Curve, times: Array, prior: Prior) -> Equations:
         ]
     )
     return Equations(matrix, right, floor, unit, scale, times)
-
-
-def _expected_modulus(curve: Curve, position: Array) -> Array:
-    """Return m(w) at log w = `position`: E' in the band, beyond it with the slope of E''."""
-    measured = np.log(curve.omega)
-    inside = np.interp(position, measured, curve.storage)
-    low, high = (_end_slope(measured, np.log(curve.loss), end) for end in (0, -1))
-    below = np.minimum(position - measured[0], 0.0)
-    above = np.maximum(position - measured[-1], 0.0)
-    return np.asarray(inside * np.exp(low * below + high * above))
 
 
 def _end_slope(position: Array, value: Array, end: int) -> float:
@@ -221,12 +218,9 @@ class Candidate:
 
 
 def choose_terms(
-    curve: Curve, fit: Callable[[Mask, int], Spectrum]
+    curve: Curve, fit: Callable[[Curve, int], Spectrum]
 ) -> tuple[int, tuple[Candidate, ...]]:
-    """Return the number of terms and all candidates tried.
-
-    `fit` is the Maxwell fit to a choice of rows of `curve` with a number of terms.
-    """
+    """Return the number of terms and all candidates, from a `fit` to rows with so many terms."""
     decades = float(np.log10(curve.omega.max() / curve.omega.min()))
     numbers = [max(1, round(decades * density) + 1) for density in _PER_DECADE]
     least = max(1, round(decades * _LEAST_PER_DECADE) + 1)
@@ -238,7 +232,7 @@ def choose_terms(
         squares = np.empty(len(fold))
         for held_out in range(_FOLDS):
             out = fold == held_out
-            storage, loss = fit(~out, terms).ratios(curve.rows(out))
+            storage, loss = fit(curve.rows(~out), terms).ratios(curve.rows(out))
             squares[out] = 0.5 * (storage - 1.0) ** 2
             squares[out] += 0.5 * (loss - 1.0) ** 2
         error = float(np.sqrt(squares.mean()))
@@ -281,13 +275,13 @@ class Screening:
         return max(self.storage_scatter, LEAST_SCATTER), max(self.loss_scatter, LEAST_SCATTER)
 
 
-def screen_outliers(curve: Curve, fit: Callable[[Mask], Spectrum], threshold: float) -> Screening:
-    """Return which rows belong to `curve`; `fit` is the Maxwell fit to a choice of rows."""
+def screen_outliers(curve: Curve, times: Array, prior: Prior, threshold: float) -> Screening:
+    """Return which rows belong to `curve`, beside Maxwell fits on the given `times` [s]."""
     kept = np.ones(len(curve.omega), dtype=bool)
     position = np.log(curve.omega)
     measured = np.log([curve.storage, curve.loss])
     for _ in range(_PASSES):
-        spectrum = fit(kept)
+        spectrum = fit_spectrum(curve.rows(kept), times, prior)
         # A fit may have no loss at all where it is far off.
         fitted = [spectrum.storage(curve.omega), spectrum.loss(curve.omega)]
         relative = measured - np.log(np.maximum(fitted, checks.LEAST))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.prony_report import PronyFit
@@ -32,8 +33,8 @@ class MeasuredRubber:
     """What was assumed when its file was read, as a sentence; empty if nothing was."""
 
     @property
-    def doubts(self) -> tuple[str, ...]:
-        """Why its moduli may be those of no rubber, a sentence each."""
+    def doubts(self) -> tuple[Finding, ...]:
+        """Why its moduli may be those of no rubber."""
         return () if self.fit is None else self.fit.doubts
 
     def shift_fits(self) -> list[ShiftFit]:

@@ -14,10 +14,6 @@ from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.prony import fit_prony
 
-_REFERENCE_FREQUENCY = 2.0 * np.pi * 6.94e7
-_RUBBERY = 1.76e6, 2.3 / 90.0
-_TRANSITION = 1.12e9, 55.0 / 90.0
-_GLASSY = 1.12e9, 2.0 / 90.0
 _ORIGIN = (
     "springpot parameters published for an unfilled SBR at 20 C; the publication is not stated in "
     "the source they were taken from"
@@ -25,7 +21,7 @@ _ORIGIN = (
 
 
 def springpot_modulus(omega: ArrayLike) -> ComplexArray:
-    """Return E*(w) of an unfilled styrene-butadiene rubber at 20 C from springpots.
+    """Return E*(w) [Pa] of an unfilled styrene-butadiene rubber at 20 C, of the shape of `omega`.
 
     One springpot in parallel with two in series, s = i w / w_r, w_r = 2 pi 6.94e7 rad/s:
 
@@ -34,22 +30,8 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
 
     The exponents are the limiting loss angles over 90 degrees. The parameters are published for an
     unfilled SBR at 20 C; the publication, the compound and the strain amplitude are not stated in
-    the source they were taken from.
-
-    Parameters
-    ----------
-    omega : array_like
-        Angular frequency [rad/s], above zero.
-
-    Returns
-    -------
-    ndarray of complex
-        Complex Young's modulus [Pa], shape of `omega`.
-
-    Raises
-    ------
-    InputError
-        If a frequency is not finite or not above zero.
+    the source they were taken from. Raises `InputError` if an angular frequency `omega` [rad/s] is
+    not finite or not above zero.
     """
     frequency = checks.real("omega", omega, unit="rad/s")
     if not (frequency >= checks.LEAST).all():
@@ -57,10 +39,10 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
             f"omega must be greater than zero, at least {checks.LEAST:g} [rad/s]; "
             f"got {checks.short_repr(omega)}"
         )
-    scaled = 1j * frequency / _REFERENCE_FREQUENCY
-    rubbery, transition, glassy = (
-        modulus * scaled**exponent for modulus, exponent in (_RUBBERY, _TRANSITION, _GLASSY)
-    )
+    scaled = 1j * frequency / (2.0 * np.pi * 6.94e7)
+    rubbery = 1.76e6 * scaled ** (2.3 / 90.0)
+    transition = 1.12e9 * scaled ** (55.0 / 90.0)
+    glassy = 1.12e9 * scaled ** (2.0 / 90.0)
     return np.asarray(rubbery + 1.0 / (1.0 / transition + 1.0 / glassy))
 
 
@@ -69,30 +51,14 @@ def styrene_butadiene(
 ) -> Rubber:
     """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
 
-    The springpots of `springpot_modulus`, fitted over `band` with two elements per decade, two
-    decades beyond its ends as well. A springpot has no equilibrium modulus: the one given here is
-    what is left below the slow end of the band, so static results depend on the band and are not a
-    property of the rubber.
+    The springpots of `springpot_modulus`, fitted over the angular frequencies of `band` [rad/s],
+    at least two decades apart, with two elements per decade, two decades beyond its ends as well. A
+    springpot has no equilibrium modulus: the one given here is what is left below the slow end of
+    the band, so static results depend on the band and are not a property of the rubber.
 
     What is known: unfilled SBR, 20 C, the parameters. Not known: publication, compound, laboratory,
-    strain amplitude, and how far into the glassy region they were measured.
-
-    Parameters
-    ----------
-    band : tuple of two floats
-        Lowest and highest angular frequency [rad/s], at least two decades apart.
-    bulk_modulus : float
-        Bulk modulus [Pa]; assumed, not published with the parameters.
-
-    Returns
-    -------
-    Rubber
-        With `valid_band` equal to `band`.
-
-    Raises
-    ------
-    InputError
-        If the band or the bulk modulus cannot be used.
+    strain amplitude, how far into the glassy region they were measured, and the bulk modulus [Pa],
+    which is assumed. Raises `InputError` if the band or the bulk modulus cannot be used.
     """
     ends = checks.positive_vector("band", band, unit="rad/s")
     if len(ends) != 2 or ends[1] < 100.0 * ends[0]:

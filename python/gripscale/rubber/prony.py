@@ -20,26 +20,20 @@ Poisson's ratio positive.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.rubber import material, maxwell_fit
+from gripscale.rubber import prony_report as report
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.material import (
-    BULK_MODULUS,
-    AdmissibleSeries,
-    Rubber,
-    loss_shape,
-    storage_shape,
-)
+from gripscale.rubber.material import BULK_MODULUS, AdmissibleSeries, Rubber
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
-from gripscale.rubber.misread import likely_reading, moduli_doubts
-from gripscale.rubber.prony_report import PronyFit, report_prony, root_mean_square, swapped_moduli
+from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
 
 _RISE = 9.0
 """Allowed rise of the sum of squares in units of the scatter."""
@@ -56,47 +50,30 @@ _LEAST_SHARE = 1e-4
 _DIGITS = 6
 
 
-@dataclass(frozen=True)
-class _Reduced:
-    """The equations after orthogonal reduction, with their minimum."""
-
-    triangle: Array
-    right: Array
-    best: Array
-
-    def squares(self, solution: Array) -> float:
-        """Return the sum of squares of a solution."""
-        error = self.triangle @ solution - self.right
-        return float(error @ error)
-
-
 def extremes(
     curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
 ) -> AdmissibleSeries:
-    """Return the extreme series for a curve whose E' and E'' scatter by so much [-].
-
-    `beyond` is how far relaxation times reach past both ends [decades], `largest_modulus` the limit
-    of E_inf + sum E_i [Pa].
-    """
+    """Return the extreme series for a scatter [-] of E' and E''; `beyond` is in decades."""
     problem = open_equations(curve, scatter, beyond, largest_modulus)
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     orthogonal, triangle = np.linalg.qr(problem.matrix)
-    right = orthogonal.T @ problem.right
-    reduced = _Reduced(triangle, right, maxwell_fit.non_negative(triangle, right))
-    solutions, least = [reduced.best], _LEAST_SHARE * float(curve.loss.min())
+    reduced = replace(problem, matrix=triangle, right=orthogonal.T @ problem.right)
+    best = maxwell_fit.non_negative(reduced.matrix, reduced.right)
+    solutions, least = [best], _LEAST_SHARE * float(curve.loss.min())
     # Sought in the band, and once and twice half-way beyond it.
     low, high = curve.omega[0], curve.omega[-1]
     inside = np.geomspace(low, high, max(1, round(decades / _INSIDE)) + 1)
     outside = 10.0 ** (beyond * np.array([0.5, 1.0])) if beyond > 0.0 else np.zeros(0)
     for omega in np.concatenate([low / outside, inside, high * outside]):
         phase = omega * problem.times
-        storage = np.concatenate([[problem.unit], storage_shape(phase) * problem.scale, [0.0]])
-        loss = np.concatenate([[0.0], loss_shape(phase) * problem.scale, [0.0]])
+        shapes = material.storage_shape(phase), material.loss_shape(phase)
+        storage = np.concatenate([[problem.unit], shapes[0] * problem.scale, [0.0]])
+        loss = np.concatenate([[0.0], shapes[1] * problem.scale, [0.0]])
         for row, offset in ((storage, problem.floor), (loss, 0.0)):
-            solutions += [_furthest(reduced, row, offset, sign, least) for sign in (1.0, -1.0)]
-    spectra = [problem.spectrum(solution) for solution in solutions]
-    moduli = np.array([spectrum.moduli for spectrum in spectra])
-    equilibrium = np.array([spectrum.equilibrium for spectrum in spectra])
+            solutions += [_furthest(reduced, best, row, offset, s, least) for s in (1.0, -1.0)]
+    every = np.array(solutions)
+    moduli = every[:, 1:-1] * problem.scale
+    equilibrium = problem.floor + problem.unit * every[:, 0]
     # Elements of no weight count as zero.
     moduli[moduli <= 1e-9 * (moduli.sum(axis=1, keepdims=True) + equilibrium[:, None])] = 0.0
     return AdmissibleSeries(problem.times, _rounded(equilibrium), _rounded(moduli))
@@ -105,34 +82,33 @@ def extremes(
 def open_equations(
     curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
 ) -> maxwell_fit.Equations:
-    """Return the equations in units of the scatter, smoothed so little that the data decide.
-
-    Arguments as for `extremes`.
-    """
+    """Return the equations in units of the scatter, smoothed so little that the data decide."""
     decades = math.log10(curve.omega[-1] / curve.omega[0])
     terms = min(max(2, round(_PER_DECADE * decades) + 1), _MOST_TERMS)
     times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
     weights = largest_modulus, 1.0 / scatter[0], 1.0 / scatter[1]
-    return maxwell_fit.fit_equations(
-        curve, times, Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, *weights)
-    )
+    prior = Prior(EXTREME_SMOOTHING, EXTREME_SMOOTHING, *weights)
+    return maxwell_fit.fit_equations(curve, times, prior)
 
 
 def _furthest(
-    reduced: _Reduced, row: Array, offset: float, direction: float, least: float
+    problem: maxwell_fit.Equations,
+    best: Array,
+    row: Array,
+    offset: float,
+    direction: float,
+    least: float,
 ) -> Array:
     """Return the allowed solution with the largest (1) or least (-1) `row`, down to `least`."""
-    start = max(float(row @ reduced.best) + offset, least)
-    inside, outside, best = 0.0, _FIRST_STEP, reduced.best
-    matrix = np.vstack([reduced.triangle, _HEAVY * (row / start)])
-    lowest = reduced.squares(reduced.best)
+    start = max(float(row @ best) + offset, least)
+    inside, outside, lowest = 0.0, _FIRST_STEP, problem.squares(best)
+    matrix = np.vstack([problem.matrix, _HEAVY * (row / start)])
 
     def at(step: float) -> tuple[Array, bool]:
         value = max(start * math.exp(direction * step) - offset, 0.0)
-        solution = maxwell_fit.non_negative(
-            matrix, np.append(reduced.right, _HEAVY * (value / start))
-        )
-        return solution, reduced.squares(solution) - lowest <= _RISE
+        right = np.append(problem.right, _HEAVY * (value / start))
+        solution = maxwell_fit.non_negative(matrix, right)
+        return solution, problem.squares(solution) - lowest <= _RISE
 
     solution, allowed = at(outside)
     while allowed and outside < _LARGEST_STEP:
@@ -169,7 +145,13 @@ _STIFFEST = 4.4
 """The same of any series: Poisson's ratio is zero at 9/2."""
 
 
-def fit_prony(
+def fit_prony(master: MasterCurve, **options: Any) -> Rubber:
+    """Return the Prony series of a master curve; options and errors as of `fit_prony_report`."""
+    rubber, _ = fit_prony_report(master, **options)
+    return rubber
+
+
+def fit_prony_report(
     master: MasterCurve,
     *,
     terms: int | None = None,
@@ -178,8 +160,11 @@ def fit_prony(
     extrapolate_decades: float = DECADES_BEYOND,
     smoothing: float = _SMOOTHING,
     loss_weight: float = 1.0,
-) -> Rubber:
-    """Return the Prony series of a master curve.
+) -> tuple[Rubber, PronyFit]:
+    """Return the Prony series of a master curve and the report on it.
+
+    Raises `InputError` if an argument is out of range, `bulk_modulus` is too small for the moduli
+    measured, or storage and loss modulus are exchanged (see `gripscale.rubber.prony_report`).
 
     Parameters
     ----------
@@ -204,41 +189,11 @@ def fit_prony(
 
     Returns
     -------
-    Rubber
+    rubber : Rubber
         With `valid_band` set to the measured band [rad/s], the other series that fit in
         `admissible`, and the reference temperature and the shift of the curve.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range, `bulk_modulus` is too small for the moduli measured, or
-        storage and loss modulus are exchanged (see `gripscale.rubber.prony_report`).
-    """
-    rubber, _ = fit_prony_report(
-        master,
-        terms=terms,
-        bulk_modulus=bulk_modulus,
-        outlier_threshold=outlier_threshold,
-        extrapolate_decades=extrapolate_decades,
-        smoothing=smoothing,
-        loss_weight=loss_weight,
-    )
-    return rubber
-
-
-def fit_prony_report(
-    master: MasterCurve,
-    *,
-    terms: int | None = None,
-    bulk_modulus: float = BULK_MODULUS,
-    outlier_threshold: float = 8.0,
-    extrapolate_decades: float = DECADES_BEYOND,
-    smoothing: float = _SMOOTHING,
-    loss_weight: float = 1.0,
-) -> tuple[Rubber, PronyFit]:
-    """Return the Prony series of a master curve and the report on it.
-
-    Arguments and errors are those of `fit_prony`.
+    report : PronyFit
+        How it came about and how well it fits.
     """
     checks.instance("master", master, MasterCurve)
     if len(master) < _FEWEST_ROWS or master.decades == 0.0:
@@ -253,31 +208,27 @@ def fit_prony_report(
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
     bulk = material.check_modulus("bulk_modulus", bulk_modulus)
-    swapped = swapped_moduli(master)
+    swapped = report.swapped_moduli(master)
     if swapped.certain and not likely_reading(master, swapped):
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
     plain = Prior(_SMOOTHING, 0.0, 2.0 * float(master.storage.max()))
     coarse = max(4, min(round(2.0 * master.decades), 60))
-    screening = maxwell_fit.screen_outliers(
-        curve, partial(_fit, curve, 0.0, plain, terms=coarse), outlier_threshold
-    )
-    kept, rows = screening.kept, curve.rows(screening.kept)
+    times = maxwell_fit.relaxation_times(curve.omega, coarse, 0.0)
+    screening = maxwell_fit.screen_outliers(curve, times, plain, outlier_threshold)
+    rows = curve.rows(screening.kept)
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
-    fit = partial(_fit, curve, beyond, prior)
+
+    def fit(part: Curve, terms: int) -> Spectrum:
+        times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
+        return maxwell_fit.fit_spectrum(part, times, prior)
+
     candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
-        positions = np.flatnonzero(kept)
-
-        def fit_among_kept(chosen: Mask, terms: int) -> Spectrum:
-            among_all = np.zeros_like(kept)
-            among_all[positions[chosen]] = True
-            return fit(among_all, terms)
-
-        terms, candidates = maxwell_fit.choose_terms(rows, fit_among_kept)
-    spectrum = fit(kept, terms)
+        terms, candidates = maxwell_fit.choose_terms(rows, fit)
+    spectrum = fit(rows, terms)
     # The scatter about the fit: what any series has to live with.
     storage_scatter, loss_scatter = (
         max(least, root_mean_square(ratio - 1.0))
@@ -296,8 +247,8 @@ def fit_prony_report(
         reference_temperature=master.reference_temperature,
         shift=master.shift,
     )
-    fit_report = report_prony(master, rows, screening, candidates, rubber)
-    doubts = tuple(moduli_doubts(master, swapped, screening.storage_scatter))
+    fit_report = report.report_prony(master, rows, screening, candidates, rubber)
+    doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))
     if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
     return rubber, replace(fit_report, doubts=doubts)
@@ -312,10 +263,7 @@ def _option(name: str, value: float, most: float) -> float:
 
 
 def largest_modulus(measured: float, bulk: float) -> float:
-    """Return the limit of E_inf + sum E_i [Pa], from the largest measured E' and the bulk modulus.
-
-    Raises `InputError` if the bulk modulus is too small for what was measured.
-    """
+    """Return the limit of E_inf + sum E_i [Pa]; `InputError` if `bulk` is too small for E'."""
     if _STIFFEST * bulk <= measured:
         raise InputError(
             f"bulk_modulus [Pa] must exceed 2/9 of the largest measured E', {measured:g}, "
@@ -323,8 +271,3 @@ def largest_modulus(measured: float, bulk: float) -> float:
             "(or is the unit of the moduli another?)"
         )
     return min(_STIFFEST * bulk, max(_GLASS * bulk, _OVER_MEASURED * measured))
-
-
-def _fit(curve: Curve, beyond: float, prior: Prior, rows: Mask, terms: int) -> Spectrum:
-    times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
-    return maxwell_fit.fit_spectrum(curve.rows(rows), times, prior)

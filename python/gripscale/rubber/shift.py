@@ -74,14 +74,24 @@ class Shift(Checked, ABC, eq=False):
         return np.zeros_like(temperature)
 
     @property
-    @abstractmethod
+    def reference_temperature(self) -> float | None:
+        """Temperature its constants hold for [K], if they hold for one."""
+        return None
+
+    @property
+    def valid_range(self) -> tuple[float, float] | None:
+        """Temperatures between which it was found [K], if they are known."""
+        return None
+
+    @property
     def limits(self) -> tuple[float, float]:
         """Temperatures between which the law has values [K]; beyond them it refuses."""
+        return _COLDEST, _HOTTEST
 
     @property
     def range(self) -> tuple[float, float]:
         """Temperatures between which the numbers rest on a measurement or a statement [K]."""
-        return self.limits
+        return self.valid_range or self.limits
 
     def within(self, temperature: float) -> bool:
         """Return whether a temperature [K] lies within `range`."""
@@ -89,15 +99,13 @@ class Shift(Checked, ABC, eq=False):
         return low - EDGE <= temperature <= high + EDGE
 
     def bound(self, reference_temperature: float) -> Self:
-        """Return the law with constants that hold for `reference_temperature` [K], if unbound."""
-        del reference_temperature
-        return self
+        """Return the law with `reference_temperature` [K], if it needs one and has none."""
+        reference = {"reference_temperature": reference_temperature}
+        needed = reference.keys() <= {item.name for item in fields(self)}
+        return replace(self, **reference) if needed and not self.reference_temperature else self
 
     def log_a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
-        """Return log10 a_T [-] at `temperature` [K], same shape; above zero below the reference.
-
-        Raises `InputError` if a temperature is beyond `limits`.
-        """
+        """Return log10 a_T [-] at `temperature` [K], same shape; `InputError` beyond `limits`."""
         law = self.bound(reference_temperature)
         here, there = map(law._in_limits, (temperature, reference_temperature))
         return np.asarray(law._log_a(here) - law._log_a(there))
@@ -109,10 +117,7 @@ class Shift(Checked, ABC, eq=False):
         return np.asarray(law._log_b(here) - law._log_b(there))
 
     def a(self, temperature: ArrayLike, reference_temperature: float) -> Array:
-        """Return a_T [-] at `temperature` [K], same shape.
-
-        Raises `InputError` as `log_a`, and where a_T is beyond 1e-100 to 1e100.
-        """
+        """Return a_T [-] at `temperature` [K], same shape; errors as `log_a`, and beyond 1e100."""
         log_a = self.log_a(temperature, reference_temperature)
         if (np.abs(log_a) > _MOST).any():
             raise InputError(
@@ -143,42 +148,6 @@ class Shift(Checked, ABC, eq=False):
             )
         return np.asarray(np.clip(kelvin, low, high))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the kind and all settings, arrays and ranges as lists."""
-        values = {item.name: getattr(self, item.name) for item in fields(self)}
-        several = (name for name, v in values.items() if isinstance(v, np.ndarray | tuple))
-        return {"kind": self.kind, **values, **{n: list(map(float, values[n])) for n in several}}
-
-
-class Formula(Shift, eq=False):
-    """A law with constants; those of WLF hold for a reference temperature."""
-
-    @property
-    def reference_temperature(self) -> float | None:
-        """Temperature its constants hold for [K], if they hold for one."""
-        return None
-
-    @property
-    def valid_range(self) -> tuple[float, float] | None:
-        """Temperatures between which it was found [K], if they are known."""
-        return None
-
-    @property
-    def range(self) -> tuple[float, float]:
-        """`valid_range`, or where the law has values [K]."""
-        return self.valid_range or self.limits
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """Above absolute zero [K]."""
-        return _COLDEST, _HOTTEST
-
-    def bound(self, reference_temperature: float) -> Self:
-        """Return the law with `reference_temperature` [K], if it needs one and has none."""
-        reference = {"reference_temperature": reference_temperature}
-        needed = reference.keys() <= {item.name for item in fields(self)}
-        return replace(self, **reference) if needed and not self.reference_temperature else self
-
     @property
     def _reference(self) -> float:
         if self.reference_temperature is None:
@@ -187,8 +156,14 @@ class Formula(Shift, eq=False):
             )
         return self.reference_temperature
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the kind and all settings, arrays and ranges as lists."""
+        values = {item.name: getattr(self, item.name) for item in fields(self)}
+        several = (name for name, v in values.items() if isinstance(v, np.ndarray | tuple))
+        return {"kind": self.kind, **values, **{n: list(map(float, values[n])) for n in several}}
 
-class WLF(Formula, eq=False):
+
+class WLF(Shift, eq=False):
     """WLF, at the reference temperature of the rubber unless it states its own.
 
     Raises `InputError` if a value is not a number above zero.
@@ -206,10 +181,7 @@ class WLF(Formula, eq=False):
     kind: ClassVar[str] = "wlf"
 
     def referred_to(self, reference_temperature: float) -> WLF:
-        """Return the same law with the constants that hold for another temperature [K].
-
-        Raises `InputError` if that is at or below the pole.
-        """
+        """Return the law with constants of another temperature [K]; `InputError` up to the pole."""
         second = self.c2 + float(self._in_limits(reference_temperature)) - self._reference
         return WLF(self.c1 * self.c2 / second, second, reference_temperature, self.valid_range)
 
@@ -223,7 +195,7 @@ class WLF(Formula, eq=False):
         return max(self._reference - self.c2 * (1.0 - _FROM_POLE), _COLDEST), _HOTTEST
 
 
-class Arrhenius(Formula, eq=False):
+class Arrhenius(Shift, eq=False):
     """Arrhenius' law: one activation energy.
 
     Raises `InputError` if a value is not a number above zero.
@@ -240,7 +212,7 @@ class Arrhenius(Formula, eq=False):
         return arrhenius(self.activation_energy, temperature)
 
 
-class WLFArrhenius(Formula, eq=False):
+class WLFArrhenius(Shift, eq=False):
     """WLF above the glass transition, Arrhenius below; continuous.
 
     Raises `InputError` if a value is not a number above zero, or the glass transition lies at or
@@ -294,33 +266,22 @@ def standard_errors(name: str, value: ArrayLike) -> Array:
 class ShiftTable(Shift, eq=False):
     """Shift factors found at some temperatures: monotone cubics between, nothing beyond.
 
-    Parameters
-    ----------
-    temperature : array_like, shape (rows,)
-        In any order [K], no two alike.
-    horizontal : array_like, shape (rows,)
-        log10 a_T [-]; what counts is the difference of two.
-    horizontal_error : array_like, shape (rows,), optional
-        Standard errors of `horizontal` [-], not negative, NaN where unknown.
-    vertical : array_like, shape (rows,), optional
-        log10 b_T [-]; zero if not given.
-    vertical_error : array_like, shape (rows,), optional
-        Standard errors of `vertical` [-], as for `horizontal_error`; zero without `vertical`.
-    reference_temperature : float, optional
-        The temperature the errors are relative to [K].
-
-    Raises
-    ------
-    InputError
-        If values are missing, not finite, out of range or of unlike length, or there is none.
+    Raises `InputError` if values are missing, not finite, out of range or of unlike length, or
+    there is none.
     """
 
     temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    """In any order [K], shape (rows,), no two alike."""
     horizontal: Vector = checked(checks.vector, repr=False)
+    """log10 a_T [-], shape (rows,); what counts is the difference of two."""
     horizontal_error: Vector = checked(standard_errors, default=None, repr=False)
+    """Standard errors of `horizontal` [-], shape (rows,), not negative, NaN where unknown."""
     vertical: Vector = checked(checks.vector, default=None, repr=False)
+    """log10 b_T [-], shape (rows,); zero if not given."""
     vertical_error: Vector = checked(standard_errors, default=None, repr=False)
+    """Standard errors of `vertical` [-], shape (rows,); zero without `vertical`."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """The temperature the errors are relative to [K]."""
 
     kind: ClassVar[str] = "table"
     cure: ClassVar[str] = (
@@ -363,6 +324,10 @@ class ShiftTable(Shift, eq=False):
         """
         return np.interp(self._in_limits(temperature), self.temperature, self.horizontal_error)
 
+    def bound(self, reference_temperature: float) -> Self:
+        """Return the table as it is: its factors need no reference temperature."""
+        return self
+
     def _log_a(self, temperature: Array) -> Array:
         return self._between(self.horizontal, temperature)
 
@@ -392,10 +357,7 @@ def shift_from_dict(values: Mapping[str, Any]) -> Shift:
 
 
 def shift_at(shift: Shift | None, reference_temperature: float | None) -> Shift | None:
-    """Return the shift of something that holds for a reference temperature [K].
-
-    Raises `InputError` if it is no shift, or the temperature is not known or beyond its limits.
-    """
+    """Return the shift bound to a reference temperature [K]; `InputError` where it cannot be."""
     if shift is None:
         return None
     if not isinstance(shift, Shift):

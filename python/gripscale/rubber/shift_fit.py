@@ -30,7 +30,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
-from gripscale.io.netcdf import write_whole
+from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path, read_table, read_text
 from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
 
@@ -75,27 +75,12 @@ class ShiftFit:
 def fit_wlf(
     table: ShiftTable, *, reference_temperature: float | None = None, lowest: float | None = None
 ) -> ShiftFit:
-    """Return the WLF law of a shift table.
+    """Return the WLF law of a shift table, valid between the temperatures that count.
 
-    Parameters
-    ----------
-    table : ShiftTable
-        At least three rows that count.
-    reference_temperature : float, optional
-        T_0 [K], within the table; its own by default.
-    lowest : float, optional
-        Rows colder than this [K], such as those of the glass, do not count.
-
-    Returns
-    -------
-    ShiftFit
-        The law at T_0, valid between the temperatures that count, with its errors.
-
-    Raises
-    ------
-    InputError
-        If T_0 is missing or outside the table, too few rows count, or they do not follow the law:
-        log10 a_T must fall ever more slowly.
+    `reference_temperature` is T_0 [K], within the table; its own by default. Rows colder than
+    `lowest` [K], such as those of the glass, do not count. Raises `InputError` if T_0 is missing or
+    outside the table, fewer than three rows count, or they do not follow the law: log10 a_T must
+    fall ever more slowly.
     """
     reference, kelvin, log_a, error = _rows(table, reference_temperature, 3, lowest)
 
@@ -138,28 +123,13 @@ def fit_arrhenius(
     lowest: float | None = None,
     highest: float | None = None,
 ) -> ShiftFit:
-    """Return the Arrhenius law of a shift table.
+    """Return the Arrhenius law of a shift table, valid between the temperatures that count.
 
-    Parameters
-    ----------
-    table : ShiftTable
-        At least two rows that count.
-    reference_temperature : float, optional
-        T_0 [K], within the table; its own by default. A constant between rows that count and T_0 is
-        found as well if T_0 is not among them, so that the rows of the glass can be fitted alone.
-    lowest, highest : float, optional
-        Only rows between these [K] count.
-
-    Returns
-    -------
-    ShiftFit
-        The law, valid between the temperatures that count, with its error.
-
-    Raises
-    ------
-    InputError
-        If T_0 is missing or outside the table, too few rows count, or log10 a_T does not fall with
-        temperature.
+    `reference_temperature` is T_0 [K], within the table; its own by default. Only rows from
+    `lowest` to `highest` [K] count. If T_0 is not among them, a constant between them and T_0 is
+    found as well, so that the rows of the glass can be fitted alone. Raises `InputError` if T_0 is
+    missing or outside the table, fewer than two rows count, or log10 a_T does not fall with
+    temperature.
     """
     reference, kelvin, log_a, error = _rows(table, reference_temperature, 2, lowest, highest)
     matrix = 1.0 / (GAS_CONSTANT * math.log(10.0)) * (1.0 / kelvin - 1.0 / reference)[:, None]
@@ -245,34 +215,17 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
         lines.append(f"# reference temperature (C): {celsius!r}")
     lines.append(_TITLES)
     lines += [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
-    text = "\n".join(lines) + "\n"
-    return write_whole(file_path(path), lambda part: part.write_bytes(text.encode("utf-8")))
+    return write_text(file_path(path), "\n".join([*lines, ""]))
 
 
 def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -> ShiftTable:
     """Read a shift table from CSV or text, such as `write_shift_table` writes.
 
     Titles that say temperature and log a (log10 a_T, log_aT, log aT) name the columns; b, log b and
-    errors are read where they are.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-    temperature_unit : {"K", "C", "F"}, optional
-        Unit of the temperatures, if the header does not state it.
-
-    Returns
-    -------
-    ShiftTable
-        In K, log10 a_T and log10 b_T, with the reference temperature the file states, if any.
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or has no such columns.
-    InputError
-        If the unit of the temperatures is neither stated nor given, or the numbers are no table.
+    errors are read where they are, and a reference temperature from a comment. `temperature_unit`
+    is K, C or F, if the header does not state it. Raises `FileError` if the file cannot be read or
+    has no such columns, `InputError` if the unit of the temperatures is neither stated nor given,
+    or the numbers are no table.
     """
     file = file_path(path)
     table = read_table(

@@ -20,23 +20,32 @@ moduli minimise
 
 over the frequencies w of the wave, w_1 its lowest. Slow terms, which carry E' and lose nothing
 there, follow f; E_inf keeps at least a third of f of it. The misfit of the series is stated.
+
+It is taken from strain sweeps, of which instruments print the single amplitude or the peak-to-peak
+(double) one: a factor of two that no curve shows, so that it has to be stated.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array, Mask, Vector
 from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.wording import CaseKey, Words
+from gripscale.io.text_table import TextTable, file_path
+from gripscale.rubber.blocks import read_blocks
+from gripscale.rubber.columns import MODULI, RATIOS, FileLayout, young_moduli
 from gripscale.rubber.material import Rubber, loss_shape, storage_shape
-from gripscale.rubber.strain_sweep import StrainSweep
+from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, row_temperatures
 
 Deformation = Literal["tension", "shear"]
 DEFORMATIONS = ("tension", "shear")
@@ -89,21 +98,11 @@ class SoftenedSeries:
 
 
 def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> SoftenedSeries:
-    """Return `rubber` with E' times `storage` and E'' times `loss` at frequencies `omega`.
+    """Return `rubber` with E' times `storage` and E'' times `loss` [-] at `omega` [rad/s].
 
-    Parameters
-    ----------
-    rubber : Rubber
-        As measured, at small strain.
-    storage, loss : float
-        f and g [-], above zero.
-    omega : array_like, shape (frequencies,)
-        Where the factors must hold [rad/s]; none: all moduli times f (relaxed rubber).
-
-    Raises
-    ------
-    InputError
-        If a factor is not above zero or a frequency is not.
+    The factors f and g hold at these frequencies, shape (frequencies,); without any all moduli are
+    multiplied by f (relaxed rubber). Raises `InputError` if a factor or a frequency is not above
+    zero.
     """
     f, g = checks.positive("storage", storage), checks.positive("loss", loss)
     at = checks.positive_vector("omega", omega, unit="rad/s") if np.size(omega) else np.empty(0)
@@ -211,35 +210,23 @@ class SofteningTable(Checked):
     """Moduli of strain sweeps, interpolated in the logarithms of strain and modulus.
 
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
-    factors are interpolated linearly, beyond them those of the nearest are held and flagged.
-
-    Parameters
-    ----------
-    strain : sequence of sequences of floats
-        Amplitudes of each sweep [-], rising.
-    storage, loss : sequence of sequences of floats
-        Moduli of each sweep, in any unit: only ratios count.
-    measured_at : float
-        Strain amplitude at which the master curve was measured [-]: both factors are one there.
-    deformation : "tension" or "shear"
-        Kind of the strains.
-    temperature : sequence of floats, optional
-        Of each sweep [K], rising; needed if there are several.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
+    factors are interpolated linearly, beyond them those of the nearest are held and flagged. Raises
+    `InputError` if a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
     """
 
     kind: ClassVar[str] = "table"
 
     strain: Sequence[Sequence[float]] = checked(rows_of_sweeps)
+    """Amplitudes of each sweep [-], rising."""
     storage: Sequence[Sequence[float]] = checked(rows_of_sweeps)
     loss: Sequence[Sequence[float]] = checked(rows_of_sweeps)
+    """Moduli of each sweep, in any unit: only ratios count."""
     measured_at: float = checked(checks.positive)
+    """Strain amplitude at which the master curve was measured [-]: both factors are one there."""
     deformation: Deformation = checked(checks.one_of, choices=DEFORMATIONS)
+    """Kind of the strains."""
     temperature: Sequence[float] | None = checked(checks.positive_vector, unit="K", default=None)
+    """Of each sweep [K], rising; needed if there are several."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -312,13 +299,142 @@ class SofteningTable(Checked):
         return np.array([np.interp(temperature, kelvin, row) for row in np.eye(count)]), beyond
 
 
-def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) -> SofteningTable:
-    """Return the softening that strain sweeps at one or several temperatures show.
+AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
+_DOUBLE = re.compile(
+    r"peak[\s-]*(to[\s-]*)?peak|p\s?-\s?p\b|pk-pk|double|dsa\b|doppel|spitze", re.I
+)
+_SINGLE = re.compile(r"single|ssa\b|0\s?-\s?p|zero[\s-]*to[\s-]*peak|einfach", re.I)
+_ONE_FREQUENCY = 0.02
+"""Share by which frequencies of one sweep may differ."""
 
-    `measured_at` is the strain amplitude at which the master curve was measured [-], in the
-    deformation of the sweeps. Raises `InputError` if sweeps are of different deformations, several
-    are without or at one temperature, or `measured_at` lies outside a sweep.
+
+class StrainSweep(Checked, eq=False):
+    """Storage and loss modulus against strain, in order of rising strain.
+
+    Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, or the
+    lengths differ.
     """
+
+    strain: Vector = checked(checks.in_limits, repr=False)
+    """Single amplitude of strain [-], shape (rows,), above zero."""
+    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
+    deformation: str = checked(checks.one_of, choices=("uniaxial", "shear"))
+    """What the strain is: of length (uniaxial), or shear."""
+    temperature: float | None = checked(checks.positive, unit="K", default=None)
+    frequency: float | None = checked(checks.positive, unit="Hz", default=None)
+    name: str = checked(checks.text, default="")
+    source: str = checked(checks.text, default="")
+    """What was measured, and where the numbers come from."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        columns = {"strain": self.strain, "storage": self.storage, "loss": self.loss}
+        checks.same_length(1, **columns)
+        order = np.argsort(self.strain, kind="stable")
+        self._set(**{name: column[order] for name, column in columns.items()})
+
+    def __len__(self) -> int:
+        return len(self.strain)
+
+    @property
+    def loss_factor(self) -> Array:
+        """E''/E' [-], shape (rows,)."""
+        return self.loss / self.storage
+
+
+def read_strain_sweep(
+    path: str | Path,
+    *,
+    amplitude: str | None = None,
+    temperature: float | None = None,
+    frequency: float | None = None,
+    name: str | None = None,
+    source: str = "",
+    **options: Any,
+) -> StrainSweep:
+    """Read one strain sweep from a text, CSV or Excel file.
+
+    Temperature and frequency are None if neither stated nor given. Titles are those `read_sweeps`
+    knows; what the file states need not be given. Raises `FileError` if the file cannot be read or
+    holds more than one temperature or frequency. Raises `InputError` if a unit, the kind of modulus
+    or of amplitude, or a column is neither stated nor given.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    amplitude : {"single", "peak-to-peak"}, optional
+        What the strain column holds, unless its title says so (peak-to-peak, double, DSA; single,
+        SSA). The peak-to-peak amplitude is halved.
+    temperature : float, optional
+        Temperature [K], if no column states it.
+    frequency : float, optional
+        Frequency [Hz], if no column states it.
+    name, source : str, optional
+        Carried along; the file's stem by default, and nothing.
+    **options
+        `columns`, `sheet`, `header`, `strain_unit`, `modulus_unit`, `temperature_unit`,
+        `frequency_unit` and `modulus`, as fields of `gripscale.rubber.FileLayout`. Shear moduli (G)
+        come with shear strain, Young's with that of length.
+    """
+    file, layout = file_path(path), FileLayout(**options)
+    blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
+    if len(blocks) > 1:
+        raise FileError(f"{file}: expected one strain sweep; got {len(blocks)} tables")
+    table = blocks[0].table
+    strain = _single_amplitude(table, layout, amplitude)
+    storage, loss = young_moduli(table, layout)
+    complete = np.isfinite([strain, storage, loss]).all(axis=0)
+    strain, storage, loss = (values[complete] for values in (strain, storage, loss))
+    moduli = [layout.column(table, name) for name in MODULI if name not in RATIOS]
+    kind = layout.modulus_of(table, [column for column in moduli if column is not None])
+    if temperature is None and blocks[0].states_temperature(layout):
+        kelvin = row_temperatures(blocks[0], layout, None)
+        kelvin = kelvin[np.isfinite(kelvin)]
+        if kelvin.size and np.ptp(kelvin) > 2.0 * TEMPERATURE_TOLERANCE:
+            raise FileError(
+                f"{file}: expected one temperature; got {kelvin.min():.2f} to {kelvin.max():.2f} K"
+            )
+        temperature = float(kelvin.mean()) if kelvin.size else None
+    column = layout.column(table, "frequency")
+    if frequency is None and column is not None:
+        hertz = layout.read(table, "frequency")
+        hertz = hertz[np.isfinite(hertz)]
+        if hertz.size and hertz.max() > (1.0 + _ONE_FREQUENCY) * hertz.min():
+            raise FileError(
+                f"{file}: expected one frequency; got {hertz.min():g} to {hertz.max():g} Hz"
+            )
+        frequency = float(hertz.mean()) if hertz.size else None
+    deformation = "shear" if kind == "G" else "uniaxial"
+    name = file.stem if name is None else name
+    return StrainSweep(strain, storage, loss, deformation, temperature, frequency, name, source)
+
+
+def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | None) -> Array:
+    """Return the single amplitude of strain [-]."""
+    title = table.columns[layout.needed_column(table, "strain")].name
+    if amplitude is None:
+        patterns = {"peak-to-peak": _DOUBLE, "single": _SINGLE}
+        meanings = [word for word, pattern in patterns.items() if pattern.search(title)]
+        if len(meanings) != 1:
+            raise InputError(
+                Words(
+                    f"{table.path}: ",
+                    CaseKey("amplitude"),
+                    " must be given (single or peak-to-peak), because the title "
+                    f"{title or 'of the strain'} does not tell",
+                ),
+                missing="amplitude",
+            )
+        amplitude = meanings[0]
+    size = AMPLITUDES[checks.one_of("amplitude", amplitude, AMPLITUDES)]
+    return size * layout.read(table, "strain")
+
+
+def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) -> SofteningTable:
+    """Return the softening of strain sweeps; `measured_at` is that of the master curve [-]."""
     sweeps = checks.instances("sweeps", sweeps, StrainSweep)
     kinds = sorted({sweep.deformation for sweep in sweeps})
     if len(kinds) != 1:
@@ -339,13 +455,9 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
 
 
 SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}
-"""Every law by its kind."""
 
 
 def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
-    """Return the law of `to_dict`.
-
-    Raises `InputError` if the kind is unknown or a value cannot be used.
-    """
+    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
     law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
     return law

@@ -12,9 +12,9 @@ temporary networks of the rubber stay neo-Hookean.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import fields
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -194,12 +194,4 @@ def strain_energy(kind: str, **parameters: float) -> StrainEnergy:
 
     Raises `InputError` if the kind is unknown, or has other parameters.
     """
-    return strain_energy_from_dict({"kind": kind, **parameters})
-
-
-def strain_energy_from_dict(values: Mapping[str, Any]) -> StrainEnergy:
-    """Return the strain energy of {"kind": "yeoh", "second": ..., "third": ...}.
-
-    Raises `InputError` as `strain_energy` does, or if `values` is no such mapping.
-    """
-    return checks.of_kind(STRAIN_ENERGIES, "strain_energy", values)
+    return checks.of_kind(STRAIN_ENERGIES, "strain_energy", {"kind": kind, **parameters})

@@ -14,9 +14,10 @@ of the logarithms of its mean squares.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +36,8 @@ _BACK = 0.5
 """How far a colder sweep may seem to be faster [decades]: by scatter on a plateau."""
 _LEAST_SHARE = 0.1
 """Least overlap that is tried, over the shorter of the two sweeps."""
+_LEAST_NOISE = 2e-3
+"""Scatter of a modulus about lines between its rows [decades], at least."""
 
 _Points = tuple[Array, Array]
 """x of shape (rows,) rising, y of shape (moduli, rows)."""
@@ -60,26 +63,31 @@ class Overlap:
     """The same of log10 E''/E'."""
 
     def __str__(self) -> str:
-        """Return the overlap in words."""
         pair = f"{self.colder - ZERO_CELSIUS:.1f} and {self.warmer - ZERO_CELSIUS:.1f} °C"
         return f"{pair}: {self.decades:.2f} decades"
 
 
 def start(rows: Rows, lifted: bool) -> tuple[Array, Array]:
     """Return log10 a and log10 b of each sweep against the warmest, pair by pair."""
-    noise = np.array([_roughness(rows, at) for at in range(len(rows.y))])
-    lifts = rows.lifts if lifted else np.zeros_like(rows.lifts)
     sweeps = [rows.of(sweep) for sweep in range(rows.sweeps)]
+    # The scatter [decades] about lines between neighbouring rows.
+    distances = [np.zeros((len(rows.y), 0))]
+    for x, y in sweeps:
+        share = (x[1:-1] - x[:-2]) / np.maximum(x[2:] - x[:-2], 1e-12)
+        middle = y[:, 1:-1] - (1.0 - share) * y[:, :-2] - share * y[:, 2:]
+        distances.append(np.abs(middle) / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))
+    away = np.concatenate(distances, axis=1)
+    noise = np.full(len(rows.y), _LEAST_NOISE)
+    if away.size:
+        noise = np.maximum(1.4826 * np.median(away, axis=1), _LEAST_NOISE)
+    lifts = rows.lifts if lifted else np.zeros_like(rows.lifts)
     pairs = [_distance(cold, warm, noise, lifts) for cold, warm in pairwise(sweeps)]
     total = np.cumsum([*pairs, (0.0, 0.0)][::-1], axis=0)[::-1]
     return total[:, 0], total[:, 1]
 
 
 def difference(cold: _Points, warm: _Points) -> Array:
-    """Return y of the colder sweep less the warmer at the rows of both in the overlap.
-
-    Shape (moduli, rows).
-    """
+    """Return y of the colder sweep less the warmer at the rows of both in the overlap."""
     low, high = max(cold[0][0], warm[0][0]), min(cold[0][-1], warm[0][-1])
     x = np.concatenate([cold[0], warm[0]])
     x = x[(x >= low - 1e-12) & (x <= high + 1e-12)]
@@ -109,22 +117,6 @@ def _distance(cold: _Points, warm: _Points, noise: Array, lifts: Array) -> tuple
         if cost < least_cost:
             best, least_cost = (float(shift), lift), cost
     return best
-
-
-def _roughness(rows: Rows, modulus: int) -> float:
-    """Return the scatter [decades] about lines between neighbouring rows, at least 0.002."""
-    distances = []
-    for sweep in range(rows.sweeps):
-        x, y = rows.of(sweep)
-        if len(x) < 3:
-            continue
-        run = np.maximum(x[2:] - x[:-2], 1e-12)
-        share = (x[1:-1] - x[:-2]) / run
-        middle = y[modulus, 1:-1] - (1.0 - share) * y[modulus, :-2] - share * y[modulus, 2:]
-        distances.append(middle / np.sqrt(1.0 + share**2 + (1.0 - share) ** 2))
-    if not distances:
-        return 2e-3
-    return max(float(1.4826 * np.median(np.abs(np.concatenate(distances)))), 2e-3)
 
 
 _LITTLE = 0.5
@@ -171,10 +163,7 @@ class Superposition:
 def report_superposition(
     sweeps: Sweeps, shift: Shift, reference: float, joint: dict[str, float]
 ) -> Superposition:
-    """Return how the sweeps meet under a shift to a reference temperature [K].
-
-    `joint` is the scatter of each modulus about the smooth curve, empty if the shift was given.
-    """
+    """Return how sweeps meet; `joint` is the scatter of each modulus, empty for a given shift."""
     kelvin = temperatures_in(shift, sweeps.temperatures, sweeps.tolerance)
     a, b = shift.log_a(kelvin, reference), shift.log_b(kelvin, reference)
     shifted = []
@@ -182,8 +171,13 @@ def report_superposition(
         y = np.log10([sweep.storage, sweep.loss, sweep.loss / sweep.storage])
         y[:2] += up
         shifted.append((np.log10(sweep.frequency) + along, y))
+    overlaps = []
     pairs = zip(pairwise(kelvin.tolist()), pairwise(shifted), strict=True)
-    overlaps = tuple(overlap(*temperatures, *points) for temperatures, points in pairs)
+    for temperatures, (cold, warm) in pairs:
+        width = float(min(cold[0][-1], warm[0][-1]) - max(cold[0][0], warm[0][0]))
+        apart = difference(cold, warm) if width >= 0.0 else np.empty((3, 0))
+        rms = np.sqrt((apart**2).mean(axis=1)) if apart.size else np.full(3, np.nan)
+        overlaps.append(Overlap(*temperatures, width, apart.shape[1], *map(float, rms)))
     warnings = list(superposition_warnings(overlaps, shift))
     if joint and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
         warnings.append(
@@ -191,14 +185,12 @@ def report_superposition(
             "rubbery plateau, one stands for the other, and both may be worse than their "
             "standard errors"
         )
-    return Superposition(sweeps.temperatures, overlaps, bool(joint), joint, tuple(warnings))
+    report = sweeps.temperatures, tuple(overlaps), bool(joint), joint, tuple(warnings)
+    return Superposition(*report)
 
 
 def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Array:
-    """Return where a shift is to be read for sweeps at `temperatures` [K].
-
-    A table is read at its own temperature where that lies within the tolerance [K] of a sweep's.
-    """
+    """Return where to read a shift [K]: a table at its own temperatures within the tolerance."""
     if not isinstance(shift, ShiftTable):
         return temperatures
     rows = shift.temperature
@@ -206,15 +198,7 @@ def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Arra
     return np.where(np.abs(nearest - temperatures) <= tolerance, nearest, temperatures)
 
 
-def overlap(colder: float, warmer: float, cold: _Points, warm: _Points) -> Overlap:
-    """Return how two shifted sweeps at two temperatures [K] meet; their y are E', E'', E''/E'."""
-    width = float(min(cold[0][-1], warm[0][-1]) - max(cold[0][0], warm[0][0]))
-    apart = difference(cold, warm) if width >= 0.0 else np.empty((3, 0))
-    rms = np.sqrt((apart**2).mean(axis=1)) if apart.size else np.full(3, np.nan)
-    return Overlap(colder, warmer, width, apart.shape[1], *map(float, rms))
-
-
-def superposition_warnings(overlaps: tuple[Overlap, ...], shift: Shift) -> Iterator[str]:
+def superposition_warnings(overlaps: Sequence[Overlap], shift: Shift) -> Iterator[str]:
     """Yield what is doubtful about how sweeps meet, a sentence each."""
     little = [str(pair) for pair in overlaps if pair.decades < _LITTLE]
     if little:
@@ -247,15 +231,24 @@ _NOMINAL = 0.5
 """How far beyond the first or the last sweep a reference temperature still is that sweep's [K]."""
 
 
-def superpose(
+def superpose(sweeps: Sweeps, *, reference_temperature: float, **options: Any) -> MasterCurve:
+    """Return the master curve of sweeps; options and errors are those of `superpose_report`."""
+    master, _ = superpose_report(sweeps, reference_temperature=reference_temperature, **options)
+    return master
+
+
+def superpose_report(
     sweeps: Sweeps,
     *,
     reference_temperature: float,
     vertical: bool = False,
     shift: Shift | None = None,
     moduli: str = "both",
-) -> MasterCurve:
-    """Return the master curve of sweeps at several temperatures, with its shift.
+) -> tuple[MasterCurve, Superposition]:
+    """Return the master curve of sweeps, and the report on how they meet.
+
+    Raises `InputError` if an argument is out of range, neighbouring sweeps have nothing in common,
+    or a given shift has no value at a temperature.
 
     Parameters
     ----------
@@ -274,36 +267,10 @@ def superpose(
 
     Returns
     -------
-    MasterCurve
+    master : MasterCurve
         All rows, shifted. Its `shift` is a `ShiftTable` with standard errors, or the one given.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of range, neighbouring sweeps have nothing in common, or a given shift
-        has no value at a temperature.
-    """
-    master, _ = superpose_report(
-        sweeps,
-        reference_temperature=reference_temperature,
-        vertical=vertical,
-        shift=shift,
-        moduli=moduli,
-    )
-    return master
-
-
-def superpose_report(
-    sweeps: Sweeps,
-    *,
-    reference_temperature: float,
-    vertical: bool = False,
-    shift: Shift | None = None,
-    moduli: str = "both",
-) -> tuple[MasterCurve, Superposition]:
-    """Return the master curve and the report on how the sweeps meet.
-
-    Arguments and errors are those of `superpose`.
+    report : Superposition
+        How the sweeps meet.
     """
     checks.instance("sweeps", sweeps, Sweeps)
     reference = checks.positive("reference_temperature", reference_temperature, unit="K")
@@ -343,8 +310,9 @@ def _fitted_shift(
             kelvin[end] = reference
     if not kelvin[0] <= reference <= kelvin[-1]:
         raise InputError(
-            f"reference_temperature must lie within the temperatures measured, {kelvin[0]:.2f} to "
-            f"{kelvin[-1]:.2f} K; got {reference:g}"
+            f" must lie within the temperatures measured, {kelvin[0]:.2f} to {kelvin[-1]:.2f} K; "
+            f"got {reference:g}",
+            key="reference_temperature",
         )
     if len(kelvin) == 1:
         return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}

@@ -25,13 +25,7 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks
-from gripscale.rubber.columns import (
-    APART,
-    FileLayout,
-    check_rows,
-    spread_of_repeats,
-    young_moduli,
-)
+from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
 from gripscale.rubber.shift import WLF
 
 TEMPERATURE_TOLERANCE = 1.0
@@ -39,7 +33,6 @@ TEMPERATURE_TOLERANCE = 1.0
 _WIDEST = 3.0
 """Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
 _ROW = ("temperature", "frequency", "storage", "loss")
-"""The columns of measured rows."""
 
 
 @dataclass(frozen=True)
@@ -63,34 +56,22 @@ class Sweeps(Checked, eq=False):
     """Frequency sweeps at several temperatures, from rows in any order.
 
     Rows whose temperatures follow each other within `tolerance` are one sweep, at their mean.
-
-    Parameters
-    ----------
-    temperature : array_like, shape (rows,)
-        Temperature as measured [K].
-    frequency : array_like, shape (rows,)
-        Frequency [Hz].
-    storage, loss : array_like, shape (rows,)
-        E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa].
-    tolerance : float
-        Largest step between neighbouring temperatures of one sweep [K].
-    name, source : str
-        What was measured and where the numbers come from.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, not positive or beyond 1e-100 to 1e100, the lengths differ, there
-        is no row, or temperatures run on without a gap, as on a ramp.
+    Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
+    lengths differ, there is no row, or temperatures run on without a gap, as on a ramp.
     """
 
     temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    """Temperature as measured [K], shape (rows,)."""
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    """Frequency [Hz], shape (rows,)."""
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     tolerance: float = checked(checks.not_negative, unit="K", default=TEMPERATURE_TOLERANCE)
+    """Largest step between neighbouring temperatures of one sweep [K]."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
+    """What was measured, and where the numbers come from."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -177,8 +158,8 @@ def _groups(values: Array, tolerance: float) -> NDArray[np.intp]:
 def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
     """Return whether `read_sweeps` is the reader of a file, and not `read_master_curve`.
 
-    It is for RepTate's files, for several tables that state a temperature each, and for a column of
-    temperatures over which the same frequencies come again, as in no master curve.
+    It is for tables that state a temperature, and for a column of temperatures over which the same
+    frequencies come again, as in no master curve.
     """
     layout = (layout and FileLayout(layout.columns, layout.sheet, layout.header)) or FileLayout()
     try:
@@ -194,23 +175,14 @@ def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
 
 
 def states_temperature(path: str | Path) -> bool:
-    """Return whether a file states the temperature of its moduli, above a table or in a column.
-
-    Raises `FileError` and `InputError` as `read_sweeps`.
-    """
+    """Return whether a file states the temperature of its moduli, above a table or in a column."""
     layout = FileLayout()
     blocks = read_blocks(file_path(path), layout, temperature_unit="C")
-    return all(
-        block.temperature is not None or layout.column(block.table, "temperature") is not None
-        for block in blocks
-    )
+    return all(block.states_temperature(layout) for block in blocks)
 
 
 def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | None:
-    """Return the shift that a file of RepTate (.tts) states among its parameters, or None.
-
-    The `layout` has the fields of `FileLayout`. Raises as `read_sweeps`.
-    """
+    """Return the shift that a file of RepTate (.tts) states among its parameters, or None."""
     file = file_path(path)
     if is_excel(file):
         return None
@@ -258,21 +230,10 @@ def sweeps_from_ramps(
 ) -> Sweeps:
     """Return sweeps at nominal temperatures from rows measured while the temperature ran.
 
-    Parameters
-    ----------
-    temperature, frequency, storage, loss : array_like, shape (rows,)
-        As for `Sweeps`: [K], [Hz], [Pa], [Pa].
-    step : float
-        Distance of the nominal temperatures [K], which are its multiples in degrees Celsius. No
-        smaller than the steps of the ramp, or rows are used twice.
-    name, source : str
-        Carried along.
-
-    Raises
-    ------
-    InputError
-        As `Sweeps` does; if `step` is not above zero, or no frequency was measured at two
-        temperatures with a nominal one in between.
+    Rows, `name` and `source` are as for `Sweeps`: [K], [Hz], [Pa], [Pa], shape (rows,). Nominal
+    temperatures are the multiples of `step` [K] in degrees Celsius; if they are closer than the
+    steps of the ramp, rows are used twice. Raises `InputError` as `Sweeps` does, if `step` is not
+    above zero, or no frequency was measured at two temperatures with a nominal one in between.
     """
     units = ("K", "Hz", "Pa", "Pa")
     columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)
@@ -325,9 +286,12 @@ def read_sweeps(
 ) -> Sweeps:
     """Read frequency sweeps at several temperatures from text, CSV, Excel or RepTate files.
 
-    Titles are read in English and German. The rules of `gripscale.io.text_table` hold; several
-    tables in one file, each with its temperature above it or in a column, are taken together.
-    What the file states need not be given; what is given goes before it. Nothing is guessed.
+    Rows with a missing value in a column that is needed are left out. Titles are read in English
+    and German. The rules of `gripscale.io.text_table` hold; several tables in one file, each with
+    its temperature above it or in a column, are taken together. What the file states need not be
+    given; what is given goes before it. Nothing is guessed. Raises `FileError` if a file cannot be
+    read or a value in it cannot be; the message names path and line. Raises `InputError` if a unit,
+    the kind of modulus, a column or a temperature is neither stated nor given.
 
     Parameters
     ----------
@@ -346,18 +310,6 @@ def read_sweeps(
     **options
         `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
         `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`.
-
-    Returns
-    -------
-    Sweeps
-        Rows with a missing value in a column that is needed are left out.
-
-    Raises
-    ------
-    FileError
-        If a file cannot be read or a value in it cannot be; the message names path and line.
-    InputError
-        If a unit, the kind of modulus, a column or a temperature is neither stated nor given.
     """
     paths, layout = file_paths(path), FileLayout(**options)
     if temperature is not None:
@@ -391,20 +343,14 @@ def read_sweeps(
 _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)(?![A-Za-z\d])")
 
 
-def named_temperature(path: Path) -> float | None:
-    """Return the temperature that stands with its unit in the name of a file [K], if just one."""
-    temperatures = _NAMED.findall(path.stem.replace("_", " "))
-    if len(temperatures) != 1:
-        return None
-    ((number, unit),) = temperatures
-    return float(quantity_in_si(float(number.replace(",", ".")), unit, "temperature"))
-
-
 def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
     """Return a block with the temperature in the name of its file, if it states none itself."""
-    if block.temperature is not None or layout.column(block.table, "temperature") is not None:
+    temperatures = _NAMED.findall(block.table.path.stem.replace("_", " "))
+    if block.states_temperature(layout) or len(temperatures) != 1:
         return block
-    return replace(block, temperature=named_temperature(block.table.path))
+    ((number, unit),) = temperatures
+    kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
+    return replace(block, temperature=float(kelvin))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

@@ -70,8 +70,7 @@ class CleaningReport:
             lines.append(f"{line}  {s.note}".rstrip())
         return "\n".join(lines)
 
-    def __str__(self) -> str:
-        return self.table()
+    __str__ = table
 
 
 def clean(
@@ -145,8 +144,6 @@ def mark_spikes(
     the curve of height differences consistent at the smallest lags (a stationary profile has
     C_z(m l) <= m^2 C_z(l), which the standard's rule alone can break), but also wears away true
     steep flanks, so it is a choice.
-
-    Raises `InputError` if `slope` is not above zero, or all heights would become missing.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
     repeated = checks.flag("across_gaps", across_gaps)
@@ -253,10 +250,7 @@ def crop_map(
 
 
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
-    """Cut off border lines with more than a share of missing heights, the barest line first.
-
-    Raises `InputError` if `share` is not from 0 to 1, or fewer than 16 points a way would be left.
-    """
+    """Cut off border lines with more than a share of missing heights, the barest line first."""
     most = checks.not_negative("trim", share)
     if most > 1.0:
         raise InputError(f"trim must be a share of the heights, from 0 to 1; got {most:g}")
@@ -285,10 +279,7 @@ def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMa
     step of both ways. It is the median test of J. Westerweel, Exp. Fluids 16 (1994) 236,
     doi:10.1007/BF00206543, with the limit of ISO 13473-1 for profiles. The rule for profiles marks
     both sides of a steep step; on a map most neighbours of a point at a straight edge are on its
-    own side, so that stones keep their edges, and a spike of up to two by two points is marked. All
-    points are tested in one pass.
-
-    Raises `InputError` if `slope` is not above zero, or all heights would become missing.
+    own side, so that stones keep their edges, and a spike of up to two by two points is marked.
     """
     limit = checks.positive("spike_slope", slope) * max(surface.step)
     nx, ny = surface.z.shape
@@ -313,8 +304,6 @@ def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepRe
 
     The F-operation of ISO 25178-2 with a polynomial sum of a_mn P_m(x) P_n(y), m + n <= order,
     in Legendre polynomials over the map, which keep the equations well conditioned.
-
-    Raises `InputError` if `order` is not from 0 to 8, or there are fewer heights than coefficients.
     """
     highest = checks.whole("form", order, least=0, most=_HIGHEST_ORDER)
     terms = [(m, n) for m in range(highest + 1) for n in range(highest + 1 - m)]

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -294,8 +294,7 @@ _SHORTEST_PLATEAU = 2.0
 """Ratio of the largest lag to the plateau's first lag below which it is not called a plateau."""
 
 
-@dataclass(frozen=True)
-class Plateau:
+class Plateau(NamedTuple):
     """The plateau of C_z: its first lag [m] and its level [m^2]."""
 
     lag: float
@@ -303,10 +302,9 @@ class Plateau:
 
 
 def find_plateau(hdc: HeightDifference) -> Plateau | None:
-    """Return the plateau of a height difference correlation, or None if it is not reached.
+    """Return the plateau, or None if it is not reached.
 
-    The level is the median of C_z over the plateau's lags, weighted evenly in log lag: neither the
-    last of the rise nor a drift at the largest lags moves it much.
+    Its level is the median, evenly weighted in log lag: the last of the rise hardly moves it.
     """
     weight = log_weights(hdc.lag)
     tail_mean = np.cumsum((weight * hdc.value)[::-1])[::-1] / np.cumsum(weight[::-1])[::-1]

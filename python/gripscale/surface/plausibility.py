@@ -1,4 +1,4 @@
-"""Warnings about implausible surfaces, as sentences for the person who measured them.
+"""Findings about implausible surfaces, for the person who measured them.
 
 No surface is refused. Limits are wide: random rough profiles of any Hurst exponent and the shipped
 road between its plates pass all of them.
@@ -15,6 +15,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.units import in_mm
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
@@ -66,12 +67,12 @@ _FLAT = 0.02
 
 def profile_warnings(
     profile: Profile, cleaned: Profile | None = None, *, steep: bool = True
-) -> tuple[str, ...]:
-    """Return warnings about an implausible profile, a sentence each; empty if there are none.
+) -> tuple[Finding, ...]:
+    """Return findings about an implausible profile; empty if there are none.
 
     They concern steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and
-    heights or lengths that suggest another unit. Raises `InputError` if `cleaned` is no part of
-    `profile`.
+    heights or lengths that suggest another unit. Sentinels, plates and units are doubts: the answer
+    may be that of another road. Raises `InputError` if `cleaned` is no part of `profile`.
 
     Parameters
     ----------
@@ -84,9 +85,10 @@ def profile_warnings(
     """
     checks.flag("steep", steep)
     doubts = _doubts(profile, cleaned)
+    of_doubts = tuple(doubt(text, topic=Topic.SURFACE) for text in doubts.texts)
     if doubts.heights is None:
-        return doubts.texts
-    warnings = list(doubts.texts)
+        return of_doubts
+    warnings = []
     if not doubts.plates:
         level = _levelled(doubts.heights)
         warnings += [*_jump_warnings(level), *_flat_warnings(level)]
@@ -101,18 +103,13 @@ def profile_warnings(
             warnings.append(
                 f"{count} of {slopes.size} remaining slopes are {_SPIKE_SLOPE:g} or steeper, up to "
                 f"{slopes.max():.3g}: remove_spikes with spike_slope = {_SPIKE_SLOPE:g} takes them "
-                "out"
+                "out."
             )
-    return tuple(warnings)
+    return (*of_doubts, *map(_warning, warnings))
 
 
-def doubt_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[str, ...]:
-    """Return the warnings of a profile that make its answer unreliable.
-
-    They concern sentinels, plates and supports, and units. Arguments and errors as
-    `profile_warnings`.
-    """
-    return _doubts(profile, cleaned).texts
+def _warning(text: str) -> Finding:
+    return Finding(Severity.WARNING, text, topic=Topic.SURFACE)
 
 
 def has_likely_units(profile: Profile) -> bool:
@@ -158,7 +155,7 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
     plates = (
         "plates, supports or filled gaps lie in the profile, at "
         f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
-        f"crop{ends} leaves them out"
+        f"crop{ends} leaves them out."
     )
     return _Doubts((plates, *units), part.z, plates=True, units=bool(units))
 
@@ -193,7 +190,7 @@ def _sentinel_warnings(valid: Array) -> Iterator[str]:
         if rest.size and count > 1 and np.abs(rest - extreme).min() > np.ptp(rest):
             yield (
                 f"the {words} height, {extreme * 1e3:g} mm, comes {count} times, far from all "
-                "others: does it mark missing heights? valid_range leaves it out"
+                "others: does it mark missing heights? valid_range leaves it out."
             )
 
 
@@ -213,7 +210,7 @@ def _jump_warnings(z: Array) -> Iterator[str]:
         yield (
             f"heights jump in {jumps} place{'s' if jumps > 1 else ''}, by up to "
             f"{in_mm(np.abs(changes).max(), 3)}, far more than the roughness: are plates, "
-            "supports or a step in the profile? crop leaves them out"
+            "supports or a step in the profile? crop leaves them out."
         )
 
 
@@ -254,18 +251,18 @@ def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
-def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[str]:
-    """Yield notes on waves and roughness beyond the resolution of the measurement."""
+def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[Finding]:
+    """Yield findings on waves and roughness beyond the resolution of the measurement."""
     last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
     if limit is not None and _beyond(last, limit):
-        yield (
+        yield _warning(
             f"the smallest wave, {in_mm(last, 3)}, is shorter than the measurement resolves, "
-            f"{in_mm(limit, 3)}: it extrapolates the waves above it"
+            f"{in_mm(limit, 3)}: it extrapolates the waves above it."
         )
     if end is not None and limit is not None and _beyond(end, limit):
-        yield (
+        yield _warning(
             f"the cut-off, {in_mm(end, 3)}, lies beyond what the measurement carries, "
-            f"{in_mm(limit, 3)}: the roughness between them is extrapolated"
+            f"{in_mm(limit, 3)}: the roughness between them is extrapolated."
         )
 
 
@@ -276,8 +273,8 @@ def _beyond(length: float, limit: float | None) -> bool:
 
 def stack_notes(
     sines: SineStack, correlation: HeightDifference, fit: Mapping[str, Any]
-) -> Iterator[str]:
-    """Yield notes on the end of the waves and on factors at the edge of their range.
+) -> Iterator[Finding]:
+    """Yield findings on the end of the waves and on factors at the edge of their range.
 
     `fit` are the arguments of `fit_sines` for the waves.
     """
@@ -286,20 +283,22 @@ def stack_notes(
     if not stated_end and not _beyond(last, limit):
         at_limit = limit is not None and last <= limit * (1.0 + 1e-6)
         reason = "the shortest the measurement carries" if at_limit else "where the fit puts it"
-        yield (f"no smallest wavelength is stated: the smallest wave is {in_mm(last, 3)}, {reason}")
+        yield _warning(
+            f"no smallest wavelength is stated: the smallest wave is {in_mm(last, 3)}, {reason}."
+        )
     first, longest = float(sines.wavelength[0]), _LONGEST_WAVE * float(correlation.lag[-1])
     if first > longest and fit.get("first_wavelength") is None:
-        yield (
+        yield _warning(
             f"the largest wave, {in_mm(first, 3)}, is longer than {_LONGEST_WAVE:g} times the "
             f"largest lag, {in_mm(longest, 3)}: fewer scales, or a smaller smallest_wavelength, "
-            "suit the curve"
+            "suit the curve."
         )
     for name, limits in (("s_wavelength", FACTOR_RANGE), ("s_amplitude", AMPLITUDE_FACTOR_RANGE)):
         factor = getattr(sines, name)
         if factor is None or fit.get(name) is not None:
             continue
         if min(abs(np.log(factor / edge)) for edge in limits) < _AT_THE_EDGE:
-            yield (
+            yield _warning(
                 f"{name} is {factor:.3g}, at the edge of the range searched, {limits[0]:g} to "
-                f"{limits[1]:g}: the correlation does not determine it; state it, or change scales"
+                f"{limits[1]:g}: the correlation does not determine it; state it, or change scales."
             )

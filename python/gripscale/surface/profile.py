@@ -22,6 +22,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -133,13 +134,19 @@ def _texts(name: str, value: Any) -> tuple[str, ...]:
     return tuple(checks.text(f"each of {name}", item) for item in value)
 
 
+def _findings(name: str, value: Any) -> tuple[Finding, ...]:
+    if not isinstance(value, tuple | list):
+        raise InputError(f"{name} must be a tuple of findings; got {checks.short_repr(value)}")
+    return tuple(checks.instance(f"each of {name}", item, Finding) for item in value)
+
+
 class Profile(Checked, eq=False):
     """Heights of a surface along a straight line, at equidistant points.
 
     Raises `InputError` if x or z is not a list of numbers, their lengths differ, there are fewer
     than 16 points, x does not go in equal steps (`gripscale.surface.resample` makes them equal),
-    all heights are missing, `reliable` is not above zero, or name, source, a note or a doubt is no
-    text.
+    all heights are missing, `reliable` is not above zero, or name, source or a note is no text, or
+    a doubt is no finding.
 
     Parameters
     ----------
@@ -156,7 +163,7 @@ class Profile(Checked, eq=False):
         Shortest wavelength [m] the instrument measures reliably, if known.
     notes : tuple of str, optional
         Changes made by reading, such as rows added where some were left out.
-    doubts : tuple of str, optional
+    doubts : tuple of Finding, optional
         Why the file may mean other heights, such as a title that says depth.
     """
 
@@ -166,7 +173,7 @@ class Profile(Checked, eq=False):
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
     notes: tuple[str, ...] = checked(_texts, default=())
-    doubts: tuple[str, ...] = checked(_texts, default=())
+    doubts: tuple[Finding, ...] = checked(_findings, default=())
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -277,7 +284,8 @@ class HeightMap(Checked, eq=False):
     """Heights of a surface over a rectangle, at equidistant points each way.
 
     Raises `InputError` if x, y or z are not such numbers, their shapes differ, there are fewer than
-    16 points a way, all heights are missing, or name, source or a doubt is no text.
+    16 points a way, all heights are missing, or name or source is no text, or a doubt
+    is no finding.
 
     Parameters
     ----------
@@ -294,7 +302,7 @@ class HeightMap(Checked, eq=False):
         Where it comes from, such as a file name.
     reliable : float, optional
         Shortest wavelength [m] the instrument measures reliably, if known.
-    doubts : tuple of str, optional
+    doubts : tuple of Finding, optional
         Why the file may mean other heights, such as a title that says depth.
     """
 
@@ -304,7 +312,7 @@ class HeightMap(Checked, eq=False):
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
-    doubts: tuple[str, ...] = checked(_texts, default=())
+    doubts: tuple[Finding, ...] = checked(_findings, default=())
 
     def __post_init__(self) -> None:
         super().__post_init__()

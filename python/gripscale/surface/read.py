@@ -21,6 +21,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import quantity_in_si
+from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import (
@@ -151,7 +152,9 @@ def _topography(
             )
     if len(of_heights) > 1:
         raise FileError(
-            f"{path}: expected one channel of heights; got {names}; give channel",
+            Words(
+                f"{path}: expected one channel of heights; got {names}; give ", CaseKey("channel")
+            ),
             missing="channel",
         )
     channel = of_heights[0]
@@ -162,8 +165,12 @@ def _topography(
     if step is None:
         size = " x ".join(map(str, channel.nb_grid_pts))
         raise FileError(
-            f"{path}: expected a lateral size; the file gives none: give step, for an array of "
-            f"{size} heights whose first index runs along x, the way of sliding",
+            Words(
+                f"{path}: expected a lateral size; the file gives none: give ",
+                CaseKey("step"),
+                f", for an array of {size} heights whose first index runs along x, the way of "
+                "sliding",
+            ),
             missing="step",
         )
     sizes = tuple(n * d for n, d in zip(channel.nb_grid_pts, step, strict=False))

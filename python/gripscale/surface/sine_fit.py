@@ -262,10 +262,7 @@ def _fixed_logs(values: dict[str, float | None], single_factor: bool) -> Array:
 
 
 def first_consistent_lag(hdc: HeightDifference) -> float:
-    """Return the first lag l with C_z(m l) <= m^2 C_z(l) for all whole m measured [m].
-
-    That C_z keeps this rule follows from the triangle inequality for root mean squares.
-    """
+    """Return the first lag l with C_z(m l) <= m^2 C_z(l) for all whole m measured [m]."""
     for lag, value in zip(hdc.lag, hdc.value, strict=True):
         ratio = hdc.lag / lag
         multiple = (ratio > 1.5) & (np.abs(ratio - np.rint(ratio)) < 1e-6 * ratio)

@@ -160,10 +160,7 @@ class ArealSpectrum(Checked, eq=False):
 
 
 def last_wavenumber(q: Array, smallest_wavelength: float | None) -> float:
-    """Return 2 pi over the smallest wavelength, by default the last of `q` [rad/m].
-
-    Raises `InputError` if it is not among the wavelengths of `q`.
-    """
+    """Return 2 pi over the smallest wavelength, by default the last of `q` [rad/m]."""
     if smallest_wavelength is None:
         return float(q[-1])
     length = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")

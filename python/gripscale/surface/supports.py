@@ -66,10 +66,7 @@ class Support:
 
 
 def support_plates(profile: Profile) -> tuple[Support, ...]:
-    """Return the plates and supports in a profile, in order; empty if there are none.
-
-    Raises `InputError` if `profile` is no profile.
-    """
+    """Return the plates and supports in a profile, in order; empty if there are none."""
     checks.instance("profile", profile, Profile)
     valid = np.flatnonzero(np.isfinite(profile.z))
     if valid.size < _PIECES * _FEWEST_HEIGHTS:
@@ -82,7 +79,12 @@ def support_plates(profile: Profile) -> tuple[Support, ...]:
     height = z - slope * x - np.median(levels - slope * middles)
     typical = 1.4826 * float(np.median(np.abs(height)))
     off = _stepped(_runs_of(np.abs(height) > _OFF_THE_LINE * typical, _FEWEST_HEIGHTS), height)
-    rough = np.array([_roughness(x[at], z[at]) for at in pieces])
+    roughness = []
+    for at in pieces:  # the rms departure of each piece from its own line [m]
+        centred = x[at] - x[at].mean()
+        tilt = centred @ z[at] / (centred @ centred)
+        roughness.append(float(np.std(z[at] - tilt * centred)))
+    rough = np.array(roughness)
     smooth = _runs_of(rough < _SMOOTH_SHARE * np.median(rough), 2)
     suspect = off | np.repeat(smooth, [at.size for at in pieces])
     supports = []
@@ -99,8 +101,7 @@ def support_plates(profile: Profile) -> tuple[Support, ...]:
 def road_between(profile: Profile) -> tuple[float, float] | None:
     """Return first and last distance of the longest part without plates [m]; None: all of it.
 
-    The part keeps a distance from the plates, and ends on whole hundredths of the decade of the
-    length of the profile: centimetres for a metre.
+    It ends on whole hundredths of the decade of the length of the profile: centimetres for a metre.
     """
     supports = support_plates(profile)
     if not supports:
@@ -141,10 +142,3 @@ def _stepped(marked: Mask, height: Array) -> Mask:
             for inside, outside in zip(inner, outer, strict=True)
         )
     return kept
-
-
-def _roughness(x: Array, z: Array) -> float:
-    """Return the rms departure of heights from their own line [m]."""
-    centred = x - x.mean()
-    slope = centred @ z / (centred @ centred)
-    return float(np.std(z - slope * centred))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.surface.cleaning import CleaningReport, clean
 from gripscale.surface.cut_off import (
     CutOffRule,
@@ -20,7 +21,6 @@ from gripscale.surface.cut_off import (
 )
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.plausibility import (
-    doubt_warnings,
     extrapolation_notes,
     profile_warnings,
     stack_notes,
@@ -55,6 +55,20 @@ class Measured:
         if isinstance(measured, HeightMap):
             return cls([], [], None, "", measured)
         return cls([(line, line) for line in measured], [], None, "")
+
+    @classmethod
+    def of_map(
+        cls, raw: HeightMap, cleaned: HeightMap, cleaning: Sequence[CleaningReport] = ()
+    ) -> Measured:
+        """Return a map before and after cleaning; its fullest line near the middle is drawn."""
+        away = np.abs(np.arange(cleaned.y.size) - cleaned.y.size // 2)
+        fullest = np.lexsort((away, np.isnan(cleaned.z).sum(axis=0)))[0]
+        before, after = (
+            each.line(int(np.argmin(np.abs(each.y - cleaned.y[fullest]))))
+            for each in (raw, cleaned)
+        )
+        after = replace(after, name=before.name, source=before.source)
+        return cls([(before, after)], list(cleaning), None, "", cleaned)
 
     @classmethod
     def of_raw(cls, profiles: Sequence[Profile], cleaning: Mapping[str, Any]) -> Measured:
@@ -101,33 +115,26 @@ class Measured:
         return textures(named, "texture_of")
 
     @cached_property
-    def notes(self) -> tuple[str, ...]:
-        """Changes made by reading and implausible properties, a sentence each."""
-        notes = []
+    def findings(self) -> tuple[Finding, ...]:
+        """Changes made by reading, doubts, and implausible properties."""
+        findings = []
         for raw, cleaned in self.profiles:
-            warnings = profile_warnings(raw, cleaned, steep=self.map is None)
-            notes += [_about(raw, note) for note in (*raw.notes, *raw.doubts, *warnings)]
-        return tuple(notes)
+            changes = [Finding(Severity.WARNING, f"{n}.", topic=Topic.SURFACE) for n in raw.notes]
+            implausible = profile_warnings(raw, cleaned, steep=self.map is None)
+            if self.map is not None:  # its lines are no profiles between plates
+                implausible = tuple(replace(f, severity=Severity.WARNING) for f in implausible)
+            of_line = (*changes, *raw.doubts, *implausible)
+            findings += [finding.about(raw.name) for finding in of_line]
+        return tuple(findings)
 
-    @cached_property
-    def doubts(self) -> tuple[str, ...]:
-        """Notes that make the answer unreliable: depths, sentinels, plates, units."""
-        return tuple(
-            _about(raw, doubt)
-            for raw, cleaned in self.profiles
-            for doubt in (
-                *raw.doubts,
-                *(doubt_warnings(raw, cleaned) if self.map is None else ()),
-            )
-        )
+    @property
+    def doubts(self) -> tuple[Finding, ...]:
+        """Findings that make the answer unreliable: depths, sentinels, plates, units."""
+        return tuple(f for f in self.findings if f.severity == Severity.DOUBT)
 
     def bare(self) -> Measured:
         """Return the measurement without its cleaning reports and fits."""
         return Measured.of(self.heights)
-
-
-def _about(profile: Profile, note: str) -> str:
-    return f"{profile.name}: {note}" if profile.name else note
 
 
 SurfacePart = Literal["waves", "measurement", "cut_off"]
@@ -198,22 +205,22 @@ class Surface:
         )
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """Notes on the measurement and on the end of the waves, a sentence each."""
-        of_measurement = () if self.measured is None else self.measured.notes
+    def findings(self) -> tuple[Finding, ...]:
+        """What may change the answer: of the measurement, and of the end of the waves."""
+        of_measurement = () if self.measured is None else self.measured.findings
         if self.correlation is None:
             return of_measurement
         of_waves = stack_notes(self.sines, self.correlation, self.fit)
         return (*of_measurement, *of_waves, *self.extrapolated)
 
     @property
-    def doubts(self) -> tuple[str, ...]:
-        """Notes that make the answer unreliable."""
+    def doubts(self) -> tuple[Finding, ...]:
+        """Findings that make the answer unreliable."""
         return () if self.measured is None else self.measured.doubts
 
     @property
-    def extrapolated(self) -> tuple[str, ...]:
-        """Notes on waves and roughness beyond the resolution of the measurement."""
+    def extrapolated(self) -> tuple[Finding, ...]:
+        """Findings on waves and roughness beyond the resolution of the measurement."""
         if self.correlation is None:
             return ()
         return tuple(extrapolation_notes(self.sines, self.correlation))

@@ -41,7 +41,9 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
+from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.core.units import quantity_in_si, spelled
+from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import Line, TextTable, column_in, read_lines, table_in
 from gripscale.surface.profile import (
     FEWEST_POINTS,
@@ -97,11 +99,15 @@ def length_unit(
         return unit
     if named:
         raise FileError(
-            f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of "
-            f"length; give {name}",
+            Words(
+                f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of "
+                "length; give ",
+                CaseKey(name),
+            ),
             missing=name,
         )
-    raise FileError(f"{path}: {part} names no unit of length; {remedy} {name}", missing=name)
+    words = Words(f"{path}: {part} names no unit of length; {remedy} ", CaseKey(name))
+    raise FileError(words, missing=name)
 
 
 def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> str:
@@ -160,8 +166,12 @@ def read_text_profile(
         return _equal_steps(path, column, step, z_unit)
     if column is not None:
         raise FileError(
-            f"{path}: expected two columns, distance and height; got one column of numbers: give "
-            'step, the distance between its points, such as "0.1 mm"',
+            Words(
+                f"{path}: expected two columns, distance and height; got one column of numbers: "
+                "give ",
+                CaseKey("step"),
+                ', the distance between its points, such as "0.1 mm"',
+            ),
             missing="step",
         )
     table, columns = _read_table(
@@ -209,13 +219,15 @@ def is_captif(lines: Sequence[Line]) -> bool:
     return any("*****DATA*****" in text for _, text in lines[:20])
 
 
-def depth_doubts(table: TextTable, column: int) -> tuple[str, ...]:
+def depth_doubts(table: TextTable, column: int) -> tuple[Finding, ...]:
     """Return the doubt that a column of heights holds depths, if its title says so."""
     title = table.columns[column].name
     if not _DEPTH.search(title):
         return ()
-    words = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up"
-    return (f'{words}: z_axis = "down" turns it over, z_axis = "up" confirms it',)
+    down, up = (CaseKey("z_axis", way) for way in ("down", "up"))
+    text = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up: "
+    cure = Words(down, " turns it over, ", up, " confirms it.")
+    return (doubt(text, cure, topic=Topic.SURFACE),)
 
 
 @contextmanager
@@ -279,7 +291,7 @@ def read_text_map(
         columns = [0, 1, 2]
     if columns is not None and step is not None:
         raise InputError(f"step must be left out; {path} states where its points are")
-    doubts: tuple[str, ...] = ()
+    doubts: tuple[Finding, ...] = ()
     if columns is not None:
         x, y, z = _points(table, columns, x_unit, z_unit)
         doubts = depth_doubts(table, columns[2])
@@ -291,8 +303,12 @@ def read_text_map(
         )
     elif step is None:
         raise FileError(
-            f"{table.path}: a table of heights has no steps; give step, that along x and that "
-            "along y [m], or reader 'instrument' for a header that states them",
+            Words(
+                f"{table.path}: a table of heights has no steps; give ",
+                CaseKey("step"),
+                ", that along x and that along y [m], or reader 'instrument' for a header that "
+                "states them",
+            ),
             missing="step",
         )
     else:

@@ -134,10 +134,7 @@ Heights = Profile | Sequence[Profile] | HeightMap
 
 
 def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
-    """Return the texture of several surfaces by name, over the dimension `dim`.
-
-    None is a surface that was not measured.
-    """
+    """Return the texture of surfaces by name, over `dim`; None is one that was not measured."""
     import xarray as xr  # slow to import: not for reading a surface
 
     empty = _dataset(dict.fromkeys(TEXTURE_NUMBERS, np.nan), "not measured")
@@ -157,10 +154,7 @@ def _dataset(values: Mapping[str, float], note: str) -> xr.Dataset:
 
 
 def segment_depths(profile: Profile) -> Array:
-    """Return the mean segment depths [m] of the whole segments of a profile, along it.
-
-    Empty if the profile is shorter than a segment or its step exceeds 1 mm.
-    """
+    """Return the mean segment depths [m] of the whole segments; none with steps above 1 mm."""
     step = max(profile.step, _SAMPLE)
     if step > _COARSEST or len(profile) * profile.step < _SEGMENT:
         return np.zeros(0)

@@ -84,10 +84,7 @@ from gripscale.rubber import Rubber
 
 
 def crest_radius(*, wavelength: float, amplitude: float) -> float:
-    """Return the radius of curvature of a wave's crest [m] from wavelength and amplitude [m].
-
-    Raises `InputError` unless both are positive and finite.
-    """
+    """Return the radius of a crest [m]; `InputError` unless both lengths [m] are above zero."""
     length = checks.positive("wavelength", wavelength, unit="m")
     height = checks.positive("amplitude", amplitude, unit="m")
     return float(length**2 / (4.0 * np.pi**2 * height))
@@ -110,10 +107,7 @@ def contact_half_width(
 def largest_pressure(
     *, load_per_length: float, radius: float, plane_strain_modulus: float
 ) -> float:
-    """Return the pressure in the middle of the contact [Pa].
-
-    Arguments and errors are those of `contact_half_width`.
-    """
+    """Return the pressure in the middle of the contact [Pa], as `contact_half_width`."""
     half_width = contact_half_width(
         load_per_length=load_per_length, radius=radius, plane_strain_modulus=plane_strain_modulus
     )
@@ -241,14 +235,9 @@ def slab_compliance(
     modulus = checks.positive("youngs_modulus", youngs_modulus, unit="Pa")
     ratio = poisson(poisson_ratio)
     half_plane = 2.0 * (1.0 - ratio**2) / (modulus * number)
-    return np.asarray(half_plane * slab_factor(number * thickness, ratio))
-
-
-def slab_factor(depth_phase: ArrayLike, poisson_ratio: float) -> Array:
-    """Return the compliance of the slab over that of the half-plane [-] at k h [rad]."""
-    kappa = 3.0 - 4.0 * poisson_ratio
-    # beyond k h = 300 the factor is 1 to double precision; the limit keeps sinh finite
-    c = np.minimum(np.asarray(depth_phase, dtype=float), 300.0)
+    kappa = 3.0 - 4.0 * ratio
+    # beyond k h = 300 the slab is a half-plane to double precision; the limit keeps sinh finite
+    c = np.minimum(number * thickness, 300.0)
     above = 2.0 * kappa * np.sinh(2.0 * c) - 4.0 * c
     below = 2.0 * kappa * np.cosh(2.0 * c) + 1.0 + kappa**2 + 4.0 * c**2
-    return np.asarray(above / below)
+    return np.asarray(half_plane * (above / below))

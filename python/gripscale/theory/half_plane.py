@@ -46,13 +46,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
-from gripscale.theory.elastic import (
-    full_contact_friction,
-    full_contact_pressure,
-    plane_strain_modulus,
-    poisson,
-)
-from gripscale.wave.kernel import face_of
+from gripscale.theory import elastic
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
@@ -92,10 +86,7 @@ def nodes(points: int) -> Array:
 def solve_periodic_contact(
     compliance: Compliance, height: Callable[[Array], Array], points: int, most_iterations: int
 ) -> GridContact:
-    """Return the contact, solved on nested grids that each start from the active set before.
-
-    `compliance` gives c(m) for m = 1, 2, ...; `height` the rigid surface at angles [rad].
-    """
+    """Return the contact of compliances c(m) and a surface over angles [rad], on nested grids."""
     levels = [points]
     while levels[0] % 2 == 0 and levels[0] > _COARSEST:
         levels.insert(0, levels[0] // 2)
@@ -159,10 +150,7 @@ def influence_column(compliance: Compliance, points: int) -> Array:
 
 
 def pressure_harmonics(pressure: Array) -> ComplexArray:
-    """Return the Fourier coefficients m = 1, 2, ... of the piecewise linear pressure, to 16 N.
-
-    p(theta) = mean + sum_m 2 Re[ p_m exp(i m theta) ].
-    """
+    """Return the Fourier coefficients m = 1, 2, ... of the piecewise linear pressure, to 16 N."""
     points = len(pressure)
     number = np.arange(1, _ALIASES * points + 1)
     at_nodes = np.fft.fft(pressure) / points
@@ -171,11 +159,7 @@ def pressure_harmonics(pressure: Array) -> ComplexArray:
 
 
 def contact_edges(contact: GridContact) -> list[tuple[float, float]]:
-    """Return the contact patches as (start, end) angles [rad], interpolated between nodes.
-
-    Outside the edge of a smooth contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two
-    nearest open nodes is extrapolated to zero. A patch across +-pi has end > pi.
-    """
+    """Return the contact patches as (start, end) angles [rad]; one across +-pi has end > pi."""
     active, gap, points = contact.active, contact.gap, len(contact.gap)
     if active.all():
         return [(-np.pi, np.pi)]
@@ -193,7 +177,11 @@ def contact_edges(contact: GridContact) -> list[tuple[float, float]]:
 
 
 def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
-    """Return how far beyond the last active node the contact ends [elements, 0 to 1]."""
+    """Return how far beyond the last active node the contact ends [elements, 0 to 1].
+
+    Outside the edge of a smooth contact the gap grows as (distance)^(3/2), so gap^(2/3) at the two
+    nearest open nodes is extrapolated to zero.
+    """
     points = len(gap)
     near, far = (node + side) % points, (node + 2 * side) % points
     if active[far] or gap[far] <= max(gap[near], 0.0):
@@ -203,16 +191,13 @@ def _edge_offset(gap: Array, active: Mask, node: int, side: int) -> float:
 
 
 class HalfPlane(Checked):
-    """Solver of one wave at small strain.
-
-    Raises `InputError` if an argument is out of its range.
-    """
+    """Solver of one wave at small strain; `InputError` if an argument is out of its range."""
 
     name: ClassVar[str] = "half_plane"
 
     points: int = checked(checks.whole, least=16, most=8192, default=1024)
     """Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest."""
-    poisson_ratio: float | None = checked(lambda _, value: poisson(value), default=None)
+    poisson_ratio: float | None = checked(lambda _, value: elastic.poisson(value), default=None)
     """Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at constant
     bulk modulus and Poisson's ratio follows the frequency."""
     most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
@@ -250,19 +235,19 @@ class HalfPlane(Checked):
             omega = number * frequency
             if self.poisson_ratio is None:
                 return problem.rubber.plane_strain_modulus(omega)
-            return problem.rubber.complex_modulus(omega) * plane_strain_modulus(
-                1.0, self.poisson_ratio
-            )
+            confined = elastic.plane_strain_modulus(1.0, self.poisson_ratio)
+            return problem.rubber.complex_modulus(omega) * confined
 
         first = complex(modulus(np.ones(1))[0])
         sizes = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}
-        swing = full_contact_pressure(first, **sizes)
+        swing = elastic.full_contact_pressure(first, **sizes)
         full = load.pressure >= swing
         status, iterations, residual = Status.CONVERGED, 0, 0.0
         if full:
             # one harmonic of pressure, ahead of the wave by the loss angle
             edges, in_contact = [(-np.pi, np.pi)], self.points
-            friction = dissipated = full_contact_friction(first, pressure=load.pressure, **sizes)
+            sizes["pressure"] = load.pressure
+            friction = dissipated = elastic.full_contact_friction(first, **sizes)
             pressure = load.pressure + swing * np.cos(k * x + float(np.angle(first)))
         else:
             slope = k * wave.amplitude
@@ -312,7 +297,6 @@ class HalfPlane(Checked):
         )
 
 
-@face_of(HalfPlane)
 def solve_half_plane(
     rubber: Rubber,
     *,

@@ -23,9 +23,8 @@ both lengths. The theory has no contact area.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -34,20 +33,13 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.core.status import Status
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
-from gripscale.surface.height_difference import (
-    HeightDifference,
-    SelfAffineFit,
-    fit_self_affine,
-    height_difference,
-)
+from gripscale.surface import HeightDifference, SelfAffineFit, fit_self_affine, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.persson import (
     TheoryResult,
-    Variable,
     answer_of,
     cleaned_profiles,
     divided,
@@ -59,60 +51,34 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-_SOURCE = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
 _TOP_HEIGHT_FRACTION = 0.5
 """Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
-
 _TOLERANCE = 1e-6
 """Relative error of the integral below which a result is converged."""
-
 _NODES = 33
 """Wavelengths of the running friction."""
-
 _COARSEST, _FINEST = 4, 1024
 """Intervals between them, doubled from the first to the last."""
-
-_VARIABLES = (
-    ("wavelength", "scale", "m", "wavelength"),
-    ("running_friction", "scale", "1", "friction coefficient so far"),
-    ("layer_ratio", (), "1", "thickness of the strained layer over penetration depth"),
-    ("penetration_depth", (), "m", "mean penetration depth"),
-    ("friction_error", (), "1", "estimated error of the friction coefficient"),
-)
-"""Variables of a result: name, dimension, unit, meaning."""
 
 
 @dataclass(frozen=True)
 class KlueppelHeinrichResult(TheoryResult):
     """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
 
-    name: ClassVar[str] = "klueppel_heinrich"
-    title: ClassVar[str] = "Hysteresis friction of rubber on a self-affine surface"
-    source: ClassVar[str] = _SOURCE
-    variables: ClassVar[Sequence[Variable]] = _VARIABLES
+    name = "klueppel_heinrich"
+    title = "Hysteresis friction of rubber on a self-affine surface"
+    source = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
+    variables = (
+        ("wavelength", "scale", "m", "wavelength"),
+        ("running_friction", "scale", "1", "friction coefficient so far"),
+        ("layer_ratio", (), "1", "thickness of the strained layer over penetration depth"),
+        ("penetration_depth", (), "m", "mean penetration depth"),
+        ("friction_error", (), "1", "estimated error of the friction coefficient"),
+    )
 
-    rubber: Rubber
     surface: SelfAffineFit
-    load: Load
     layer_ratio: float
     penetration_depth: float
-    wavelength: Array = field(repr=False)
-    """Falling, from the cut-off length of the surface to the smallest one asked for."""
-    running_friction: Array = field(repr=False)
-    """Friction coefficient of the waves down to each wavelength [-]."""
-    friction_error: float
-    """Change of the friction coefficient when the resolution was doubled last [-]."""
-
-    @property
-    def contact_fraction(self) -> float:
-        """NaN: see the head of the module."""
-        return math.nan
-
-    @property
-    def status(self) -> Status:
-        """`converged` if doubling the resolution changed friction by less than `_TOLERANCE`."""
-        met = self.friction_error <= _TOLERANCE * self.friction
-        return Status.CONVERGED if met else Status.TOLERANCE_NOT_MET
 
 
 def klueppel_heinrich(
@@ -184,8 +150,9 @@ def klueppel_heinrich(
         work = 0.5 * ratio * depth / load.pressure * q * loss * strain_spectrum(q, fit)
         return (running_integral(work * q, log_q)[::intervals],)
 
-    (friction,), (error,) = refine_intervals(at, _COARSEST, _FINEST, _TOLERANCE)
-    return KlueppelHeinrichResult(rubber, fit, load, ratio, depth, wavelength, friction, error)
+    (friction,), (error,), status = refine_intervals(at, _COARSEST, _FINEST, _TOLERANCE)
+    common = (rubber, load, status, wavelength, friction, error)
+    return KlueppelHeinrichResult(*common, fit, ratio, depth)
 
 
 def strain_spectrum(q: Array, fit: SelfAffineFit) -> Array:

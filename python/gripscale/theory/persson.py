@@ -22,6 +22,7 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -32,17 +33,12 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.model import NOT_CONVERGED, Load, Model, OnProgress, of_curve
+from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
-from gripscale.surface.profile import Profile
-from gripscale.surface.spectrum import (
-    ArealSpectrum,
-    ProfileSpectrum,
-    areal_spectrum,
-    last_wavenumber,
-    profile_spectrum,
-)
+from gripscale.surface import Profile, areal_spectrum, profile_spectrum
+from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
 from gripscale.surface.surface import Surface, SurfacePart
 
 if TYPE_CHECKING:
@@ -54,6 +50,7 @@ Variable = tuple[str, Any, str, str]
 """Name of variable and attribute, dimension, unit and meaning."""
 
 
+@dataclass(frozen=True)
 class TheoryResult:
     """Base of the results of theories: friction down to each wavelength and its Dataset."""
 
@@ -62,19 +59,21 @@ class TheoryResult:
     source: ClassVar[str]
     variables: ClassVar[Sequence[Variable]]
 
-    if TYPE_CHECKING:
-        rubber: Rubber
-        load: Load
-        wavelength: Array
-        running_friction: Array
+    rubber: Rubber
+    load: Load
+    status: Status
+    """`converged` if doubling the resolution changed every integral by less than the tolerance."""
+    wavelength: Array = field(repr=False)
+    """Falling, from the largest wave of the surface to the smallest one asked for [m]."""
+    running_friction: Array = field(repr=False)
+    """Friction coefficient of the waves down to each wavelength [-]."""
+    friction_error: float
+    """Change of the friction coefficient when the resolution was doubled last [-]."""
 
-        @property
-        def contact_fraction(self) -> float:
-            """Real over nominal contact area [-], NaN of a theory without it."""
-
-        @property
-        def status(self) -> Status:
-            """Whether the integrals met their tolerance."""
+    @property
+    def contact_fraction(self) -> float:
+        """Real over nominal contact area [-]; NaN of a theory without it."""
+        return math.nan
 
     @property
     def friction(self) -> float:
@@ -87,10 +86,7 @@ class TheoryResult:
         return self.status == Status.CONVERGED
 
     def to_dataset(self) -> xr.Dataset:
-        """Return everything as a labelled Dataset over `scale`, the wavelengths.
-
-        The totals are NaN unless it converged.
-        """
+        """Return everything over `scale`, the wavelengths; totals are NaN unless it converged."""
         import xarray as xr
 
         from gripscale.core.labels import labelled
@@ -142,8 +138,8 @@ def running_integral(values: Array, x: Array) -> Array:
 
 def refine_intervals(
     at: Callable[[int], Values], first: int, most: int, tolerance: float
-) -> tuple[Values, tuple[float, ...]]:
-    """Return `at(intervals)` on a fine grid, and its change by the last doubling.
+) -> tuple[Values, tuple[float, ...], Status]:
+    """Return `at(intervals)` on a fine grid, its change by the last doubling, and the status.
 
     Intervals are doubled from `first` until the last entry of every array changes by less than
     `tolerance` of itself, or `most` is reached.
@@ -155,32 +151,16 @@ def refine_intervals(
         errors = tuple(float(abs(b[-1] - a[-1])) for a, b in zip(coarse, fine, strict=True))
         met = all(e <= tolerance * abs(b[-1]) for e, b in zip(errors, fine, strict=True))
         if met or first >= most:
-            return fine, errors
+            return fine, errors, Status.CONVERGED if met else Status.TOLERANCE_NOT_MET
         coarse = fine
 
 
-_SOURCE = "Persson 2001, J. Chem. Phys. 115, 3840"
 _TOLERANCE = 1e-4
 """Relative error of the integrals below which a result is converged."""
-
-_VARIABLES = (
-    ("wavelength", "scale", "m", "wavelength"),
-    ("running_contact_fraction", "scale", "1", "real over nominal contact area so far"),
-    ("running_friction", "scale", "1", "friction coefficient so far"),
-    ("rms_gradient", (), "1", "areal root mean square gradient"),
-    ("profile_rms_slope", (), "1", "root mean square slope of lines"),
-    ("contact_fraction_error", (), "1", "estimated error of the contact fraction"),
-    ("friction_error", (), "1", "estimated error of the friction coefficient"),
-    ("gamma", (), "1", "share of the deformation left in small contacts"),
-)
-"""Variables of a result: name, dimension, unit, meaning."""
-
 _COARSEST, _FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
-
 _WIDEST = 0.25
 """Widest step of log q on the coarsest grid, times the intervals there."""
-
 _ANGLES = 12
 """Angles of a quarter turn beyond the number of intervals."""
 
@@ -192,40 +172,34 @@ class PerssonResult(TheoryResult):
     All lengths in m, pressures in Pa, speeds in m/s; numbers along `wavelength` have its shape.
     """
 
-    name: ClassVar[str] = "persson"
-    title: ClassVar[str] = "Real contact area and friction of rubber on a randomly rough surface"
-    source: ClassVar[str] = _SOURCE
-    variables: ClassVar[Sequence[Variable]] = _VARIABLES
+    name = "persson"
+    title = "Real contact area and friction of rubber on a randomly rough surface"
+    source = "Persson 2001, J. Chem. Phys. 115, 3840"
+    variables = (
+        ("wavelength", "scale", "m", "wavelength"),
+        ("running_contact_fraction", "scale", "1", "real over nominal contact area so far"),
+        ("running_friction", "scale", "1", "friction coefficient so far"),
+        ("rms_gradient", (), "1", "areal root mean square gradient"),
+        ("profile_rms_slope", (), "1", "root mean square slope of lines"),
+        ("contact_fraction_error", (), "1", "estimated error of the contact fraction"),
+        ("friction_error", (), "1", "estimated error of the friction coefficient"),
+        ("gamma", (), "1", "share of the deformation left in small contacts"),
+    )
 
-    rubber: Rubber
-    load: Load
-    gamma: float
-    wavelength: Array = field(repr=False)
-    """Falling, from the largest wave of the spectrum to the smallest one asked for."""
     running_contact_fraction: Array = field(repr=False)
     """A/A_0 down to each wavelength, P(q) [-]."""
-    running_friction: Array = field(repr=False)
-    """Friction coefficient of the waves down to each wavelength [-]."""
+    contact_fraction_error: float
+    """Change of the contact fraction when the resolution was doubled last [-]."""
+    gamma: float
     rms_gradient: float
     """Of the surface, down to the smallest wavelength: areal [-]."""
     profile_rms_slope: float
     """Of lines through the same waves: the areal number over sqrt(2) [-]."""
-    contact_fraction_error: float
-    """Change of the contact fraction when the resolution was doubled last [-]."""
-    friction_error: float
-    """Change of the friction coefficient when the resolution was doubled last [-]."""
 
     @property
     def contact_fraction(self) -> float:
         """Real over nominal contact area [-]."""
         return float(self.running_contact_fraction[-1])
-
-    @property
-    def status(self) -> Status:
-        """`converged` if doubling the resolution changed both numbers by less than `_TOLERANCE`."""
-        area = self.contact_fraction_error <= _TOLERANCE * self.contact_fraction
-        friction = self.friction_error <= _TOLERANCE * abs(self.friction)
-        return Status.CONVERGED if area and friction else Status.TOLERANCE_NOT_MET
 
 
 def persson(
@@ -272,54 +246,46 @@ def persson(
     points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
     nodes = np.exp(filled_in(np.log(points), _WIDEST))
     load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
-    integrals = _Integrals(rubber, spectrum, load, share, nodes)
-    (area, friction), (area_error, friction_error) = refine_intervals(
-        integrals.at_nodes, _COARSEST, _FINEST, _TOLERANCE
+    (area, friction), (area_error, friction_error), status = refine_intervals(
+        partial(integrals, rubber, spectrum, load, share, nodes), _COARSEST, _FINEST, _TOLERANCE
     )
     return PerssonResult(
         rubber=rubber,
         load=load,
-        gamma=share,
+        status=status,
         wavelength=2.0 * np.pi / nodes,
-        running_contact_fraction=area,
         running_friction=friction,
+        friction_error=friction_error,
+        running_contact_fraction=area,
+        contact_fraction_error=area_error,
+        gamma=share,
         rms_gradient=spectrum.rms_gradient(smallest_wavelength),
         profile_rms_slope=spectrum.profile_rms_slope(smallest_wavelength),
-        contact_fraction_error=area_error,
-        friction_error=friction_error,
     )
 
 
-@dataclass(frozen=True)
-class _Integrals:
-    """The integrals of the theory over the wavenumbers of `nodes` [rad/m]."""
+def integrals(
+    rubber: Rubber, spectrum: ArealSpectrum, load: Load, gamma: float, nodes: Array, intervals: int
+) -> tuple[Array, Array]:
+    """Return P and mu at the nodes [rad/m], by the trapezoidal rule in log q."""
+    from scipy.special import erf
 
-    rubber: Rubber
-    spectrum: ArealSpectrum
-    load: Load
-    gamma: float
-    nodes: Array
-
-    def at_nodes(self, intervals: int) -> tuple[Array, Array]:
-        """Return P and mu at the nodes, by the trapezoidal rule in log q."""
-        from scipy.special import erf
-
-        log_q = divided(np.log(self.nodes), intervals)
-        q = np.exp(log_q)
-        stiff, lossy = over_angles(self.rubber, self.load, q, intervals)
-        weight = q**4 * self.spectrum.at(q)  # q^3 C dq with dq = q d(log q)
-        with np.errstate(divide="ignore"):
-            area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
-        factor = self.gamma + (1.0 - self.gamma) * area**2
-        friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
-        return area[::intervals], friction[::intervals]
+    log_q = divided(np.log(nodes), intervals)
+    q = np.exp(log_q)
+    stiff, lossy = over_angles(rubber, load, q, intervals)
+    weight = q**4 * spectrum.at(q)  # q^3 C dq with dq = q d(log q)
+    with np.errstate(divide="ignore"):
+        area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
+    factor = gamma + (1.0 - gamma) * area**2
+    friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
+    return area[::intervals], friction[::intervals]
 
 
 def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[Array, Array]:
     """Return int |M/p_0|^2 dphi and int cos(phi) Im M/p_0 dphi over a turn, at each `q`.
 
-    Both are four times a quarter turn. With cos(phi) = sin(psi) and psi = pi/2 s^4 Gauss points
-    in s are dense where the frequency q v sin(psi) runs through many decades.
+    Four times a quarter turn: with cos(phi) = sin(psi) and psi = pi/2 s^4 Gauss points in s are
+    dense where the frequency q v sin(psi) runs through many decades.
     """
     abscissae, weights = np.polynomial.legendre.leggauss(_ANGLES + intervals)
     s = 0.5 * (1.0 + abscissae)

@@ -1,4 +1,5 @@
 from .block import FiniteStrainBlock as FiniteStrainBlock
+from .block import solve_profile as solve_profile
 from .block import solve_scale as solve_scale
 from .kernel import WaveSolver as WaveSolver
 from .kernel import default_settings as default_settings
@@ -8,7 +9,6 @@ from .problem import SampledProfile as SampledProfile
 from .problem import Sine as Sine
 from .problem import WaveLoad as WaveLoad
 from .problem import WaveProblem as WaveProblem
-from .profile import solve_profile as solve_profile
 from .result import ScaleResult as ScaleResult
 from .transient import Stage as Stage
 from .transient import TransientResult as TransientResult

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import Any, Protocol, TypeVar, runtime_checkable
+from typing import Protocol, TypeVar, runtime_checkable
 
 from gripscale import _kernel
 from gripscale.core import checks
@@ -39,11 +39,7 @@ def solve_steady(
     time_limit: float | None,
     workers: int | None,
 ) -> Solution:
-    """Return the static or steadily sliding solution; `start` is a first guess.
-
-    The number of `workers` threads does not change the solution by a bit. Ctrl-C and the end of a
-    job of `gripscale.core.parallel` interrupt it.
-    """
+    """Return the static or steadily sliding solution; Ctrl-C and the end of a job interrupt it."""
     load, rubber = problem.load, problem.rubber
     inputs: _kernel.Problem = {
         **_body(rubber, problem.profile, mesh),
@@ -70,10 +66,7 @@ def solve_stages(
 
 
 def solution_of(start: ScaleResult) -> Solution:
-    """Return the kernel's solution behind a result.
-
-    Raises `InputError` if there is none: the result is of another solver, or from a file.
-    """
+    """Return the kernel's solution behind a result; `InputError` without it, as from a file."""
     checks.instance("start", start, ScaleResult)
     if isinstance(start.solution, Solution):
         return start.solution
@@ -124,9 +117,6 @@ def _checked_call(call: Callable[[], _T]) -> _T:
         raise InputError(str(error)) from error
 
 
-F = TypeVar("F", bound=Callable[..., ScaleResult])
-
-
 @runtime_checkable
 class WaveSolver(Protocol):
     """Solves one wave; the fields of the solver hold its mesh and accuracy.
@@ -153,21 +143,3 @@ class RefinableSolver(WaveSolver, Protocol):
 
     def coarser(self) -> WaveSolver:
         """Return the solver on a mesh that takes a fraction of the time."""
-
-
-def face_of(solver: type) -> Callable[[F], F]:
-    """Mark a function with keyword arguments as the face of `solver`.
-
-    `gripscale.solve_chain` then accepts the function in place of the solver.
-    """
-
-    def mark(function: F) -> F:
-        setattr(function, "solver", solver)  # noqa: B010 (functions declare no attributes)
-        return function
-
-    return mark
-
-
-def solver_of(face: Any) -> Any:
-    """Return the solver class behind a function marked by `face_of`, or None."""
-    return getattr(face, "solver", None)

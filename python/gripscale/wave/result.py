@@ -34,11 +34,7 @@ LARGE_MISMATCH = 0.05
 
 
 def harmonics(x: Array, pressure: Array, period: float, order: NDArray[np.int_]) -> Array:
-    """Return |p_k| [Pa] of the harmonics of `order`, by the trapezoidal rule.
-
-    The nodes `x` [m] may be at uneven steps; those where `x` or `pressure` [Pa] is not finite are
-    left out.
-    """
+    """Return |p_k| [Pa] of the harmonics of `order`, by the trapezoidal rule on uneven `x`."""
     finite = np.isfinite(x) & np.isfinite(pressure)
     position = np.mod(x[finite], period)
     sequence = np.argsort(position)
@@ -343,10 +339,7 @@ DETAILS = (
 
 
 def waves_to_dataset(results: Sequence[ScaleResult]) -> xr.Dataset:
-    """Return `results` over `scale`; what lies along the waves is padded with NaN.
-
-    Every variable carries `units`, `long_name` and `source`.
-    """
+    """Return `results` over `scale`; what lies along the waves is padded with NaN."""
     data: dict[str, xr.Variable] = {}
     for number in (*FIELDS, *DERIVED):
         values = np.array([attrgetter(number.attribute)(result) for result in results])

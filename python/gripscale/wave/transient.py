@@ -65,10 +65,7 @@ class TransientResult:
         return self.status == Status.CONVERGED
 
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
-        """Return mean, least and largest friction and contact fraction at the end of the run.
-
-        The sliding distance up to the end that counts is given in `wavelengths`.
-        """
+        """Return mean, least and largest friction and contact over the last `wavelengths`."""
         last = self._distance_to_end() <= wavelengths
         return {
             name: (float(values[last].mean()), float(values[last].min()), float(values[last].max()))

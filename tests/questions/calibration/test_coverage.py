@@ -13,10 +13,9 @@ import scipy.stats
 from gripscale.conditions import LeGalKlueppelStress
 from gripscale.questions import AreaTermFit, fit_area_term
 from gripscale.questions.calibration.calibration_law import (
-    CalibrationProblem,
     best,
-    family_of,
     points_of,
+    problem_of,
 )
 from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile, threshold_of
 
@@ -47,9 +46,9 @@ def below_threshold(factor: float) -> dict[str, int]:
         measured, predicted = measurement(seed=seed)
         object.__setattr__(measured, "spread", factor * measured.spread)
         points = points_of(measured, predicted)
-        problem = CalibrationProblem(points, family_of("gaussian", points, REFERENCE))
+        problem = problem_of("gaussian", points, REFERENCE)
         optimum = best(problem)
-        for place, one in enumerate(problem.family.free):
+        for place, one in enumerate(problem.free):
             excess, _ = LikelihoodProfile(problem, optimum, place).excess(
                 one.scaled(TRUTH[one.name])
             )
@@ -100,7 +99,7 @@ def test_an_interval_ends_where_the_profile_says() -> None:
     fit = fit_area_term(*measurement(), fixed=REFERENCE)
     threshold = threshold_of(fit.optimum, spread_known=True)
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
-    for place, one in enumerate(fit.problem.family.free):
+    for place, one in enumerate(fit.problem.free):
         profile = LikelihoodProfile(fit.problem, fit.optimum, place)
         for end in (fit.estimates[place].low, fit.estimates[place].high):
             # the distance to an end is known to 1e-3, its square to twice that

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.finding import sentences
 from gripscale.experiment import MeasuredFriction, read_measured_friction
 from gripscale.experiment.measured_friction import friction_doubts, speed_doubts
 
@@ -41,7 +42,7 @@ def test_a_unit_that_is_not_stated_is_a_doubt_with_its_cure(tmp_path: Path) -> N
     stated = read_measured_friction(written(tmp_path, "speed [m/s],mu\n0.1,0.3\n1,0.5\n"))
     assert stated.assumed == ""
     bare = read_measured_friction(written(tmp_path, "speed,mu,p\n0.1,0.3,1e5\n1,0.5,1e5\n"))
-    assert friction_doubts(bare, 1.0) == [bare.assumed]
+    assert [str(doubt) for doubt in friction_doubts(bare, 1.0)] == [bare.assumed]
     assert "m/s is assumed: write it in the title, such as 'speed [mm/s]'." in bare.assumed
     assert "The unit of pressure in measured.csv is not stated and Pa is assumed" in bare.assumed
     assert friction_doubts(None, 1.0) == []
@@ -59,7 +60,7 @@ def test_a_unit_that_is_not_stated_is_a_doubt_with_its_cure(tmp_path: Path) -> N
 def test_speeds_far_from_that_of_the_case_have_another_unit(
     speeds: tuple[float, float], words: str
 ) -> None:
-    said = " ".join(speed_doubts(MeasuredFriction(speeds, (0.3, 0.3)), 1.0))
+    said = sentences(speed_doubts(MeasuredFriction(speeds, (0.3, 0.3)), 1.0))
     assert words in said
     assert bool(words) == bool(said)
     assert ("not all below" in words) == bool(

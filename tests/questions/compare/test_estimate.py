@@ -10,7 +10,7 @@ import xarray as xr
 from scipy import stats
 
 from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.answer.best_estimate import FINITE_STRAIN, best_estimate
+from gripscale.questions.answer.best_estimate import ASSUMED_FINITE_STRAIN, best_estimate
 from gripscale.questions.answer.samples import ratio
 
 Make = Callable[..., xr.Dataset]
@@ -35,7 +35,7 @@ SAMPLING = {
 
 def test_finite_strain_is_assumed_where_no_window_was_solved(solved: Make, together: Make) -> None:
     best = best_estimate(together(direct=solved(DIRECT | SAMPLING)))
-    assumed = FINITE_STRAIN.assumed
+    assumed = ASSUMED_FINITE_STRAIN
     assert best.best_contact_fraction == pytest.approx(0.04)
     assert best.best_friction == pytest.approx(0.2)
     assert best.factor_label.values.tolist() == [assumed.label]

@@ -11,12 +11,12 @@ import pytest
 from gripscale import surface as surfaces
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface, prepare_rubber
+from gripscale.continuation import HurstExponent, contact_by_cut_off
 from gripscale.core.errors import InputError
-from gripscale.half_space import HurstExponent, contact_by_cut_off
 from gripscale.io import netcdf
 from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off
 from gripscale.questions.cut_off.question import cut_off
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
 
 SURFACE = 'files = ["road.txt"]\nscales = 3\ncut_off = "0.5 mm"'

@@ -38,7 +38,7 @@ from gripscale.questions.design.design_text import (
 )
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.questions.design.page import design_cards, design_lines
-from gripscale.report import write_report
+from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road

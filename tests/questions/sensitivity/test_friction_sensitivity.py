@@ -16,19 +16,14 @@ from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
 from gripscale.questions import FrictionSensitivity
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.sensitivity.friction_sensitivity import (
     FEEDBACK,
     KELVIN_STEP,
     LOSS,
     STORAGE,
 )
-from gripscale.questions.sensitivity.page import (
-    decades_table,
-    sensitivity_lines,
-    sensitivity_parts,
-    sums_table,
-)
-from gripscale.report import write_report
+from gripscale.questions.sensitivity.question import Sensitivity
 from gripscale.surface import Measured, Surface, self_affine_profile
 from tests.samples import (
     SHIFTED_LOAD,
@@ -138,10 +133,10 @@ def data(folder: Path) -> xr.Dataset:
 def test_bands_that_are_not_excited_count_nothing(data):
     assert np.isfinite(data[LOSS].values).all()
     assert (data[LOSS].values == 0.0).any()
-    assert sums_table(data).columns[1].values == pytest.approx(
+    assert Sensitivity(data).table().columns[1].values == pytest.approx(
         data[LOSS].sum("frequency").values.tolist()
     )
-    decades = decades_table(data)
+    decades = Sensitivity(data).decades_table()
     for i in range(3):
         total = float(data[LOSS].isel(temperature=i).sum())
         column = next(c for c in decades.columns if c.name == f"{LOSS}_{i}")
@@ -190,7 +185,7 @@ def test_refuses_rest_and_other_inputs(folder, tmp_path):
 def test_says_why_there_is_no_answer(data):
     why = np.full(3, "profile 1 of 1: active set not settled", dtype=object)
     missing = data.drop_vars([LOSS, STORAGE]).assign(prediction_status=("temperature", why))
-    assert not list(sensitivity_parts(missing))
-    (only,) = sensitivity_lines(missing)
+    assert not list(Sensitivity(missing).parts())
+    (only,) = Sensitivity(missing).lines
     assert only.startswith("Answer: none.")
     assert "active set" in only

@@ -13,7 +13,8 @@ from scipy import stats
 from gripscale.case_file import read_case
 from gripscale.questions import Uncertainty, propagate
 from gripscale.questions.answer.answer import answer
-from gripscale.questions.uncertainty.page import answer_lines_of, part_tables, uncertainty_parts
+from gripscale.questions.uncertainty.page import part_tables
+from gripscale.questions.uncertainty.question import SampledAnswer
 from gripscale.questions.uncertainty.sampled_answer import OF_RUN, REST, sampled_error
 from gripscale.questions.uncertainty.sources import SOURCES
 from tests.samples import THREE_WAVES, case_text
@@ -116,7 +117,7 @@ def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: x
     assert sigma(data, "friction", "cut-off of the roughness") ** 2 == pytest.approx(
         square, rel=0.1
     ), "a smooth effect of one number: the fit explains nearly all of it"
-    sentences = " ".join(map(str, answer_lines_of(data)))
+    sentences = " ".join(SampledAnswer(data).lines)
     assert "Answer: μ = " in sentences
     assert "`gripscale run`, without them: μ" in sentences
     (table,) = part_tables(data)
@@ -151,7 +152,7 @@ def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
     single = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
     for name in ("best_friction", "best_contact_fraction_half_width"):
         assert float(data[name].sel(speed=0.3)) == pytest.approx(float(single[name]))
-    table = next(part for part in uncertainty_parts(data) if not isinstance(part, str))
+    table = next(part for part in SampledAnswer(data).parts() if not isinstance(part, str))
     assert table.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
 
 
@@ -162,7 +163,7 @@ def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
     for name in QUANTITIES:
         width = float(of_run[f"best_{name}_half_width"])
         assert float(data[f"best_{name}_half_width"]) == pytest.approx(width, rel=1e-9)
-    assert "the direct contact was not sampled" in " ".join(map(str, answer_lines_of(data)))
+    assert "the direct contact was not sampled" in " ".join(SampledAnswer(data).lines)
 
 
 def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
@@ -178,7 +179,7 @@ def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
     assert float(data.best_friction_half_width) == pytest.approx(
         math.sinh(stats.t.ppf(0.95, 11) * spread)
     )
-    text = " ".join(map(str, answer_lines_of(data)))
+    text = " ".join(SampledAnswer(data).lines)
     assert "from the chain of waves" in text
     assert "no measured surface judges it" in text
 

@@ -11,8 +11,8 @@ from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.questions import of_same_inputs, stored_uncertainty
 from gripscale.questions.answer.page import number_and_interval
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_lines
-from gripscale.report import write_report
 
 
 def called(*arguments: object) -> None:

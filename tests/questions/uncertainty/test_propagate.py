@@ -12,8 +12,8 @@ from gripscale.core.errors import InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
 from gripscale.questions import Uncertainty, propagate, summary
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.uncertainty.page import page_notices, sampling_failure, too_many_failed
-from gripscale.report import write_report
 
 QUICK = Uncertainty(without=["waves"])
 

@@ -273,7 +273,7 @@ def test_leaving_out_a_source_changes_no_draw_of_the_others(known):
 
 def test_waves_by_hand_and_a_named_rubber_leave_what_they_leave():
     stack = SineStack(np.array([0.01, 0.002]), np.array([5e-4, 1e-4]))
-    known = Measurement(Surface(stack, "by hand"), Rubber(6e6), speed=0.3)
+    known = Measurement(Surface(stack, "by hand"), Rubber(6e6), Load(3e5, 0.3, 0.1))
     chosen = Uncertainty().of(known, ["chain"])
     assert [source.name for source in chosen.sources] == ["bulk_modulus", "load_time"]
     assert len(chosen.left_out) == len(SOURCES) - 2
@@ -307,7 +307,7 @@ def test_values_of_a_list_are_equally_likely():
 
 def predicted(known, one):
     surface, model = one.inputs.for_model(HALF_PLANES)
-    load = Load(3e5, known.speed, 0.1)
+    load = Load(3e5, known.load.speed, 0.1)
     answer = model.predict(one.inputs.rubber, surface, load)
     return float(answer.total_friction), float(answer.total_contact_fraction)
 

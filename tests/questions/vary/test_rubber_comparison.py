@@ -13,6 +13,7 @@ from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import significant
 from gripscale.questions import Compounds, at_one_temperature, compare_compounds
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts_side_by_side import compound_friction_figure
 from gripscale.questions.vary.page_side_by_side import (
     CHAIN_RANKS_NOTHING,
@@ -20,7 +21,6 @@ from gripscale.questions.vary.page_side_by_side import (
     ratio_lines,
     side_by_side_totals,
 )
-from gripscale.report import write_report
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 from tests.samples import HALF_PLANE, ROOT, case_text, write_road
 

@@ -128,7 +128,7 @@ def test_samples_have_the_friction_of_a_road_solved_as_finely(tmp_path: Path) ->
     lossy = gs.Rubber(4e6, moduli, POWER_LAW_TIMES, bulk_modulus=1e13)
     model, load = DirectContact(tolerance=JUDGED_TO), Load(3e5, 0.3, 0.1)
     measured = float(model.predict(lossy, surface, load).total_friction)
-    measurement = Measurement(surface, lossy, speed=load.speed, load_time=load.load_time)
+    measurement = Measurement(surface, lossy, load)
     compared = _drawn(measurement, model, load, 10)[REFERENCE]
     sample = float(compared.model.predict(lossy, compared.surface, load).total_friction)
     assert sample == pytest.approx(measured, rel=0.05)

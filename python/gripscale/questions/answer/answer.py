@@ -12,35 +12,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import xarray as xr
 
 from gripscale.case import Case
+from gripscale.charts.draw import Sheet
 from gripscale.core import provenance
 from gripscale.core.finding import Finding
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
-from gripscale.questions.answer.direct_contact import (
-    continued_curve,
-    direct_contact_totals,
-    solve_direct_contact,
-)
+from gripscale.questions.answer import direct_contact
+from gripscale.questions.answer.charts import named_traces, trace_sheet
 from gripscale.questions.answer.findings import case_notices
-from gripscale.questions.answer.page import answer_lines, basis_lines
-from gripscale.questions.answer.reliance import (
-    answer_interval,
-    answer_number,
-    is_solved,
-    no_answer,
-)
+from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
+from gripscale.questions.answer.reliance import answer_interval, answer_number, is_solved, no_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.report.elements import Page
-
-if TYPE_CHECKING:
-    from gripscale.charts.chart import Sheet
 
 ANSWER_FILE = "answer.nc"
 """Name of the saved answer in a results folder."""
@@ -99,32 +88,24 @@ class Answer(NumbersWithIntervals):
 
     @property
     def lines(self) -> Sequence[str]:
-        """Friction and contact area with their intervals, then the `basis`."""
         return tuple(answer_lines(self.data))
 
     @cached_property
     def findings(self) -> Sequence[Finding]:
-        """What may change the answer, the most important first."""
         return tuple(case_notices(self.data if self.is_solved else None, InputRecord(self.inputs)))
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""
-        from gripscale.report.summary import summary_table
+        from gripscale.questions.summary_table import summary_table
 
         return summary_table([self.data])
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
-        """Yield rubber on the surface, its pressure, and where the friction is made."""
-        from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
-
         if self.is_solved:
-            for name, trace in named_traces(self.data, profile_names(self.inputs))[:1]:
+            for name, trace in named_traces(self.data, self.inputs)[:1]:
                 yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:
-        """Return the answer, the contact, and the inputs with their origin."""
-        from gripscale.questions.answer.page import answer_page
-
         return answer_page(self.data, InputRecord(self.inputs), self.findings)
 
 
@@ -150,14 +131,13 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         If the direct contact cannot use the rubber or a profile, or the roughness below the
         measurement has no result.
     """
-    notes = friction_doubts(case.friction, case.load.speed)
-    inputs = record.inputs(case, friction_notes=notes)
-    samples = solve_direct_contact(case)
+    inputs = record.inputs(case, further=friction_doubts(case.friction, case.load.speed))
+    samples = direct_contact.solve_direct_contact(case)
     attrs = {"case_file": case.origin.name, **case.attributes, **provenance.version_attributes()}
     if samples is None:
         return Answer(xr.Dataset(attrs=attrs), inputs)
-    curve = continued_curve(case, case.load, folder)
-    data = direct_contact_totals(samples, case, case.load, curve)
+    curve = direct_contact.continued_curve(case, case.load, folder)
+    data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
     result = Answer(data.assign_attrs(attrs), inputs)
     result.curve = curve
     return result

@@ -14,24 +14,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from gripscale.experiment.design import Index, stack, variable_attributes
-from gripscale.half_space import line_to_map, location
+from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
+from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import BASIS, STATUS
+from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
-from gripscale.questions.answer.samples import (
-    SAMPLED_QUANTITIES,
-    SMOOTH,
-    estimated_error,
-    ratio,
-    road_error,
-    usable,
-)
 from gripscale.questions.vary.study import UPPER_HEIGHT
 
 DIRECT = DirectContact.name
@@ -61,40 +55,16 @@ class Factor:
     """Degrees of freedom of its uncertainties."""
 
 
-class FactorOf(NamedTuple):
-    """A factor of the best estimate: its name, and which rungs it is the ratio of."""
-
-    name: str
-    label: str
-    over: str
-    under: str
-    assumed: Factor
-    """Where the rungs were not solved."""
-
-
-FINITE_STRAIN = FactorOf(
-    "finite_strain",
-    "finite strain",
-    "windows_finite_strain",
-    "windows_half_plane",
-    Factor(
-        "finite_strain",
-        "finite strain, assumed",
-        LogNormalValue(1.0, 0.03),
-        LogNormalValue(1.0, 0.05),
-    ),
+FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
+"""Rungs whose ratio is the factor of finite strain."""
+ASSUMED_FINITE_STRAIN = Factor(
+    "finite_strain", "finite strain, assumed", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
-
-
-@dataclass(frozen=True)
-class IsotropicSurface:
-    """The factor from measured lines to the isotropic surface they lie on."""
-
-    name: ClassVar[str] = "isotropic_surface"
-    label: ClassVar[str] = "step from lines to a surface"
-
-    upper_height: float
-    """Of the lines, see `gripscale.half_space.line_to_map`."""
+"""Where these rungs were not solved: what windows and blocks of other roads showed."""
+LINES_TO_SURFACE = "step from lines to a surface"
+"""Label of the factor from measured lines to the isotropic surface they lie on."""
+FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
+"""A factor on each estimated quantity, with its error."""
 
 
 class SampledErrors(NamedTuple):
@@ -108,8 +78,6 @@ class SampledErrors(NamedTuple):
 
 BASIS_SHARES = ("steep_share", "missing_share")
 """What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
-
-AnyFactor = FactorOf | IsotropicSurface | Factor
 
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
 """What is estimated, and of which number of the samples its factors are ratios: of the two
@@ -126,42 +94,41 @@ def best_estimate(
     """Return the best estimate of the solved rungs.
 
     `upper_height` is that of measured lines (`gripscale.half_space.line_to_map`); None for a map.
-    `sampled` adds what is not known of the inputs to the interval.
+    `sampled` adds what is not known of the inputs to the interval. A `supplied` factor with the
+    name of a known one replaces it.
 
-    `best_contact_fraction` and `best_friction` with their relative standard `_uncertainty` and the
-    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged; no
-    interval where the profiles are too short to tell how well they represent the road
-    (`_sampling_error`, the relative standard error; `_grid_error` is that of the grid).
-    `best_steep_share`, `best_missing_share`, and over `slope` `best_friction_by_slope`,
-    `best_load_by_slope`, `best_contact_by_slope` (`gripscale.half_space.shares_by_slope`). Over
-    `factor` the `_factor` on each with its `_factor_uncertainty`, NaN where it is not included, and
-    `factor_label`. No factors without the rung of the direct contact. A `supplied` factor with the
-    name of ours replaces it.
+    `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty` and the
+    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged or
+    where the profiles are too short to tell how well they represent the road (`_sampling_error`);
+    over `factor` the `_factor` on each with its `_factor_uncertainty`, NaN if not included.
     """
     has_direct = DIRECT in samples["rung"].values
-    ours: list[AnyFactor] = [FINITE_STRAIN]
-    if upper_height is not None:
-        ours.append(IsotropicSurface(upper_height))
-    factors = {factor.name: factor for factor in (*ours, *supplied)} if has_direct else {}
     status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
-    solved = [_numbers(factor, samples, unknown) for factor in factors.values()]
-    labels = [label for label, _ in solved]
+    factors: dict[str, tuple[str, FactorNumbers]] = {}
+    if has_direct:
+        factors["finite_strain"] = _finite_strain(samples, unknown)
+        if upper_height is not None:
+            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(samples, upper_height)
+        for factor in supplied:
+            factors[factor.name] = factor.label, _numbers_of(factor, unknown)
+    labels = [label for label, _ in factors.values()]
+    solved = [_where_all_known(numbers) for _, numbers in factors.values()]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
     direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
     for share in BASIS_SHARES:
         data[f"best_{share}"] = unknown
         if direct is not None and share in direct:
-            data[f"best_{share}"] = usable(direct, share).mean("sample")
-    for share in location.SHARES_BY_SLOPE:
+            data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
+    for share in SHARES_BY_SLOPE:
         if direct is not None and share in direct:
-            data[f"best_{share}"] = usable(direct, share).mean("sample")
+            data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
-            mean, road = usable(direct, name).mean("sample"), road_error(direct, name)
+            mean, road = reduce.usable(direct, name).mean("sample"), reduce.road_error(direct, name)
             # even within the estimated error, and the same for all profiles
-            grid = estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
+            grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
         errors = [road, _certain(grid)]
         if sampled is not None:
             errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
@@ -169,8 +136,8 @@ def best_estimate(
         data[f"best_{name}_grid_error"] = grid
         value = uncertainty = unknown.expand_dims(factor=0)
         if solved:
-            value = xr.concat([numbers[name][0] for _, numbers in solved], "factor")
-            every = [numbers[name][1] for _, numbers in solved]
+            value = xr.concat([numbers[name][0] for numbers in solved], "factor")
+            every = [numbers[name][1] for numbers in solved]
             uncertainty = xr.concat([error.sigma for error in every], "factor")
             errors += [LogError(error.sigma.fillna(0.0), error.freedom) for error in every]
         mean, error = mean * value.prod("factor"), combined(errors)
@@ -187,52 +154,51 @@ def _certain(sigma: xr.DataArray) -> LogError:
     return LogError(sigma, xr.full_like(sigma, math.inf))
 
 
-def _of_surface(
-    factor: IsotropicSurface, samples: xr.Dataset
-) -> dict[str, tuple[xr.DataArray, LogError]]:
+def _of_surface(samples: xr.Dataset, upper_height: float) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
-    lines = usable(samples.sel(rung=DIRECT, drop=True), "contact_fraction").mean("sample")
+    lines = reduce.usable(samples.sel(rung=DIRECT, drop=True), "contact_fraction").mean("sample")
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
     laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio
     numbers = {}
     for name, law in zip(ESTIMATED, laws, strict=True):
-        surface = law(factor.upper_height, lines.values)
+        surface = law(upper_height, lines.values)
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
     return numbers
 
 
-def _numbers(
-    factor: AnyFactor, samples: xr.Dataset, unknown: xr.DataArray
-) -> tuple[str, dict[str, tuple[xr.DataArray, LogError]]]:
-    """Return the label of a factor, and the factor on each quantity with its error.
+def _finite_strain(samples: xr.Dataset, unknown: xr.DataArray) -> tuple[str, FactorNumbers]:
+    """Return label and numbers of the factor of finite strain, assumed where it is not solved.
 
-    NaN where it is not known of all quantities: then it is not included. Of a ratio of rungs the
-    error is the scatter of their samples and, evenly, as much again as it changes, for what the
-    samples leave out.
+    Its error is the scatter of the samples of both rungs and, evenly, as much again as the factor
+    changes, for what the samples leave out.
     """
-    numbers: dict[str, tuple[xr.DataArray, LogError]] = {}
-    if isinstance(factor, IsotropicSurface):
-        numbers = _of_surface(factor, samples)
-    if isinstance(factor, FactorOf):
-        if {factor.over, factor.under} <= set(samples["rung"].values.tolist()):
-            over, under = (
-                samples.sel(rung=rung, drop=True) for rung in (factor.over, factor.under)
-            )
-            for name, measure in ESTIMATED.items():
-                value, error = ratio(over, under, measure)
-                changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
-                numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-        if any(bool(value.isnull().any()) for value, _ in numbers.values()) or not numbers:
-            factor, numbers = factor.assumed, {}
-    if isinstance(factor, Factor):
-        for name in ESTIMATED:
-            number: LogNormalValue = getattr(factor, name)
-            sigma = xr.full_like(unknown, number.uncertainty)
-            error = LogError(sigma, xr.full_like(unknown, factor.freedom))
-            numbers[name] = xr.full_like(unknown, number.value), error
+    numbers: FactorNumbers = {}
+    if set(FINITE_STRAIN) <= set(samples["rung"].values.tolist()):
+        over, under = (samples.sel(rung=rung, drop=True) for rung in FINITE_STRAIN)
+        for name, measure in ESTIMATED.items():
+            value, error = reduce.ratio(over, under, measure)
+            changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
+            numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
+    if not numbers or any(bool(value.isnull().any()) for value, _ in numbers.values()):
+        return ASSUMED_FINITE_STRAIN.label, _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
+    return "finite strain", numbers
+
+
+def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
+    numbers = {}
+    for name in ESTIMATED:
+        number: LogNormalValue = getattr(factor, name)
+        sigma = xr.full_like(unknown, number.uncertainty)
+        error = LogError(sigma, xr.full_like(unknown, factor.freedom))
+        numbers[name] = xr.full_like(unknown, number.value), error
+    return numbers
+
+
+def _where_all_known(numbers: FactorNumbers) -> FactorNumbers:
+    """Return a factor with NaN where it is not known of all quantities: it is not included."""
     there = np.logical_and.reduce([value.notnull() for value, _ in numbers.values()])
-    return factor.label, {
+    return {
         name: (value.where(there), LogError(error.sigma.where(there), error.freedom))
         for name, (value, error) in numbers.items()
     }
@@ -290,7 +256,7 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
 
 def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
     """Return the best estimate of one prediction of a study, a sample of all its profiles."""
-    names = [*SAMPLED_QUANTITIES, *(f"{name}_error" for name in SMOOTH)]
+    names = [*reduce.SAMPLED_QUANTITIES, *(f"{name}_error" for name in reduce.SMOOTH)]
     names += [name.removeprefix("total_") for name in BASIS]
     numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
     if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:

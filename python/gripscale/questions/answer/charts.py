@@ -6,26 +6,13 @@ All are drawn from a trace (`gripscale.half_space.location.contact_trace`), whic
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw
-from gripscale.charts.chart import (
-    CrossLine,
-    Mark,
-    Note,
-    Outline,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-    ValueMap,
-)
+from gripscale.charts import chart, draw
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
 from gripscale.core.arrays import Array
@@ -46,6 +33,8 @@ DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST, LOWEST = 0.15, 0.2
 """Least height of the stretch to scale and what it shows below its contact, over its length."""
+NamedTrace = tuple[str, xr.Dataset]
+"""Name of a profile and its trace."""
 PAGE = 420
 """Width of half a page [px]."""
 _ROW, FIELD_ROW, _BELOW, _HEAD = 1.15, 2.9, 0.32, 1.1
@@ -75,13 +64,15 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
     return trace_sheet(contact_trace(contact, stretch=stretch), length=stretch).on_paper()
 
 
-def named_traces(data: xr.Dataset, profiles: Sequence[str] = ()) -> list[tuple[str, xr.Dataset]]:
-    """Return the first few traces of a result with the names of their profiles.
+def named_traces(data: xr.Dataset, inputs: xr.Dataset | None = None) -> list[NamedTrace]:
+    """Return the first few traces of a result with the names of the profiles of its inputs.
 
-    Profiles are numbered where `profiles` does not tell them apart.
+    Profiles are numbered where their names do not tell them apart.
     """
     traces = traces_of(data)
-    names = [name for name in profiles if name]
+    names: list[str] = []
+    if inputs is not None and "profile_name" in inputs:
+        names = [str(name) for name in inputs["profile_name"].values if name]
     if len({_word(name) for name in names}) != len(traces):
         names = [f"profile {number}" for number in range(1, len(traces) + 1)]
     return [
@@ -90,23 +81,12 @@ def named_traces(data: xr.Dataset, profiles: Sequence[str] = ()) -> list[tuple[s
     ]
 
 
-def profile_names(inputs: xr.Dataset) -> list[str]:
-    """Return the names of the profiles of recorded inputs; empty without any."""
-    return [str(name) for name in inputs["profile_name"].values] if "profile_name" in inputs else []
-
-
-def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None) -> Sheet:
+def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None) -> draw.Sheet:
     """Describe a trace on paper, its stretch of a length [m] or as short as the contact allows."""
     trace = _around_contact(trace, length)
     fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
     heights = [FIELD_ROW] * len(fields) + [_ROW] * len(lines) + [_drawn_height(close)]
     return _sheet([*fields, *lines, close], heights, title)
-
-
-def contact_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
-    """Return the traces of a result with its recorded inputs on the page; nothing without any."""
-    traces = named_traces(data, profile_names(inputs))
-    return [chart for name, trace in traces for chart in trace_charts(trace, name)]
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
@@ -123,19 +103,19 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
     return [lines, *draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
 
 
-def height_panels(trace: xr.Dataset, name: str) -> list[Panel]:
+def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:
     """Return the stretch with most friction, and what its heights are worth for the friction."""
     trace = _around_contact(trace)
     part = _stretch(trace)
     x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI
     return [
         _stretch_panel(trace, name),
-        Panel(
+        chart.Panel(
             _along(trace, x),
-            PlotAxis("d ln $\\mu$ / d $z$\n[% / (µm mm)]"),
+            chart.PlotAxis("d ln $\\mu$ / d $z$\n[% / (µm mm)]"),
             [
-                Series(x, 100.0 * values, GREEN, "change of $\\mu$ by the height", width=0.9),
-                CrossLine(0.0),
+                chart.Series(x, 100.0 * values, GREEN, "change of $\\mu$ by the height", width=0.9),
+                chart.CrossLine(0.0),
             ],
             name=f"height-{_word(name)}",
             caption=f"{name}: per cent of its friction for a micrometre of height on a millimetre "
@@ -153,14 +133,14 @@ def height_figure(trace: xr.Dataset, name: str) -> Figure:
     return replace(sheet, layout={**sheet.layout, "sharex": True}).on_paper()
 
 
-def _sheet(panels: list[Panel], heights: list[float], title: str) -> Sheet:
+def _sheet(panels: list[chart.Panel], heights: list[float], title: str) -> draw.Sheet:
     """Return panels of these heights [inch] below each other."""
     height = sum(heights) + _BELOW * len(panels) + _HEAD
     look: dict[str, Any] = {"legend_columns": 4, "legend_title": title}
-    return Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look)
+    return draw.Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look)
 
 
-def _drawn_height(close: Panel) -> float:
+def _drawn_height(close: chart.Panel) -> float:
     """Return the height [inch] of a panel to scale over the width of the figure."""
     ends = close.y.low, close.y.high, close.x.low, close.x.high
     low, high, start, end = (float(each or 0.0) for each in ends)
@@ -180,9 +160,9 @@ def _lengths(values: xr.DataArray, trace: xr.Dataset) -> Array:
     return np.asarray(values.values, dtype=float) / _unit(trace)[0]
 
 
-def _along(trace: xr.Dataset, x: Array) -> PlotAxis:
+def _along(trace: xr.Dataset, x: Array) -> chart.PlotAxis:
     label = f"distance $x$ [{_unit(trace)[1]}]"
-    return PlotAxis(label, low=float(x[0]), high=float(x[-1]))
+    return chart.PlotAxis(label, low=float(x[0]), high=float(x[-1]))
 
 
 def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Dataset:
@@ -219,46 +199,41 @@ def _ends(trace: xr.Dataset, name: str) -> tuple[Array, Array]:
     return _lengths(trace[f"{name}_low"], trace), _lengths(trace[f"{name}_high"], trace)
 
 
-def _touching(trace: xr.Dataset) -> tuple[Array, Array]:
-    """Return lowest and highest height of the pieces in contact, NaN of the others."""
-    inside = trace.pressure_high.values > 0.0
-    low, high = _ends(trace, "height")
-    return np.where(inside, low, np.nan), np.where(inside, high, np.nan)
-
-
-def _line_panels(trace: xr.Dataset) -> list[Panel]:
+def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
     """Return heights, pressure, and running friction and load along the whole line."""
     x, unit = _lengths(trace.x, trace), _unit(trace)[1]
     start, end = (float(trace[f"stretch_{end}"]) / _unit(trace)[0] for end in ("start", "end"))
-    shade = CrossLine(start, SKY, "", upright=True, to=end)
+    shade = chart.CrossLine(start, SKY, "", upright=True, to=end)
     p_low, p_high = (trace[f"pressure_{end}"].values / MEGA for end in ("low", "high"))
-    running: list[Mark] = [
-        Outline(x, trace[name].values, trace[name].values, colour, words, width=1.2)
+    running: list[chart.Mark] = [
+        chart.Outline(x, trace[name].values, trace[name].values, colour, words, width=1.2)
         for name, colour, words in (
             ("running_load", GREY, "load"),
             ("running_friction", GREEN, "friction"),
         )
         if np.isfinite(trace[name].values).any()
     ]
-    heights: list[Mark] = [
-        Outline(x, low, high, colour, words, width=width)
+    surface, inside = _ends(trace, "height"), trace.pressure_high.values > 0.0
+    low_touching, high_touching = (np.where(inside, end, np.nan) for end in surface)
+    heights: list[chart.Mark] = [
+        chart.Outline(x, low, high, colour, words, width=width)
         for (low, high), colour, words, width in (
-            (_ends(trace, "height"), INK, "surface", 0.6),
+            (surface, INK, "surface", 0.6),
             (_ends(trace, "rubber"), BLUE, "rubber", 0.9),
-            (_touching(trace), ORANGE, "contact", 2.2),
+            ((low_touching, high_touching), ORANGE, "contact", 2.2),
         )
     ]
-    rows: tuple[tuple[str, list[Mark]], ...] = (
+    rows: tuple[tuple[str, list[chart.Mark]], ...] = (
         (f"height $z$ [{unit}]", heights),
-        ("pressure $p$ [MPa]", [Outline(x, p_low, p_high, ORANGE, width=0.8)]),
+        ("pressure $p$ [MPa]", [chart.Outline(x, p_low, p_high, ORANGE, width=0.8)]),
         ("running share [-]", running),
     )
     return [
-        Panel(
+        chart.Panel(
             _along(trace, x)
             if number == len(rows)
-            else PlotAxis("", low=float(x[0]), high=float(x[-1])),
-            PlotAxis(label, low=None if number == 1 else 0.0),
+            else chart.PlotAxis("", low=float(x[0]), high=float(x[-1])),
+            chart.PlotAxis(label, low=None if number == 1 else 0.0),
             [shade, *marks],
             height=250 if number == 1 else 190,
         )
@@ -266,7 +241,7 @@ def _line_panels(trace: xr.Dataset) -> list[Panel]:
     ]
 
 
-def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
+def _stretch_panel(trace: xr.Dataset, name: str = "") -> chart.Panel:
     """Return the stretch with most friction to scale, the pressure drawn upon the rubber."""
     part = _stretch(trace)
     x, surface, rubber = (_lengths(part[name], trace) for name in ("x", "height_low", "rubber_low"))
@@ -288,17 +263,19 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> Panel:
         makes = "the stretch with most friction, {} of it under {} of the load".format(*shares)
         if "section" in trace:
             makes = "the stretch of a line with most friction"
-    return Panel(
+    return chart.Panel(
         _along(trace, x),
-        PlotAxis(f"height $z$ [{unit}]", low=lowest, high=top),
+        chart.PlotAxis(f"height $z$ [{unit}]", low=lowest, high=top),
         [
-            ShadedBand(x, np.full(x.size, lowest), np.maximum(surface, lowest), FAINT, alpha=1.0),
-            ShadedBand(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
-            ShadedBand(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
-            Series(x, np.where(surface < lowest, np.nan, surface), INK, "surface", width=0.8),
-            Series(x, rubber, BLUE, "rubber", width=0.9),
-            Series(x, contact, ORANGE, "contact", width=2.2),
-            Note(0.02, 0.95, "rubber slides $\\rightarrow$", frame="xy", top=True),
+            chart.ShadedBand(
+                x, np.full(x.size, lowest), np.maximum(surface, lowest), FAINT, alpha=1.0
+            ),
+            chart.ShadedBand(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
+            chart.ShadedBand(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
+            chart.Series(x, np.where(surface < lowest, np.nan, surface), INK, "surface", width=0.8),
+            chart.Series(x, rubber, BLUE, "rubber", width=0.9),
+            chart.Series(x, contact, ORANGE, "contact", width=2.2),
+            chart.Note(0.02, 0.95, "rubber slides $\\rightarrow$", frame="xy", top=True),
         ],
         title=f"To scale: {makes}",
         name=f"stretch-{_word(name)}",
@@ -317,18 +294,18 @@ def _round_down(value: float) -> float:
     )
 
 
-def _field_panels(trace: xr.Dataset, name: str = "") -> list[Panel]:
+def _field_panels(trace: xr.Dataset, name: str = "") -> list[chart.Panel]:
     """Return the pressure of a map with its section; nothing of a line."""
     if "field_pressure" not in trace:
         return []
     x, y = _lengths(trace.field_x, trace), _lengths(trace.field_y, trace)
     unit = _unit(trace)[1]
-    field = ValueMap(x, y, trace.field_pressure.values.T / MEGA, "pressure $p$ [MPa]")
-    section = CrossLine(float(trace.section) / _unit(trace)[0], BLUE, "section", width=1.2)
+    field = chart.ValueMap(x, y, trace.field_pressure.values.T / MEGA, "pressure $p$ [MPa]")
+    section = chart.CrossLine(float(trace.section) / _unit(trace)[0], BLUE, "section", width=1.2)
     return [
-        Panel(
-            PlotAxis(f"$x$, the way of sliding [{unit}]", grid=False),
-            PlotAxis(f"$y$ [{unit}]", grid=False),
+        chart.Panel(
+            chart.PlotAxis(f"$x$, the way of sliding [{unit}]", grid=False),
+            chart.PlotAxis(f"$y$ [{unit}]", grid=False),
             [field, section],
             name=f"field-{_word(name)}",
             caption=f"{name}: contact pressure, white out of contact, and the section below.",

@@ -12,25 +12,18 @@ from pathlib import Path
 
 import xarray as xr
 
+from gripscale import model
 from gripscale.case import Case
+from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
-from gripscale.half_space.continued import QUANTILE_90
 from gripscale.half_space.line_to_map import upper_height_of
-from gripscale.half_space.location import PREFIX
+from gripscale.half_space.location import trace_variables
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
-from gripscale.model import (
-    STATUS,
-    Load,
-    cut_off_exponents_of,
-    extrapolation_of,
-    input_doubts,
-    predicted_answer,
-    with_area_term,
-)
+from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import (
     DIRECT,
@@ -69,30 +62,17 @@ def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
 def direct_contact_design(
     case: Case, load: Load, label: str = "", *, traces: bool = False
 ) -> Design | None:
-    """Return the direct contacts of the profiles of a case under a load as tasks.
+    """Return the direct contacts of the profiles of a case under a load as tasks, over `sample`.
 
-    Parameters
-    ----------
-    case : Case
-        The case; its conditions change the rubber.
-    load : Load
-        The load.
-    label : str
-        Beginning of the names of the tasks.
-    traces : bool
-        Whether the answers hold the contacts as charts draw them.
-
-    Returns
-    -------
-    Design or None
-        Over `sample`; None if no profile was measured.
+    None if no profile was measured. `label` begins the names of the tasks; with `traces` the
+    answers hold the contacts as charts draw them.
     """
     profiles = each_measured(case.surface)
     if not profiles:
         return None
-    model = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions, traces=traces)
+    direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions, traces=traces)
     points = [
-        Point((at,), f"{label}{name}", Task(case.rubber, surface, load, model))
+        Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))
         for at, (name, surface) in enumerate(profiles)
     ]
     subjects = {"subject": ("sample", [name for name, _ in profiles])}
@@ -100,18 +80,17 @@ def direct_contact_design(
 
 
 def solve_direct_contact(case: Case) -> xr.Dataset | None:
-    """Return the direct contact of each profile of a case, with its trace for charts.
+    """Return the direct contact of each profile of a case over `sample`, with its trace.
 
-    Over `sample`, see `gripscale.questions.answer.samples`; None if no profile was measured. Raises
-    `InputError` if the direct contact cannot use the rubber or a profile.
+    None if no profile was measured; `InputError` for a rubber or profile that cannot be used.
     """
     design = direct_contact_design(case, case.load, traces=True)
     if design is None:
         return None
 
     def numbers(predicted: xr.Dataset, task: Task) -> xr.Dataset:
-        traces = [name for name in map(str, predicted) if name.startswith(PREFIX)]
-        return reduce.sample_numbers(predicted, task).assign(predicted[traces].isel(profile=0))
+        traces = trace_variables(predicted).isel(profile=0)
+        return reduce.sample_numbers(predicted, task).assign(traces)
 
     return solve_design(design, Bench(None), numbers)
 
@@ -125,29 +104,29 @@ def continued_curve(case: Case, load: Load, folder: str | Path | None = None) ->
         return None
     with bench_in(folder) as bench:
         curve = cut_off_curve(case, load, bench)
-    if curve[STATUS].item() != CONVERGED:
-        raise InputError(f"roughness below the measurement has no result: {curve[STATUS].item()}")
+    status = curve[model.STATUS].item()
+    if status != CONVERGED:
+        raise InputError(f"roughness below the measurement has no result: {status}")
     return curve
 
 
-def continuation_factor(curve: xr.Dataset, cut_off: float) -> Factor:
-    """Return the factor of the roughness below a cut-off [m], with the error of a continuation."""
-    end = float(curve.cut_off[-1])
+def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
+    """Return the factor of the roughness of a `continued_curve` below the cut-off of its case.
+
+    Its error is that of the continuation; none without a curve.
+    """
+    if curve is None:
+        return []
+    cut_off = resolved_wavelength(case.surface)
     sigma = math.log(float(curve[f"{AREA}_upper"][-1] / curve[AREA][-1])) / QUANTILE_90
 
     def grown(name: str) -> LogNormalValue:
         ratio = float(curve[name][-1]) / at_cut_off(curve, name, cut_off)
         return LogNormalValue(ratio if math.isfinite(ratio) else 1.0, sigma)
 
-    label = f"roughness continued from {in_mm(cut_off, 3)} to {in_mm(end, 3)}"
-    return Factor("below_measurement", label, grown(AREA), grown(FRICTION))
-
-
-def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
-    """Return the factor of a `continued_curve` of a case; none without a curve."""
-    if curve is None:
-        return []
-    return [continuation_factor(curve, resolved_wavelength(case.surface))]
+    end = in_mm(float(curve.cut_off[-1]), 3)
+    label = f"roughness continued from {in_mm(cut_off, 3)} to {end}"
+    return [Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
 
 
 def direct_contact_totals(
@@ -159,18 +138,9 @@ def direct_contact_totals(
 ) -> xr.Dataset:
     """Return the mean contact of the profiles as a model answers, with the best estimate.
 
-    Parameters
-    ----------
-    samples : xarray.Dataset
-        Answers of `direct_contact_design` under the load.
-    case : Case
-        The case.
-    load : Load
-        The load.
-    curve : xarray.Dataset, optional
-        Contact against the cut-off below the measurement (`continued_curve`).
-    sampled : SampledErrors, optional
-        Errors of the inputs, which widen the interval.
+    `samples` are answers of `direct_contact_design` under the load; `curve` is the contact against
+    the cut-off below the measurement (`continued_curve`); `sampled` widens the interval by the
+    errors of the inputs.
     """
     means = {
         name: float(reduce.usable(samples, name).mean("sample"))
@@ -187,20 +157,18 @@ def direct_contact_totals(
         best[CONTINUED_TO] = case.below_measurement.down_to
     end = resolved_wavelength(case.surface)
     best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
-    totals = predicted_answer(
+    doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units)
+    totals = model.predicted_answer(
         best,
         {f"total_{name}": value for name, value in means.items()},
         str(reduce.status(samples).item()),
         DIRECT,
         load,
-        extrapolation_of(beyond),
-        cut_off_exponents_of(exponents),
+        model.extrapolation_of(beyond),
+        model.cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
-    ).assign_attrs(
-        case.attributes | input_doubts([case.surface, case.measured_rubber], [load], case.units),
-        tolerance=JUDGED_TO,
-    )
-    traces = [name for name in map(str, samples) if name.startswith(PREFIX)]
-    if traces:
-        totals = totals.assign(samples[traces].variables)
-    return with_area_term(totals, float(reduce.usable(samples, "adhesive_friction").mean("sample")))
+    ).assign_attrs(case.attributes | doubts, tolerance=JUDGED_TO)
+    if traces := trace_variables(samples):
+        totals = totals.assign(traces.variables)
+    area_term = reduce.usable(samples, "adhesive_friction").mean("sample")
+    return model.with_area_term(totals, float(area_term))

@@ -10,6 +10,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.units import MILLI, in_mm
+from gripscale.cut_off_exponents import OCTAVE
 from gripscale.io.table import significant
 from gripscale.questions.answer.reliance import (
     MOST_ON_GUESSES,
@@ -57,9 +58,9 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
             friction=steep,
             topic=Topic.SOLUTION,
         )
-    octave = {} if CONTINUED_TO in data else changes(data, 1.0 / model.OCTAVE)
+    octave = {} if CONTINUED_TO in data else changes(data, 1.0 / OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
-        half = in_mm(float(data.cutoff_wavelength) / model.OCTAVE, 3)
+        half = in_mm(float(data.cutoff_wavelength) / OCTAVE, 3)
         yield Finding(
             Severity.WARNING,
             f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "
@@ -106,7 +107,7 @@ def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding
     """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
     parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
     in_answer = set() if direct is None else set(model.input_doubts_of(direct))
-    inputs = [finding for finding in record.warnings() if finding.sentence not in in_answer]
+    inputs = [finding for finding in record.warnings() if finding not in in_answer]
     return ranked([*(finding for part in parts for finding in part), *inputs])
 
 

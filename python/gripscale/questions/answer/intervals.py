@@ -43,12 +43,12 @@ def combined(errors: Sequence[LogError]) -> LogError:
     return LogError(variance**0.5, freedom)
 
 
-def half_width(error: LogError, level: float = LEVEL) -> xr.DataArray:
+def half_width(error: LogError) -> xr.DataArray:
     """Return the half width of the interval of a number over the number; NaN if not known."""
     from scipy.special import stdtrit  # of scipy.stats, which takes half a second to import
 
     freedom = error.freedom.where(error.freedom >= 1.0)
-    quantile = xr.apply_ufunc(lambda n: stdtrit(n, 0.5 * (1.0 + level)), freedom)
+    quantile = xr.apply_ufunc(lambda n: stdtrit(n, 0.5 * (1.0 + LEVEL)), freedom)
     width: xr.DataArray = quantile * error.sigma
     return width.copy(data=np.sinh(width.values))
 

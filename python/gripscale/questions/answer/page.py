@@ -16,25 +16,16 @@ from gripscale import model
 from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
-from gripscale.questions.answer.best_estimate import IsotropicSurface
-from gripscale.questions.answer.charts import contact_pictures
+from gripscale.questions.answer import reliance
+from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.findings import no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
-from gripscale.questions.answer.reliance import (
-    WORTH_NAMING,
-    direct_of,
-    estimated_names,
-    has_answer,
-    is_measured,
-    is_moving,
-    is_solved,
-    no_answer,
-)
-from gripscale.questions.chain.view import HEADINGS, SYMBOLS
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import rubber_section, surface_section
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
+from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
@@ -48,29 +39,32 @@ _PICTURE = (
 
 def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
     """Yield the answer of a result of one load, then what it rests on; or why there is none."""
-    statement = no_answer(data)
-    if data is None or not has_answer(data):
+    statement = reliance.no_answer(data)
+    if data is None or not reliance.has_answer(data):
         yield f"Answer: {statement}"
         return
-    numbers = ", ".join(
-        f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in estimated_names(data)
-    )
+    names = reliance.estimated_names(data)
+    texts = (f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in names)
+    numbers = ", ".join(texts)
     lead = f"{statement} It would be " if statement else ""
-    rest = "" if is_moving(data) else "no friction at rest; "
-    yield f"Answer: {lead}{rest}{numbers}{_level(data)}"
+    rest = "" if reliance.is_moving(data) else "no friction at rest; "
+    level = " without an interval"
+    if math.isfinite(float(data.best_contact_fraction_half_width)):
+        level = f" ({100.0 * LEVEL:.0f} % intervals)"
+    yield f"Answer: {lead}{rest}{numbers}{level}"
     yield from (f"  {line}" for line in basis_lines(data))
 
 
 def basis_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what a best estimate is for, what it is made of, and what it rests on."""
-    if not has_answer(data):
+    if not reliance.has_answer(data):
         return
-    names = estimated_names(data)
+    names = reliance.estimated_names(data)
     pressure, speed = (
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
         for name in ("pressure", "speed")
     )
-    motion = f"and {speed}" if is_moving(data) else "at rest, where there is no friction"
+    motion = f"and {speed}" if reliance.is_moving(data) else "at rest, where there is no friction"
     end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
     yield f"for {pressure} {motion}, roughness down to {end}"
     yield f"from {' × '.join(_factors(data, names))}"
@@ -81,15 +75,15 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
 
 def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact area with their intervals."""
-    if not has_answer(data):
+    if not reliance.has_answer(data):
         return
-    source = "not to be relied on" if no_answer(data) else "best estimate"
-    for name in estimated_names(data):
+    source = "not to be relied on" if reliance.no_answer(data) else "best estimate"
+    for name in reliance.estimated_names(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
         ends = interval_text(data, name)
         detail = f"{source}; {ends} ({100.0 * LEVEL:.0f} %)" if ends else source
         value = significant(float(data[f"best_{name}"]))
-        yield Card(title, value, detail, bad=bool(no_answer(data)))
+        yield Card(title, value, detail, bad=bool(reliance.no_answer(data)))
 
 
 def number_and_interval(data: xr.Dataset, name: str) -> str:
@@ -105,17 +99,10 @@ def interval_text(data: xr.Dataset, name: str) -> str:
     return f"{significant(low)} to {significant(high)}" if math.isfinite(low) else ""
 
 
-def _level(data: xr.Dataset) -> str:
-    if math.isfinite(float(data.best_contact_fraction_half_width)):
-        return f" ({100.0 * LEVEL:.0f} % intervals)"
-    return " without an interval"
-
-
 def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
     """Yield the direct contact and each factor on it, friction first."""
-    yield (
-        "the direct contact of the measured surface" if is_measured(data) else "the chain of waves"
-    )
+    measured = reliance.is_measured(data)
+    yield "the direct contact of the measured surface" if measured else "the chain of waves"
     for at, label in enumerate(data.factor_label.values):
         values = {name: float(data[f"best_{name}_factor"][at]) for name in names}
         if not all(map(math.isfinite, values.values())):
@@ -132,14 +119,14 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     if math.isfinite(sampling):
         yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
-    if below is not None and not below.ndim and float(below) > WORTH_NAMING:
+    if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
         yield (
             f"{percent_text(float(below))} of the friction in waves shorter than {limit}, which "
             "were not measured"
         )
     labels = data.factor_label.values
-    if IsotropicSurface.label in labels:
+    if LINES_TO_SURFACE in labels:
         yield "a road without direction is assumed; ridges 3:1 change the area up to 1.7 times"
     missing = [
         str(n) for n, v in zip(labels, data[f"best_{name}_factor"], strict=True) if v.isnull()
@@ -148,7 +135,7 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         yield f"not included: {', '.join(missing)}"
     if "part_label" not in data and math.isfinite(float(data[f"best_{name}_half_width"])):
         yield "errors of the inputs are not in the interval (`gripscale sensitivity` lists them)"
-    direct = direct_of(data)
+    direct = reliance.direct_of(data)
     term = float(direct.get(model.ADHESIVE_FRICTION, math.nan))
     if math.isfinite(term):
         # it is proportional to the contact area
@@ -159,29 +146,31 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
 
 def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Finding]) -> Page:
     """Return the page of an answer: its numbers, the contact, and the inputs with their origin."""
-    contact = contact_elements(data, record) if is_solved(data) else []
-    sections = [
-        Section("contact", "Rubber on the surface", contact),
-        Section("surface", "Surface", surface_section(record)),
-        Section("rubber", "Rubber", rubber_section(record)),
-        method_section(),
-        rerun_section(data.attrs),
-    ]
-    return Page(
+    solved = reliance.is_solved(data)
+    contact = contact_elements(data, record) if solved else []
+    return Page.of(
         f"Contact and friction: {case_name(data.attrs) or 'a case'}",
         next(iter(basis_lines(data)), ""),
-        [*no_answer_notices(data if is_solved(data) else None), *findings],
-        list(answer_cards(data)) if is_solved(data) else [],
-        [section for section in sections if section.elements],
-        tuple(basis_lines(data)),
+        [*no_answer_notices(data if solved else None), *findings],
+        answer_cards(data) if solved else (),
+        [
+            Section("contact", "Rubber on the surface", contact),
+            Section("surface", "Surface", surface_section(record)),
+            Section("rubber", "Rubber", rubber_section(record)),
+            method_section(),
+            rerun_section(data.attrs),
+        ],
+        basis_lines(data),
     )
 
 
 def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
     """Return the direct contact of the measured surface as pictures and by slope."""
-    if not (pictures := contact_pictures(direct, record.data)):
+    traces = named_traces(direct, record.data)
+    charts = [chart for name, trace in traces for chart in trace_charts(trace, name)]
+    if not charts:
         return []
-    first, *others = pictures
+    first, *others = charts
     return [Text(_PICTURE), first, *slopes_table(direct), *others]
 
 

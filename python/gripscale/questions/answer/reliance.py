@@ -48,7 +48,7 @@ def no_answer(data: xr.Dataset | None) -> str:
             "none with an interval. Only the direct contact of a measured surface has an interval, "
             "and none was solved."
         )
-    doubts = model.input_doubts_of(data)
+    doubts = [doubt.sentence for doubt in model.input_doubts_of(data)]
     if not has_answer(data):
         words = f"The direct contact of the measured surface has no result: {_status(data)}."
         return " ".join(["none.", *doubts, words])

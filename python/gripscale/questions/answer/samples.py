@@ -18,25 +18,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.arrays import Array, Mask
-from gripscale.experiment.design import CONVERGED
+from gripscale.cut_off_exponents import NOT_TOLD
+from gripscale.experiment.design import CONVERGED, error_of_total
 from gripscale.experiment.task import Task
-from gripscale.half_space import location
-from gripscale.model import (
-    ADHESIVE_FRICTION,
-    BASIS,
-    CUT_OFF_EXPONENTS,
-    NOT_TOLD,
-    OUTSIDE_BAND,
-    STATUS,
-    STATUS_WORD,
-    WHY_NO_EXPONENT,
-    cut_off_exponents_of,
-    error_of_total,
-    extrapolation_of,
-    status_words,
-)
+from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.questions.answer.intervals import LogError
 
 SAMPLED_QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
@@ -52,46 +40,46 @@ SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
 def sample_numbers(
     answer: xr.Dataset, task: Task, conditions: Conditions | None = None
 ) -> xr.Dataset:
-    """Return totals, their estimated errors, and curves by wavelength, of the answer of a task.
+    """Return totals, named without `total_`, their estimated errors, and curves by wavelength.
 
-    Totals are named without `total_`; `curve_contact_fraction` and `curve_friction` over `curve`
-    are those of all waves not shorter than `curve_wavelength`. At rest friction is zero: what
-    rounding leaves of it counts for nothing. Where the model does not know the area term of
-    `conditions`, it is that of its contact area at the temperature before the contact.
+    `curve_contact_fraction` and `curve_friction` over `curve` count all waves not shorter than
+    `curve_wavelength`. Friction at rest is zero. An area term of `conditions` that the model does
+    not know is that of its contact area at the temperature before the contact.
     """
     rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
-    for name in BASIS:
+    for name in model.BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
-    for share in location.SHARES_BY_SLOPE:
+    for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]
     if rest:
         numbers |= {name: 0.0 * numbers[name] for name in SAMPLED_QUANTITIES if "friction" in name}
         numbers["friction_error"] = math.nan
-    if ADHESIVE_FRICTION in answer or conditions is None:
-        numbers["adhesive_friction"] = float(answer.get(ADHESIVE_FRICTION, math.nan))
+    if model.ADHESIVE_FRICTION in answer or conditions is None:
+        numbers["adhesive_friction"] = float(answer.get(model.ADHESIVE_FRICTION, math.nan))
     else:
         load, kelvin = task.load, task.rubber.reference_temperature
         numbers["adhesive_friction"] = conditions.adhesive_friction(
             numbers["contact_fraction"], load.pressure, load.speed, kelvin
         )
-    beyond, exponents = extrapolation_of(answer), cut_off_exponents_of(answer)
-    numbers |= {name: getattr(beyond, part) for name, (part, _) in OUTSIDE_BAND.items()}
-    numbers |= {name: getattr(exponents, part) for name, (part, _) in CUT_OFF_EXPONENTS.items()}
-    numbers[WHY_NO_EXPONENT] = exponents.why_not
-    numbers[STATUS] = str(answer[STATUS].item())
-    numbers[STATUS_WORD] = str(status_words(answer).item())
+    beyond, exponents = model.extrapolation_of(answer), model.cut_off_exponents_of(answer)
+    numbers |= {name: getattr(beyond, part) for name, (part, _) in model.OUTSIDE_BAND.items()}
+    numbers |= {
+        name: getattr(exponents, part) for name, (part, _) in model.CUT_OFF_EXPONENTS.items()
+    }
+    numbers[model.WHY_NO_EXPONENT] = exponents.why_not
+    numbers[model.STATUS] = str(answer[model.STATUS].item())
+    numbers[model.STATUS_WORD] = str(model.status_words(answer).item())
     return xr.Dataset(numbers | _curve(answer))
 
 
 def _curve(answer: xr.Dataset) -> dict[str, Any]:
     """Return area and friction down to each wavelength; nothing where the model has none.
 
-    The chain adds a wave at a time, in steps. The direct contact splits its friction by octave
-    (its area is that of another contact, without the shorter waves), the theories integrate: both
-    are interpolated in the logarithm of the wavelength.
+    The chain adds waves in steps; the direct contact, by octave, and the theories are interpolated
+    in the logarithm of the wavelength.
     """
     by_octave = "octave_running_friction" in answer
     if by_octave:
@@ -119,10 +107,9 @@ def curve_at(
 ) -> Array:
     """Return `contact_fraction` or `friction` of all waves not shorter than `at` [m].
 
-    Above the longest wave nothing of the surface counts yet; below the shortest no more is added;
-    NaN where the model has the wave and not the number. Of a curve of falling `wavelength` [m], NaN
-    beyond its end, and `values` [-], NaN where unknown; if `stepped` each wavelength is one wave,
-    and nothing lies between.
+    The curve has falling `wavelength` [m], NaN beyond its end, and `values` [-], NaN where unknown;
+    if `stepped`, nothing lies between its waves. Above the longest wave nothing counts yet, below
+    the shortest no more is added.
     """
     finite = np.isfinite(values) & np.isfinite(wavelength)
     if not finite.any():
@@ -187,10 +174,7 @@ def spread(values: xr.DataArray) -> xr.DataArray:
 
 
 def log_error_of_mean(values: xr.DataArray) -> xr.DataArray:
-    """Return the standard deviation of the logarithm of the mean over `sample`, by their scatter.
-
-    NaN for fewer than two values and for values not above zero.
-    """
+    """Return the standard error of the log of the mean; NaN for one value or values <= 0."""
     positive = ((values > 0.0) | values.isnull()).all("sample")
     error = spread(values) / values.count("sample") ** 0.5 / values.mean("sample")
     return error.where(positive)
@@ -210,12 +194,11 @@ def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def road_error(samples: xr.Dataset, name: str) -> LogError:
-    """Return how well the mean of a number stands for its road, with its degrees of freedom.
+    """Return how well the mean of a number over the samples of one rung stands for its road.
 
     From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
-    else from the scatter of the samples, of several subjects (profiles) from that of their means,
-    because samples of one of them say nothing of the others. `samples` is of one rung, with the
-    coordinate `subject` over `sample`; NaN where neither is known.
+    else from the scatter of the samples, or of the means of several subjects (profiles), because
+    samples of one subject say nothing of the others. NaN where neither is known.
     """
     values, there = usable(samples, name), converged(samples)
     of_piece = f"{name.removesuffix('_from_dissipation')}_sampling_error"
@@ -244,9 +227,8 @@ def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
 def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
     """Return the ratio of the means of two rungs, and its relative standard error.
 
-    Where both have one sample each of the same subjects, only subjects that both have count, and
-    the error is from the scatter of their ratios; else from the scatter of both. The truth is taken
-    to lie evenly within the errors that the models estimate.
+    The error is from the scatter of the ratios of subjects that both have, or else from the scatter
+    of both; the truth lies evenly within the errors that the models estimate.
     """
     if not paired(over, under):
         means = [usable(samples, name).mean("sample") for samples in (over, under)]
@@ -267,10 +249,7 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
 
 
 def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
-    """Return what the scatter of the ratios of the same subjects says of the ratio of the means.
-
-    Only subjects that converged in both count; NaN for fewer than two, or values not above zero.
-    """
+    """Return the error of a ratio of means by the scatter of the ratios of the same subjects."""
     both = converged(over) & converged(under)
     upper, lower = over[name].where(both), under[name].where(both)
     scatter = log_error_of_mean(upper / lower).where(((lower > 0.0) | ~both).all("sample"))
@@ -293,14 +272,14 @@ def _present(samples: xr.Dataset) -> Mask:
 
 def outside_band(samples: xr.Dataset) -> xr.Dataset:
     """Return what of the mean friction rests on the rubber beyond its measured frequencies."""
-    share, below, above = (usable(samples, name) for name in OUTSIDE_BAND)
+    share, below, above = (usable(samples, name) for name in model.OUTSIDE_BAND)
     weight, there = abs(usable(samples, "friction")), converged(samples)
     total = _sum(weight, there)
     # a sample without friction has no share, and adds none
     mean = _sum(weight * share.where(weight > 0.0, 0.0), there) / total.where(total > 0.0)
     mean = mean.where(((share != 0.0) & there).any("sample"), 0.0)
     parts = (mean, below.max("sample"), above.max("sample"))
-    return xr.Dataset(dict(zip(OUTSIDE_BAND, parts, strict=True))).where(there.any("sample"))
+    return xr.Dataset(dict(zip(model.OUTSIDE_BAND, parts, strict=True))).where(there.any("sample"))
 
 
 def _sum(values: xr.DataArray, there: xr.DataArray) -> xr.DataArray:
@@ -315,22 +294,22 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
     """
     there = converged(samples)
     data: dict[str, Any] = {}
-    for name, (quantity, _) in CUT_OFF_EXPONENTS.items():
+    for name, (quantity, _) in model.CUT_OFF_EXPONENTS.items():
         weight = usable(samples, quantity)
         total = _sum(weight, there)
         mean = _sum(weight * samples[name], there) / total.where(total != 0.0)
         data[name] = mean.where(there.any("sample"))
-    texts = samples[WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
+    texts = samples[model.WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
     first = texts.isel(sample=0).copy(deep=True)
     for at in np.ndindex(first.shape):
         first.values[at] = next(filter(None, texts.values[at]), "")
-    data[WHY_NO_EXPONENT] = first.where(there.any("sample"), NOT_TOLD.why_not)
+    data[model.WHY_NO_EXPONENT] = first.where(there.any("sample"), NOT_TOLD.why_not)
     return xr.Dataset(data)
 
 
 def status(samples: xr.Dataset) -> xr.DataArray:
     """Return "converged", or how many samples did not and what the first of them says."""
-    texts = samples[STATUS].transpose(..., "sample")
+    texts = samples[model.STATUS].transpose(..., "sample")
     words = np.empty(texts.shape[:-1], dtype=object)
     for at in np.ndindex(words.shape):
         present = [text for text in texts.values[at] if text]
@@ -343,8 +322,8 @@ def status(samples: xr.Dataset) -> xr.DataArray:
 
 def status_word(samples: xr.Dataset) -> xr.DataArray:
     """Return the word of the status of the first sample that did not converge, or "converged"."""
-    texts = samples[STATUS].transpose(..., "sample")
-    of_samples = status_words(samples).transpose(..., "sample")
+    texts = samples[model.STATUS].transpose(..., "sample")
+    of_samples = model.status_words(samples).transpose(..., "sample")
     words = np.empty(texts.shape[:-1], dtype=object)
     for at in np.ndindex(words.shape):
         pairs = zip(texts.values[at], of_samples.values[at], strict=True)

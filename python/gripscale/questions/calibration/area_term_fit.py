@@ -24,16 +24,34 @@ from gripscale.experiment.measured_friction import MeasuredFriction, measured_va
 from gripscale.model import STATUS, STATUS_WORD
 from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration import profile_likelihood as likelihood
-from gripscale.questions.calibration.measured_comparison import (
-    Predicted,
-    in_spread,
-)
+from gripscale.questions.calibration.measured_comparison import Predicted, in_spread
 
 FACTORS_SHOWN = 3.0
 """How far the profile of an end that is not determined is kept, in the numbers of the search."""
 
 NO_INFLUENCE = 1e-12
 """Relative size of a singular value below which its direction changes nothing."""
+
+
+_SOURCE = "gripscale calibrate"
+
+ESTIMATE = {
+    "estimate": "best value of the parameter, in its unit",
+    "standard_error": "its standard error by the Jacobian",
+    "low": "lower end of its interval by profile likelihood, NaN where not determined",
+    "high": "upper end of it, NaN where not determined",
+}
+"""Numbers of a parameter, with their meaning."""
+
+_HELD_OUT = {
+    "points": "measured points left out",
+    "rms_inside": "rms residual of the points that were fitted",
+    "rms_outside": "rms error at the points left out",
+    "rms_outside_in_spread": "the same, over the spread",
+    "why_not": "why the other points cannot predict them, empty where they can",
+    "value": "temperature [K] or decade [m/s]",
+}
+"""Numbers of what was left out, with their meaning."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +95,7 @@ class AreaTermFit:
     @property
     def law(self) -> InterfacialShearStress:
         """The law with the best parameters."""
-        return self.problem.family.law(self.optimum.theta)
+        return self.problem.law(self.optimum.theta)
 
     @property
     def spread_known(self) -> bool:
@@ -87,7 +105,7 @@ class AreaTermFit:
     @property
     def freedom(self) -> int:
         """Degrees of freedom: points less parameters."""
-        return self.problem.points.speed.size - len(self.problem.family.free)
+        return self.problem.points.speed.size - len(self.problem.free)
 
     @property
     def scatter(self) -> float:
@@ -116,7 +134,7 @@ class AreaTermFit:
     def estimates(self) -> list[Estimate]:
         """The free parameters."""
         estimates = []
-        for at, parameter in enumerate(self.problem.family.free):
+        for at, parameter in enumerate(self.problem.free):
             value = parameter.value(float(self.optimum.theta[at]))
             error = float(self._errors[at]) * (value if parameter.log else 1.0)
             low, high = (
@@ -169,7 +187,7 @@ class AreaTermFit:
         factor of 20 where an end is not determined.
         """
         profiles = {}
-        for at, parameter in enumerate(self.problem.family.free):
+        for at, parameter in enumerate(self.problem.free):
             centre, limits = float(self.optimum.theta[at]), parameter.limits
             ends = []
             for way, end in zip((-1, 1), self.ends[at], strict=True):
@@ -202,7 +220,71 @@ class AreaTermFit:
         band. Over `parameter`: estimate, standard error, interval (NaN where not determined),
         profile. Over `left_out`: the errors of the law fitted to the other points.
         """
-        return calibration_dataset(self)
+        predicted, measured = self.predicted, self.measured
+        estimates, profiles = self.estimates, self.profiles
+        apart = self.friction - measured.friction
+        data: dict[str, xr.Variable] = measured_variables(measured)
+
+        def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
+            data[name] = labelled(dims, values, unit, text, _SOURCE)
+
+        at = "measurement"
+        add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
+        add("contact_temperature", at, predicted.temperature, "temperature in the contact", "K")
+        add("contact_fraction", at, predicted.contact_fraction, "real over nominal contact area")
+        add("hysteresis", at, predicted.friction, "friction of the hysteresis")
+        beyond = "share of it that rests on the rubber outside the measured frequencies"
+        add("friction_outside_band", at, predicted.outside_band, beyond)
+        status, words = (
+            np.array(texts, dtype=object) for texts in (predicted.status, predicted.status_word)
+        )
+        add(STATUS, at, status, "converged, or why")
+        add(STATUS_WORD, at, words, "word of the status")
+        add("area_term", at, self.area_term, "friction of the area term")
+        add("friction", at, self.friction, "hysteresis and area term")
+        add("friction_band", at, self.band, "half of its interval by the fit")
+        add("difference", at, apart, "predicted less measured friction")
+        add(
+            "difference_in_spread",
+            at,
+            in_spread(apart, measured.spread),
+            "the same over the spread",
+        )
+        for name, text in ESTIMATE.items():
+            field = "value" if name == "estimate" else name
+            add(name, "parameter", [getattr(estimate, field) for estimate in estimates], text)
+        units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
+        add("unit", "parameter", units, "its unit")
+        square = ("parameter", "other_parameter")
+        add("correlation", square, self.correlation, "of the estimates")
+        values, excess = zip(*(profiles[estimate.name] for estimate in estimates), strict=True)
+        steps = ("parameter", "step")
+        add("profile_value", steps, values, "value at which the parameter is held")
+        text = "rise of the sum of squares, NaN where another parameter has no room"
+        add("profile_excess", steps, excess, text)
+        if self.held_out:
+            for name, text in _HELD_OUT.items():
+                column = [getattr(group, name) for group in self.held_out]
+                add("left_out" if name == "value" else name, "left_out", column, text)
+        names = [estimate.name for estimate in estimates]
+        return xr.Dataset(
+            data,
+            coords=dict.fromkeys(square, names),
+            attrs={
+                "title": "Area term fitted to measured friction",
+                "law": json.dumps(shear_stress_to_dict(self.law)),
+                "held": json.dumps(dict(self.problem.held)),
+                "measured_source": self.measured.source,
+                "level": likelihood.LIKELIHOOD_LEVEL,
+                "threshold": self.threshold,
+                "held_out_by": self.held_out_by,
+                "spread_known": int(self.spread_known),
+                "sum_of_squares": self.optimum.sum_of_squares,
+                "degrees_of_freedom": self.freedom,
+                "scatter": self.scatter,
+                **provenance.version_attributes(),
+            },
+        )
 
 
 def fit_area_term(
@@ -243,107 +325,11 @@ def fit_area_term(
     checks.instance("predicted", predicted, Predicted)
     held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
     points = fit.points_of(measured, predicted)
-    problem = fit.CalibrationProblem(points, fit.family_of(law, points, held))
+    problem = fit.problem_of(law, points, held)
     groups = None
     if hold_out is not None:
         groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
         groups = groups[predicted.has_answer]
-
-    def intervals(optimum: fit.FittedLaw) -> list[tuple[float, float]]:
-        threshold = likelihood.threshold_of(optimum, spread_known=points.spread is not None)
-        profiles = [
-            likelihood.LikelihoodProfile(problem, optimum, at)
-            for at in range(len(problem.family.free))
-        ]
-        return [(profile.end(-1, threshold), profile.end(1, threshold)) for profile in profiles]
-
-    optimum, ends = likelihood.settled(problem, fit.best(problem), intervals)
+    optimum, ends = likelihood.intervals(problem)
     groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
-    return AreaTermFit(
-        measured, predicted, problem, optimum, tuple(ends), groups_out, hold_out or ""
-    )
-
-
-_SOURCE = "gripscale calibrate"
-
-ESTIMATE = {
-    "estimate": "best value of the parameter, in its unit",
-    "standard_error": "its standard error by the Jacobian",
-    "low": "lower end of its interval by profile likelihood, NaN where not determined",
-    "high": "upper end of it, NaN where not determined",
-}
-"""Numbers of a parameter, with their meaning."""
-
-_HELD_OUT = {
-    "points": "measured points left out",
-    "rms_inside": "rms residual of the points that were fitted",
-    "rms_outside": "rms error at the points left out",
-    "rms_outside_in_spread": "the same, over the spread",
-    "why_not": "why the other points cannot predict them, empty where they can",
-    "value": "temperature [K] or decade [m/s]",
-}
-"""Numbers of what was left out, with their meaning."""
-
-
-def calibration_dataset(calibration: AreaTermFit) -> xr.Dataset:
-    """Return what `AreaTermFit.to_dataset` promises."""
-    predicted, measured = calibration.predicted, calibration.measured
-    estimates, profiles = calibration.estimates, calibration.profiles
-    apart = calibration.friction - measured.friction
-    data: dict[str, xr.Variable] = measured_variables(measured)
-
-    def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
-        data[name] = labelled(dims, values, unit, text, _SOURCE)
-
-    at = "measurement"
-    add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
-    add("contact_temperature", at, predicted.temperature, "temperature in the contact", "K")
-    add("contact_fraction", at, predicted.contact_fraction, "real over nominal contact area")
-    add("hysteresis", at, predicted.friction, "friction of the hysteresis")
-    beyond = "share of it that rests on the rubber outside the measured frequencies"
-    add("friction_outside_band", at, predicted.outside_band, beyond)
-    status, words = (
-        np.array(texts, dtype=object) for texts in (predicted.status, predicted.status_word)
-    )
-    add(STATUS, at, status, "converged, or why")
-    add(STATUS_WORD, at, words, "word of the status")
-    add("area_term", at, calibration.area_term, "friction of the area term")
-    add("friction", at, calibration.friction, "hysteresis and area term")
-    add("friction_band", at, calibration.band, "half of its interval by the fit")
-    add("difference", at, apart, "predicted less measured friction")
-    add("difference_in_spread", at, in_spread(apart, measured.spread), "the same over the spread")
-    for name, text in ESTIMATE.items():
-        field = "value" if name == "estimate" else name
-        add(name, "parameter", [getattr(estimate, field) for estimate in estimates], text)
-    units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
-    add("unit", "parameter", units, "its unit")
-    square = ("parameter", "other_parameter")
-    add("correlation", square, calibration.correlation, "of the estimates")
-    values, excess = zip(*(profiles[estimate.name] for estimate in estimates), strict=True)
-    steps = ("parameter", "step")
-    add("profile_value", steps, values, "value at which the parameter is held")
-    text = "rise of the sum of squares, NaN where another parameter has no room"
-    add("profile_excess", steps, excess, text)
-    if calibration.held_out:
-        for name, text in _HELD_OUT.items():
-            column = [getattr(group, name) for group in calibration.held_out]
-            add("left_out" if name == "value" else name, "left_out", column, text)
-    names = [estimate.name for estimate in estimates]
-    return xr.Dataset(
-        data,
-        coords=dict.fromkeys(square, names),
-        attrs={
-            "title": "Area term fitted to measured friction",
-            "law": json.dumps(shear_stress_to_dict(calibration.law)),
-            "held": json.dumps(dict(calibration.problem.family.held)),
-            "measured_source": calibration.measured.source,
-            "level": likelihood.LIKELIHOOD_LEVEL,
-            "threshold": calibration.threshold,
-            "held_out_by": calibration.held_out_by,
-            "spread_known": int(calibration.spread_known),
-            "sum_of_squares": calibration.optimum.sum_of_squares,
-            "degrees_of_freedom": calibration.freedom,
-            "scatter": calibration.scatter,
-            **provenance.version_attributes(),
-        },
-    )
+    return AreaTermFit(measured, predicted, problem, optimum, ends, groups_out, hold_out or "")

@@ -60,12 +60,8 @@ class Points:
 def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
     """Return the points that have an answer, in the order of the measurement.
 
-    Raises
-    ------
-    InputError
-        If no point has an answer, a prediction has another number of points or other pressures,
-        spreads or temperatures are known of some points only, a spread is zero, or the hysteresis
-        alone exceeds what was measured at more than half of the points.
+    Raises `InputError` for points that do not fit the measurement or cannot all be weighed alike,
+    and if the hysteresis alone exceeds what was measured at more than half of them.
     """
     predicted.require_points_of(measured)
     answered = predicted.has_answer
@@ -91,20 +87,14 @@ def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
 
 
 def refuse_unfit(measured: MeasuredFriction, kind: str, fixed: Mapping[str, float]) -> None:
-    """Raise `InputError` for a law that no prediction can fit to the measurement.
-
-    A missing temperature, which a case may know, counts as one that was measured.
-    """
+    """Raise `InputError` for a law that no prediction can fit to the measurement."""
+    # a missing temperature, which a case may know, counts as one that was measured
     kelvin = measured.temperature
     missing = np.isnan(kelvin)
     mean = ZERO_CELSIUS if missing.all() else kelvin[~missing].mean()
     kelvin = np.where(missing, mean, kelvin)
-    unit = np.ones_like(measured.friction)
-    family_of(
-        kind,
-        Points(measured.speed, kelvin, measured.friction, unit, _spread(measured.spread)),
-        fixed,
-    )
+    unit, spread = np.ones_like(measured.friction), _spread(measured.spread)
+    problem_of(kind, Points(measured.speed, kelvin, measured.friction, unit, spread), fixed)
 
 
 def _spread(spread: Array) -> Array | None:
@@ -161,10 +151,20 @@ class Parameter:
         return self.scaled(self.low), self.scaled(self.high)
 
 
-@dataclass(frozen=True)
-class Family:
-    """A law with some parameters free and the others held."""
+_AT_LIMIT = 1e-3
+"""Share of the range of a parameter within which it is at a limit."""
 
+
+@dataclass(frozen=True, eq=False)
+class CalibrationProblem:
+    """A law to be fitted to points by weighted least squares.
+
+        S(theta) = sum_i ((mu_i - mu_hysteresis,i - tau_f(v_i, T_i; theta) A_r,i/(A_0 p_i)) / s_i)^2
+
+    with the spreads s_i, or one where none is stated.
+    """
+
+    points: Points
     kind: str
     free: tuple[Parameter, ...]
     held: Mapping[str, float]
@@ -172,8 +172,34 @@ class Family:
     def law(self, theta: Array) -> InterfacialShearStress:
         """Return the law of the numbers `theta`, shape (free parameters,)."""
         values = {p.name: p.value(float(x)) for p, x in zip(self.free, theta, strict=True)}
-        made: InterfacialShearStress = SHEAR_STRESSES[self.kind](**values, **self.held)
-        return made
+        law: InterfacialShearStress = SHEAR_STRESSES[self.kind](**values, **self.held)
+        return law
+
+    def friction(self, theta: Array) -> Array:
+        """Return the friction of the area term at the points [-]."""
+        stress = self.law(theta).stress(self.points.speed, self.points.temperature)
+        return self.points.leverage * stress
+
+    def residuals(self, theta: Array) -> Array:
+        """Return modelled less measured friction over the spread, shape (points,)."""
+        apart = self.friction(theta) - self.points.difference
+        return apart if self.points.spread is None else apart / self.points.spread
+
+    def at_limit(self, theta: Array) -> bool:
+        """Return whether a parameter is at a limit of the search; zero itself is none."""
+        pairs = zip(self.free, theta, strict=True)
+        return any(
+            abs(x - end) < _AT_LIMIT * (parameter.limits[1] - parameter.limits[0])
+            for parameter, x in pairs
+            for end, value in zip(parameter.limits, (parameter.low, parameter.high), strict=True)
+            if value != 0.0
+        )
+
+    def holding(self, index: int, scaled: float) -> CalibrationProblem:
+        """Return the problem with the free parameter at `index` held."""
+        parameter, free = self.free[index], self.free[:index] + self.free[index + 1 :]
+        held = {**self.held, parameter.name: parameter.value(scaled)}
+        return replace(self, free=free, held=held)
 
 
 def check_names(kind: str, fixed: Iterable[str]) -> None:
@@ -183,18 +209,13 @@ def check_names(kind: str, fixed: Iterable[str]) -> None:
     checks.allowed_names("parameter", fixed, names)
 
 
-def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
-    """Return the law of a kind with what is fixed held and all else free.
+def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> CalibrationProblem:
+    """Return the law of a kind to be fitted to points, with what is fixed held and all else free.
 
     An activation energy is free only where temperatures differ; without one the law has none. Its
     reference temperature is held: by default the median of the temperatures, a whole number of
-    degrees Celsius.
-
-    Raises
-    ------
-    InputError
-        If the kind is none of `KINDS`, a fixed name is no parameter of it, its value cannot be
-        used, nothing is left to be fitted, or there are not more points than free parameters.
+    degrees Celsius. Raises `InputError` for names and values that cannot be held, and for fewer
+    points than parameters.
     """
     check_names(kind, fixed)
     every = _parameters(kind, points)
@@ -210,10 +231,10 @@ def family_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Family:
             f"fitting {names} needs more than {len(free)} measured "
             f"point{'s' * (len(free) > 1)}; got {points.speed.size}"
         )
-    family = Family(kind, free, held)
+    problem = CalibrationProblem(points, kind, free, held)
     starts = np.array([parameter.scaled(parameter.starts[0]) for parameter in free])
-    family.law(starts)  # checks what is held
-    return family
+    problem.law(starts)  # checks what is held
+    return problem
 
 
 def _temperature_of(points: Points, held: Mapping[str, float]) -> dict[str, float]:
@@ -263,8 +284,6 @@ def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:
 BEST_STARTS = 3
 """Starts, of all that are tried, from which the search goes on to its end."""
 _TOLERANCE = 1e-8
-_AT_LIMIT = 1e-3
-"""Share of the range of a parameter within which it is at a limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,49 +297,9 @@ class FittedLaw:
     """Of the residuals by them, shape (points, free parameters)."""
 
 
-@dataclass(frozen=True, eq=False)
-class CalibrationProblem:
-    """A law to be fitted to points by weighted least squares.
-
-        S(theta) = sum_i ((mu_i - mu_hysteresis,i - tau_f(v_i, T_i; theta) A_r,i/(A_0 p_i)) / s_i)^2
-
-    with the spreads s_i, or one where none is stated.
-    """
-
-    points: Points
-    family: Family
-
-    def friction(self, theta: Array) -> Array:
-        """Return the friction of the area term at the points [-]."""
-        law = self.family.law(theta)
-        return self.points.leverage * law.stress(self.points.speed, self.points.temperature)
-
-    def residuals(self, theta: Array) -> Array:
-        """Return modelled less measured friction over the spread, shape (points,)."""
-        apart = self.friction(theta) - self.points.difference
-        return apart if self.points.spread is None else apart / self.points.spread
-
-    def at_limit(self, theta: Array) -> bool:
-        """Return whether a parameter has gone as far as it is sought; zero itself is no limit."""
-        pairs = zip(self.family.free, theta, strict=True)
-        return any(
-            abs(x - end) < _AT_LIMIT * (parameter.limits[1] - parameter.limits[0])
-            for parameter, x in pairs
-            for end, value in zip(parameter.limits, (parameter.low, parameter.high), strict=True)
-            if value != 0.0
-        )
-
-    def holding(self, index: int, scaled: float) -> CalibrationProblem:
-        """Return the problem with the free parameter at `index` held."""
-        parameter = self.family.free[index]
-        free = self.family.free[:index] + self.family.free[index + 1 :]
-        held = {**self.family.held, parameter.name: parameter.value(scaled)}
-        return replace(self, family=replace(self.family, free=free, held=held))
-
-
 def best(problem: CalibrationProblem) -> FittedLaw:
     """Return the least sum of squares over a grid of starts."""
-    free = problem.family.free
+    free = problem.free
     grid = product(*([parameter.scaled(value) for value in parameter.starts] for parameter in free))
 
     def cost(start: tuple[float, ...]) -> float:
@@ -334,10 +313,10 @@ def best(problem: CalibrationProblem) -> FittedLaw:
 
 def refined(problem: CalibrationProblem, start: Array) -> FittedLaw:
     """Return the least sum of squares near `start`."""
-    if not problem.family.free:
+    if not problem.free:
         residuals = problem.residuals(start)
         return FittedLaw(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
-    low, high = np.array([parameter.limits for parameter in problem.family.free]).T
+    low, high = np.array([parameter.limits for parameter in problem.free]).T
     solution = scipy.optimize.least_squares(
         problem.residuals,
         np.clip(start, low, high),
@@ -351,7 +330,7 @@ def refined(problem: CalibrationProblem, start: Array) -> FittedLaw:
 
 def _with_best_stress(problem: CalibrationProblem, theta: Array) -> Array:
     """Return `theta` with the stress, which is a factor, the best for all others."""
-    names = [parameter.name for parameter in problem.family.free]
+    names = [parameter.name for parameter in problem.free]
     if "stress_0" not in names:
         return theta
     at = names.index("stress_0")
@@ -360,5 +339,5 @@ def _with_best_stress(problem: CalibrationProblem, theta: Array) -> Array:
     square = float(shape @ shape)
     factor = float(shape @ wanted) / square if square > 0.0 else 0.0
     if factor > 0.0:
-        theta[at] = np.clip(theta[at] + np.log(factor), *problem.family.free[at].limits)
+        theta[at] = np.clip(theta[at] + np.log(factor), *problem.free[at].limits)
     return theta

@@ -1,29 +1,52 @@
-"""A calibration in words: its notes, the table of a case file, and parameters from a text."""
+"""A calibration in words: its parameters, its notes, and the table of a case file."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from gripscale.conditions.area_term import shear_stress_to_dict
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, parse_quantity
+from gripscale.core.units import MEGA, ZERO_CELSIUS, DisplayUnit, parse_quantity
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate
 from gripscale.questions.calibration.profile_likelihood import LIKELIHOOD_LEVEL
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
-KINDS_OF_QUANTITY = {
-    "stress_0": "pressure",
-    "speed_0": "speed",
-    "critical_speed": "speed",
-    "activation_energy": "bond energy",
-    "reference_temperature": "temperature",
+
+class ParameterWords(NamedTuple):
+    """A parameter of a law: in words, beside an axis, and its kind of quantity, if it has one."""
+
+    words: str
+    label: str
+    kind: str = ""
+
+    @property
+    def unit(self) -> str:
+        """Unit of the law; empty for a plain number."""
+        return _LAW_UNITS.get(self.kind, "")
+
+
+PARAMETERS = {
+    "stress_0": ParameterWords("shear stress τ_0", "stress $\\tau_0$", "pressure"),
+    "width": ParameterWords("width factor c", "width $c$"),
+    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed $v_0$", "speed"),
+    "activation_energy": ParameterWords(
+        "activation energy", "activation energy $\\epsilon$", "bond energy"
+    ),
+    "reference_temperature": ParameterWords("", "", "temperature"),
+    "ratio": ParameterWords("gain of stress at high speed", "ratio"),
+    "critical_speed": ParameterWords("critical speed v_c", "critical speed $v_c$", "speed"),
+    "exponent": ParameterWords("exponent n of the speed", "exponent $n$"),
 }
-"""What the parameters of the laws are, those that are no plain numbers."""
+"""The parameters of the laws; the reference temperature is held, never fitted."""
+_LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
+WRITTEN = {"Pa": DisplayUnit("MPa", MEGA), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
+"""How a number in a unit of the law is written, if not in this unit."""
 
 
 def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
@@ -38,13 +61,11 @@ def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
             raise InputError(
                 f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
             )
+        kind = PARAMETERS[name].kind if name in PARAMETERS else ""
         try:
-            if name in KINDS_OF_QUANTITY:
-                parameters[name] = parse_quantity(value, KINDS_OF_QUANTITY[name])
-            else:
-                parameters[name] = float(value)
+            parameters[name] = parse_quantity(value, kind) if kind else float(value)
         except ValueError as error:
-            why = str(error) if name in KINDS_OF_QUANTITY else "expected a number"
+            why = str(error) if kind else "expected a number"
             raise InputError(f"fixed {name} = {checks.short_repr(value)}: {why}") from error
     return parameters
 
@@ -69,7 +90,7 @@ def notes(calibration: AreaTermFit) -> Iterator[str]:
         "The intervals hold for the spread of the measurement alone: an error of the predicted "
         "contact area is an error of the shear stress."
     )
-    held = calibration.problem.family.held
+    held = calibration.problem.held
     if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
         yield (
             "No activation energy: the temperatures in the contact are only "
@@ -99,14 +120,6 @@ def notes(calibration: AreaTermFit) -> Iterator[str]:
         )
 
 
-WRITTEN = {"Pa": DisplayUnit("MPa", 1e6), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
-"""How a number in a unit of the law is written, if not in this unit."""
-
-_LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
-HELD_UNITS = {name: _LAW_UNITS[kind] for name, kind in KINDS_OF_QUANTITY.items()}
-"""Units of parameters that may be held; the others have none."""
-
-
 def shear_stress_table(calibration: AreaTermFit) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
     law = shear_stress_to_dict(calibration.law)
@@ -124,7 +137,7 @@ def shear_stress_table(calibration: AreaTermFit) -> str:
         lines.insert(2, "# No activation energy: the law holds at the measured temperature.")
     for name, value in law.items():
         estimate = estimates.get(name)
-        unit = HELD_UNITS.get(name, "") if estimate is None else estimate.unit
+        unit = PARAMETERS[name].unit if estimate is None else estimate.unit
         text = written(float(value), unit)
         text = f'"{text}"' if unit else text
         lines.append(
@@ -134,7 +147,7 @@ def shear_stress_table(calibration: AreaTermFit) -> str:
 
 
 def written(value: float, unit: str, digits: int | None = None) -> str:
-    """Return a number of the law with its unit: six digits as far as they count, or `digits`."""
+    """Return a number of the law with its unit, of up to six digits or just `digits`."""
     display_unit = WRITTEN.get(unit, DisplayUnit(unit))
     number = float(display_unit.of(value))
     text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
@@ -142,12 +155,11 @@ def written(value: float, unit: str, digits: int | None = None) -> str:
 
 
 def estimate_interval(estimate: Estimate) -> str:
-    """Return the interval of a parameter in words, in the unit it is written in."""
+    """Return the interval of a parameter in words."""
     low, high = (f"{written(end, estimate.unit, 3)}" for end in (estimate.low, estimate.high))
-    if estimate.determined:
+    below, above = math.isfinite(estimate.low), math.isfinite(estimate.high)
+    if below and above:
         return f"{low} to {high}"
-    if math.isfinite(estimate.low):
+    if below:
         return f"from {low}, upper end not determined"
-    if math.isfinite(estimate.high):
-        return f"up to {high}, lower end not determined"
-    return "not determined"
+    return f"up to {high}, lower end not determined" if above else "not determined"

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, ORANGE, WIDE
-from gripscale.core.units import MEGA, DisplayUnit, display_unit_of
+from gripscale.core.units import DisplayUnit, display_unit_of
+from gripscale.questions.calibration.calibration_text import PARAMETERS, WRITTEN
 from gripscale.questions.compare.charts import measured_sheet
 from gripscale.questions.compare.charts_of_ladder import MARKERS, MeasuredSeries, measured
 
@@ -19,17 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_UNITS = {"Pa": (MEGA, "MPa"), "m/s": (1.0, "m/s"), "eV": (1.0, "eV"), "1": (1.0, "-")}
-"""What a parameter is divided by to be drawn, and its unit then."""
-PARAMETER_LABELS = {
-    "stress_0": "stress $\\tau_0$",
-    "width": "width $c$",
-    "speed_0": "speed $v_0$",
-    "activation_energy": "activation energy $\\epsilon$",
-    "ratio": "ratio",
-    "critical_speed": "critical speed $v_c$",
-    "exponent": "exponent $n$",
-}
 CEILING = 2.5
 """Highest excess that is drawn, over the threshold."""
 
@@ -58,11 +49,7 @@ def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 
 def fitted_figure(data: xr.Dataset) -> Figure:
-    """Draw measured friction with its spread, the hysteresis alone, and the total with its band.
-
-    One panel for each temperature and pressure; points where the model has no answer are left out
-    of its lines.
-    """
+    """Draw measured friction with its spread, the hysteresis alone, and the total with its band."""
     level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
 
     def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
@@ -91,7 +78,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
     for number, series in enumerate(measured(data)):
         marks.append(Series(
             speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
-            series.label.removeprefix("measured").removeprefix(", "), "",
+            series.state, "",
             marker=MARKERS[number % len(MARKERS)],
         ))  # fmt: skip
     label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"
@@ -103,10 +90,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
 
 
 def profiles_figure(data: xr.Dataset) -> Figure:
-    """Draw by how much the sum of squares rises where each parameter is held elsewhere.
-
-    The interval is where the curve is below the line; an end that is not determined has none.
-    """
+    """Draw by how much the sum of squares rises where each parameter is held elsewhere."""
     count = data.sizes["parameter"]
     columns = 2 if count == 4 else min(count, 3)
     panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
@@ -117,17 +101,18 @@ def profiles_figure(data: xr.Dataset) -> Figure:
 
 def _profile_panel(data: xr.Dataset) -> Panel:
     threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
-    divisor, unit = _UNITS[str(data.unit.item())]
+    unit = str(data.unit.item())
+    display = WRITTEN.get(unit, DisplayUnit("-" if unit == "1" else unit))
     rows = np.isfinite(data.profile_excess.values)
-    value, excess = data.profile_value.values[rows] / divisor, data.profile_excess.values[rows]
-    low, high, best = (float(data[name]) / divisor for name in ("low", "high", "estimate"))
+    value, excess = display.of(data.profile_value.values[rows]), data.profile_excess.values[rows]
+    low, high, best = (float(display.of(data[name])) for name in ("low", "high", "estimate"))
     least, most = float(value.min()), float(value.max())
     ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
     name = str(data.parameter.item())
     missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
     title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
     return Panel(
-        PlotAxis(f"{PARAMETER_LABELS.get(name, name)} [{unit}]", low=least, high=most,
+        PlotAxis(f"{PARAMETERS[name].label} [{display.unit}]", low=least, high=most,
              log=name != "activation_energy" and most > 5.0 * least),
         PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
         [

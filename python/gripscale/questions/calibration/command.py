@@ -7,23 +7,14 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import (
-    CasePath,
-    Cluster,
-    MeasuredPath,
-    OwnFolder,
-    Workers,
-    command,
-    option,
-)
 
 
-@command
+@terminal.command
 def calibrate_command(
-    case: CasePath,
+    case: terminal.CasePath,
     model: Annotated[
         str | None,
-        option(
+        terminal.option(
             "What predicts hysteresis and contact area: direct, the default where the surface was "
             "measured, or chain, the default elsewhere.",
             metavar="direct|chain",
@@ -34,23 +25,23 @@ def calibrate_command(
     ] = "gaussian",
     hold_out: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Predict each temperature, or each decade of speed, from the others.",
             metavar="temperature|speed",
         ),
     ] = None,
     fixed: Annotated[
         list[str] | None,
-        option(
+        terminal.option(
             "A parameter that is known, such as width=0.1 or activation_energy='0.97 eV'; "
             "may be repeated.",
             metavar="NAME=VALUE",
         ),
     ] = None,
-    measured: MeasuredPath = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
-    cluster: Cluster = None,
+    measured: terminal.MeasuredPath = None,
+    output: terminal.OwnFolder = None,
+    workers: terminal.Workers = None,
+    cluster: terminal.Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
     from gripscale.case_file import read_case, read_case_file

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
+from gripscale import model as models
 from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
@@ -25,21 +27,9 @@ from gripscale.experiment.measured_friction import (
 )
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
-from gripscale.model import (
-    ADHESIVE_FRICTION,
-    FRICTION_OUTSIDE_BAND,
-    STATUS,
-    Load,
-    Model,
-    status_words,
-    word_of,
-)
+from gripscale.model import Load, Model
 from gripscale.rubber import Rubber
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from gripscale.surface import Surface
+from gripscale.surface import Surface
 
 
 class Predicted(Checked, eq=False):
@@ -84,17 +74,8 @@ class Predicted(Checked, eq=False):
         if self.status is None:
             self._set(status=[CONVERGED] * size)
         if self.status_word is None:
-            self._set(status_word=[word_of(text) for text in self.status])
-        names = (
-            "pressure",
-            "friction",
-            "contact_fraction",
-            "temperature",
-            "outside_band",
-            "status",
-            "status_word",
-        )
-        sizes = {name: len(getattr(self, name)) for name in names}
+            self._set(status_word=[models.word_of(text) for text in self.status])
+        sizes = {name: len(getattr(self, name)) for name in ("pressure", *vars(self))}
         if len(set(sizes.values())) > 1:
             counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
             raise InputError(
@@ -204,10 +185,8 @@ def predictions_at(
     InputError, FileError
         As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
-    bench = Bench(store, workers, client, on_task)
-    return predicted_of(
-        solve_design(measured_design(measured, model, rubber, surface, load), bench)
-    )
+    design = measured_design(measured, model, rubber, surface, load)
+    return predicted_of(solve_design(design, Bench(store, workers, client, on_task)))
 
 
 def measured_design(
@@ -251,8 +230,8 @@ def predicted_of(data: xr.Dataset) -> Predicted:
     """Return the predictions in the solved Dataset of `measured_design`."""
     area, pressure = data["total_contact_fraction"], data["nominal_pressure"]
     kelvin = data["temperature"]
-    if ADHESIVE_FRICTION in data:  # what the probe says
-        term = data[ADHESIVE_FRICTION]
+    if models.ADHESIVE_FRICTION in data:  # what the probe says
+        term = data[models.ADHESIVE_FRICTION]
         contact = (term * pressure / area.where(area > 0.0)).where(lambda t: t > 0.0)
         kelvin = contact.where(term.notnull(), kelvin)
     return Predicted(
@@ -260,9 +239,9 @@ def predicted_of(data: xr.Dataset) -> Predicted:
         area.values,
         pressure.values,
         kelvin.values,
-        data.get(FRICTION_OUTSIDE_BAND, area * math.nan).values,
-        data[STATUS].values.tolist(),
-        status_words(data).values.tolist(),
+        data.get(models.FRICTION_OUTSIDE_BAND, area * math.nan).values,
+        data[models.STATUS].values.tolist(),
+        models.status_words(data).values.tolist(),
     )
 
 
@@ -299,8 +278,6 @@ def residuals(
         If a prediction has another number of points or other pressures than the measurement, there
         is none, or the law needs a temperature that is not known.
     """
-    import xarray as xr
-
     checks.instance("measured", measured, MeasuredFriction)
     if not isinstance(predicted, Mapping) or not predicted:
         short = checks.short_repr(predicted)

@@ -6,21 +6,23 @@ Everything is read from the result, for the terminal and for the page alike.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
 
 from gripscale.charts.draw import image
-from gripscale.core.finding import Finding, Severity
-from gripscale.core.units import ZERO_CELSIUS
-from gripscale.io.table import Column, Table, digits, least_to_most, percent, significant
+from gripscale.core.finding import Finding, Severity, sentences
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
+from gripscale.experiment import measured_friction
+from gripscale.experiment.design import CONVERGED
+from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
 from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
-from gripscale.questions.calibration.calibration_text import HELD_UNITS, estimate_interval, written
+from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written
 from gripscale.questions.calibration.charts import calibration_pictures
-from gripscale.questions.calibration.page_of_measured import residual_table
-from gripscale.questions.chain.view import CONVERGED_WORD
+from gripscale.questions.compare.charts_of_ladder import measured
 from gripscale.questions.uncertainty.page import as_elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Facts, Page, Section, Text
@@ -30,28 +32,18 @@ _CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
 )
-PARAMETERS = {
-    "stress_0": "shear stress τ_0",
-    "width": "width factor c",
-    "speed_0": "speed v_0 of the largest stress",
-    "activation_energy": "activation energy",
-    "ratio": "gain of stress at high speed",
-    "critical_speed": "critical speed v_c",
-    "exponent": "exponent n of the speed",
-}
-"""Words for the parameters of the laws, which a case states by their names."""
 
 
 def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the fitted area term with its intervals, and what it does to friction."""
     values = [
-        f"{PARAMETERS[e.name]} = {written(e.value, e.unit, 3)} ({estimate_interval(e)})"
+        f"{PARAMETERS[e.name].words} = {written(e.value, e.unit, 3)} ({estimate_interval(e)})"
         if e.determined
-        else f"{PARAMETERS[e.name]} not determined by the data"
+        else f"{PARAMETERS[e.name].words} not determined by the data"
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
-    doubts = " ".join(input_doubts_of(data))
+    doubts = sentences(input_doubts_of(data))
     lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
     yield f"Answer: {lead} with {', '.join(values)} ({level} % intervals)."
     if not bool(data["area_term"].notnull().any()):
@@ -72,21 +64,11 @@ def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     )
 
 
-def calibration_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield tables and sentences of a calibration."""
-    yield misfit_table(data)
-    yield parameter_table(data)
-    yield from filter(None, [correlations(data)])
-    if "left_out" in data.coords:
-        yield held_out_table(data)
-    yield from str(data.attrs.get("notes", "")).splitlines()
-
-
 def misfit_table(data: xr.Dataset) -> Table:
     """Return the fitted friction beside the measured one, point by point."""
     names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
     model = str(data.attrs.get("model", "fit"))
-    table = data[[*names, *(n for n in data.data_vars if str(n).startswith("measured_"))]]
+    table = data[[*names, *(f"measured_{name}" for name in measured_friction.MEASURED)]]
     table = table.assign({name: data[name].expand_dims(model=[model]) for name in names})
     rms = {f"rms_{n}": np.sqrt((table[n] ** 2).mean("measurement")) for n in names[3:]}
     return residual_table(table.assign(rms))
@@ -151,21 +133,11 @@ def held_out_table(data: xr.Dataset) -> Table:
     return Table("held-out", columns, "The law at points that were left out")
 
 
-def calibration_cards(data: xr.Dataset) -> list[Card]:
-    """Return a card for each parameter, with its interval."""
-    return [
-        Card(
-            PARAMETERS[e.name], written(e.value, e.unit, 3), estimate_interval(e), not e.determined
-        )
-        for e in estimates(data)
-    ]
-
-
 def law_facts(data: xr.Dataset) -> Facts:
     """Return the law, what was held and how well it fits."""
     attrs = data.attrs
     law, values = json.loads(attrs["law"]), json.loads(attrs["held"])
-    held = [f"{name} = {written(x, HELD_UNITS.get(name, ''))}" for name, x in values.items()]
+    held = [f"{name} = {written(x, PARAMETERS[name].unit)}" for name, x in values.items()]
     pairs = [
         ("Law", str(law.get("kind", "")).replace("_", " ")),
         ("Held", ", ".join(held).replace("_", " ") or "nothing"),
@@ -183,7 +155,7 @@ def law_facts(data: xr.Dataset) -> Facts:
 def calibration_failure(data: xr.Dataset) -> Failure | None:
     """Return how many measured points have no prediction and why the first; None if none."""
     statuses = zip(data[STATUS].values, status_words(data).values, strict=True)
-    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED_WORD]
+    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED]
     if not failed:
         return None
     why, word = failed[0]
@@ -194,17 +166,23 @@ def calibration_failure(data: xr.Dataset) -> Failure | None:
     )
 
 
-def calibration_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
+def calibration_page(
+    data: xr.Dataset, findings: Sequence[Finding], parts: Iterable[str | Table]
+) -> Page:
     """Return the page of a calibration: the law, the points, and the profiles of parameters."""
     case, failed = case_name(data.attrs), calibration_failure(data)
-    points, *tables = as_elements(calibration_parts(data))
+    points, *tables = as_elements(parts)
     fit, residuals, profiles = map(image, calibration_pictures(data))
+    cards = []
+    for e in estimates(data):
+        value, words = written(e.value, e.unit, 3), PARAMETERS[e.name].words
+        cards.append(Card(words, value, estimate_interval(e), not e.determined))
     errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
     return Page.of(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
         str(data.attrs.get("model", "")).replace("_", " "),
         [*errors, *findings],
-        calibration_cards(data),
+        cards,
         [
             Section("law", "The law", [Text(_CALIBRATION), law_facts(data), *tables]),
             Section("points", "Point by point", [fit, residuals, points]),
@@ -213,3 +191,71 @@ def calibration_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
         ],
         (line.strip() for line in calibration_lines(data)),
     )
+
+
+def residual_table(data: xr.Dataset) -> Table:
+    """Return measured and predicted friction, their difference, and it over the spread.
+
+    `data` is what `gripscale.questions.residuals` answers; its root mean squares stand below.
+    """
+    speeds, pressures = (display_unit_of(data.attrs, name) for name in ("speed", "pressure"))
+    spread = bool(np.isfinite(data.measured_spread).any())
+    points = [
+        Column("speed", data.measured_speed.values, "v", speeds.unit, speeds.divisor),
+        Column(
+            "temperature",
+            data.measured_temperature.values,
+            "T",
+            "°C",
+            zero=ZERO_CELSIUS,
+            format=fixed(1),
+        ),
+        Column("pressure", data.measured_pressure.values, "p", pressures.unit, pressures.divisor),
+        Column("measured_friction", data.measured_friction.values, "μ", format=fixed(3)),
+        Column("measured_spread", data.measured_spread.values, "spread", format=fixed(3)),
+    ]
+    points = [column for column in points if np.isfinite(column.values).any()]
+    columns, notes = [column.of(column.values, group="measured") for column in points], []
+    for name in data.model.values.tolist():
+        model = data.sel(model=name).transpose("measurement", ...)
+        group = str(name).replace("_", " ")
+        parts = [
+            Column("hysteresis", heading="μ hyst.", format=fixed(3)),
+            Column("friction", heading="μ", format=fixed(3)),
+            Column("difference", heading="Δμ", format=fixed(3, "+")),
+            Column("difference_in_spread", heading="Δμ / spread", format=fixed(1, "+")),
+        ]
+        wanted = {"hysteresis": "area_term" in data, "difference_in_spread": spread}
+        columns += [
+            part.of(model[part.name].values, name=f"{name}_{part.name}", group=group)
+            for part in parts
+            if wanted.get(part.name, True)
+        ]
+        rms = f"{float(model.rms_difference):.3f}"
+        if spread:
+            rms += f", {float(model.rms_difference_in_spread):.1f} times the spread"
+        notes.append(f"Root mean square of Δμ, {group}: {rms}.")
+    return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
+
+
+def measured_lines(
+    friction: measured_friction.MeasuredFriction, speed: float, speed_unit: DisplayUnit
+) -> Iterator[str]:
+    """Yield what was measured at `speed` [m/s], interpolated in its logarithm, by temperature.
+
+    Speeds are shown as `speed_unit` says.
+    """
+    for series in measured(xr.Dataset(measured_friction.measured_variables(friction))):
+        at = series.at(speed)
+        where = f"{series.label[0].upper()}{series.label[1:]}"
+        if at is None:
+            low, high = (significant(float(speed_unit.of(series.speed[end]))) for end in (0, -1))
+            range_measured = f"from {low} to {high} {speed_unit.unit}"
+            yield f"{where}: nothing at {speed_unit.text(speed)}, only {range_measured}."
+            continue
+        value, spread = at
+        about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
+        yield (
+            f"{where}: mu = {significant(value)}{about} at {speed_unit.text(speed)}; "
+            "`gripscale compare` puts every model beside every measured point."
+        )

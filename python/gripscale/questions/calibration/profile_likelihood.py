@@ -14,7 +14,7 @@ its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,14 +23,8 @@ import scipy
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.questions.calibration.calibration_law import (
-    CalibrationProblem,
-    FittedLaw,
-    Points,
-    best,
-    family_of,
-    refined,
-)
+from gripscale.questions.calibration import calibration_law as fit
+from gripscale.questions.calibration.calibration_law import CalibrationProblem, FittedLaw
 from gripscale.questions.calibration.measured_comparison import rms
 
 LIKELIHOOD_LEVEL = 0.9
@@ -68,13 +62,10 @@ class LikelihoodProfile:
         return float(self.optimum.theta[self.index])
 
     def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
-        """Return E at a value, and what the others are there.
-
-        Raises `BetterMinimumFound` where E is below zero.
-        """
+        """Return E at a value and the others there; raise `BetterMinimumFound` if E < 0."""
         held = self.problem.holding(self.index, scaled)
         others = np.delete(self.optimum.theta, self.index) if start is None else start
-        optimum = refined(held, others)
+        optimum = fit.refined(held, others)
         apart = optimum.sum_of_squares - self.optimum.sum_of_squares
         if apart < -LESS * self.optimum.sum_of_squares - 1e-12:
             raise BetterMinimumFound(np.insert(optimum.theta, self.index, scaled))
@@ -86,14 +77,14 @@ class LikelihoodProfile:
         Infinite where it does not before the limit of the search, or only because another
         parameter is held back by its own.
         """
-        limit = self.problem.family.free[self.index].limits[(way + 1) // 2]
+        limit = self.problem.free[self.index].limits[(way + 1) // 2]
         near, others = self.centre, np.delete(self.optimum.theta, self.index)
         below = 0.0
         if way * (limit - near) <= 0.0:
             return way * math.inf
         # how far the end would be on a parabola, within reason
         error = np.sqrt(np.diag(covariance(self.optimum.jacobian)))[self.index]
-        low, high = self.problem.family.free[self.index].limits
+        low, high = self.problem.free[self.index].limits
         step = float(np.clip(error * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
         while True:
             far = near + way * step
@@ -159,17 +150,20 @@ def covariance(jacobian: Array) -> Array:
     return np.asarray(scaled.T @ scaled)
 
 
-def settled(
-    problem: CalibrationProblem,
-    optimum: FittedLaw,
-    find: Callable[[FittedLaw], list[tuple[float, float]]],
-) -> tuple[FittedLaw, list[tuple[float, float]]]:
-    """Return the optimum and what `find` makes of it, begun again where a better one is met."""
+def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:
+    """Return the optimum and both ends of the interval of each free parameter.
+
+    Begun again where a profile meets a better optimum.
+    """
+    optimum = fit.best(problem)
     while True:
+        threshold = threshold_of(optimum, spread_known=problem.points.spread is not None)
+        free = range(len(problem.free))
+        profiles = [LikelihoodProfile(problem, optimum, at) for at in free]
         try:
-            return optimum, find(optimum)
+            return optimum, tuple((p.end(-1, threshold), p.end(1, threshold)) for p in profiles)
         except BetterMinimumFound as better:
-            optimum = refined(problem, better.theta)
+            optimum = fit.refined(problem, better.theta)
 
 
 WAYS = ("temperature", "speed")
@@ -198,38 +192,36 @@ class HeldOut:
 
 
 def held_out(
-    points: Points, groups: Array, kind: str, fixed: Mapping[str, float]
+    points: fit.Points, groups: Array, kind: str, fixed: Mapping[str, float]
 ) -> tuple[HeldOut, ...]:
     """Return what each group of points is predicted to be by the others.
 
-    `groups` holds the value by which each point belongs to a group; `kind` and `fixed` are of the
-    law, as for `family_of`. Raises `InputError` if there is only one group.
+    `groups` holds a value for each point; `kind` and `fixed` are of the law, as for `problem_of`.
     """
     values = np.unique(groups)
     if values.size < 2:
         raise InputError(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
-    wanted = {parameter.name for parameter in family_of(kind, points, fixed).free}
+    wanted = {parameter.name for parameter in fit.problem_of(kind, points, fixed).free}
     results = []
     for value in values:
         chosen = groups == value
         count, rest, some = int(chosen.sum()), points.only(~chosen), points.only(chosen)
         unknown = HeldOut(float(value), count, math.nan, math.nan, math.nan)
         try:
-            family = family_of(kind, rest, fixed)
+            problem = fit.problem_of(kind, rest, fixed)
         except InputError as error:
             results.append(replace(unknown, why_not=str(error)))
             continue
-        missing = wanted - {parameter.name for parameter in family.free}
+        missing = wanted - {parameter.name for parameter in problem.free}
         if missing:
             why = f"the other points do not determine {', '.join(sorted(missing))}"
             results.append(replace(unknown, why_not=why))
             continue
-        theta = best(CalibrationProblem(rest, family)).theta
+        theta = fit.best(problem).theta
         inside, outside = (
-            CalibrationProblem(part, family).friction(theta) - part.difference
-            for part in (rest, some)
+            replace(problem, points=part).friction(theta) - part.difference for part in (rest, some)
         )
         relative = np.full(count, np.nan) if some.spread is None else outside / some.spread
         within, beyond, over = (float(rms(errors)) for errors in (inside, outside, relative))
@@ -238,10 +230,7 @@ def held_out(
 
 
 def groups_of(way: str, speed: Array, temperature: Array) -> Array:
-    """Return the group of each point: its temperature to the kelvin, or its decade of speed.
-
-    Raises `InputError` if `way` is none of `WAYS`, or a temperature is not known.
-    """
+    """Return the group of each point: its temperature to the kelvin, or its decade of speed."""
     if checks.one_of("hold_out", way, WAYS) == "speed":
         return np.asarray(10.0 ** np.floor(np.log10(speed) + 1e-9))
     if np.isnan(temperature).any():

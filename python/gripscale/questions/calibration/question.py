@@ -18,7 +18,7 @@ from gripscale.case import Case
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
     MeasuredFriction,
@@ -35,6 +35,7 @@ from gripscale.questions.calibration import calibration_law as laws
 from gripscale.questions.calibration import page
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
 from gripscale.questions.calibration.calibration_text import notes
+from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.measured_comparison import measured_design, predicted_of
 from gripscale.questions.calibration.profile_likelihood import groups_of
 from gripscale.questions.inputs import record
@@ -85,7 +86,12 @@ class Calibration(Result):
 
     def parts(self) -> Iterator[str | Table]:
         """Yield the misfit point by point, parameters, correlations and points left out."""
-        yield from page.calibration_parts(self.data)
+        yield page.misfit_table(self.data)
+        yield page.parameter_table(self.data)
+        yield from filter(None, [page.correlations(self.data)])
+        if "left_out" in self.data.coords:
+            yield page.held_out_table(self.data)
+        yield from str(self.data.attrs.get("notes", "")).splitlines()
 
     def table(self) -> Table:
         """Return the parameters with their intervals."""
@@ -93,14 +99,12 @@ class Calibration(Result):
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
         """Yield the fit beside the measurement, its residuals, and the profiles of parameters."""
-        from gripscale.questions.calibration.charts import calibration_pictures
-
         for picture in calibration_pictures(self.data):
             yield picture.name, picture.figure
 
     def page_content(self) -> Page:
         """Return the law, the points, and how well they determine the law."""
-        return page.calibration_page(self.data, self.findings)
+        return page.calibration_page(self.data, self.findings, self.parts())
 
 
 def calibrate(
@@ -162,11 +166,11 @@ def calibrate(
         case.attributes, case_file=case.origin.name, model=model, notes="\n".join(notes(fit))
     )
     if far := speed_doubts(friction, case.load.speed):
-        data.attrs[INPUT_DOUBTS] = "\n".join(far)
+        data.attrs[INPUT_DOUBTS] = to_json(far)
     # its speeds have a doubt of their own
     loads = [replace(case.load, pressure=float(p)) for p in predicted.pressure]
     doubts = friction_doubts(friction, case.load.speed)
-    result = Calibration(data, record.inputs(case, loads=loads, friction_notes=doubts))
+    result = Calibration(data, record.inputs(case, loads=loads, further=doubts))
     result.fit = fit
     return result
 

@@ -23,9 +23,9 @@ from gripscale.charts.chart import (
     PlotAxis,
     Series,
     ShadedBand,
-    Sheet,
     ValueMap,
 )
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
 from gripscale.core.arrays import Array
@@ -35,9 +35,11 @@ from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
 from gripscale.model import with_adhesive
-from gripscale.questions.chain.view import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, PredictionView
+from gripscale.questions.answer.reliance import answer_interval, answer_number
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
 from gripscale.questions.vary.axis import EFFECTS, MODELS
+from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -155,7 +157,7 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
 
 def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Mark]:
     """Yield the best estimate with its interval, if there is one."""
-    best, low, high = view.answer(quantity)
+    best, (low, high) = answer_number(view.data, quantity), answer_interval(view.data, quantity)
     if not np.isfinite(best):
         return
     measured = np.isfinite(low)
@@ -331,12 +333,6 @@ BAR = 1.25
 """Left end of a bar over its wavelength, and that over its right end."""
 
 
-def require_warming(data: xr.Dataset) -> None:
-    """Raise `InputError` unless a chain's Dataset has temperatures of its waves."""
-    if not set(PARTS) <= set(data.data_vars) or "scale" not in data.dims:
-        raise InputError("data must be of a chain solved with heat; got one without temperatures")
-
-
 def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     """Draw by how much each wave of a chain is warmer than the rubber before the contact.
 
@@ -361,7 +357,8 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
 
 def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
     """Describe what `heat_figure` draws; arguments and errors are its own."""
-    require_warming(data)
+    if not set(PARTS) <= set(data.data_vars) or "scale" not in data.dims:
+        raise InputError("data must be of a chain solved with heat; got one without temperatures")
     data = data.isel(scale=np.isfinite(data.flash_temperature_rise_own.values))
     length = data.wavelength.values / MILLI
     above, below = np.zeros(length.size), np.zeros(length.size)

@@ -18,10 +18,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias, get_args
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from gripscale.chain.prediction import ChainResult
-    from gripscale.questions.answer.answer import Answer
 
 PASSES = "passes"
 """Detail of the waves of a prediction whose rubber and contact were iterated."""
@@ -124,12 +121,6 @@ class AnswerSolved:
     contact_fraction: float
     friction: float
 
-    @classmethod
-    def of(cls, answer: Answer) -> AnswerSolved:
-        """Return the event of an answer."""
-        converged = answer.status == "converged"
-        return cls(converged, answer.contact_fraction, answer.friction)
-
 
 @dataclass(frozen=True)
 class EffectsSolved:
@@ -137,12 +128,6 @@ class EffectsSolved:
 
     effects: tuple[str, ...]
     """Names of the conditions, such as "heat"."""
-
-    @classmethod
-    def of(cls, effects: xr.Dataset) -> EffectsSolved:
-        """Return the event of the answers without each effect, labelled "no heat" and so on."""
-        labels = map(str, effects.effect.values)
-        return cls(tuple(text.removeprefix("no ") for text in labels if text.startswith("no ")))
 
 
 @dataclass(frozen=True)

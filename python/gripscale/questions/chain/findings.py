@@ -1,33 +1,24 @@
-"""What the reader must see first: waves that failed, then warnings, ranked by what they change."""
+"""What may change the predictions of a chain: conditions, mesh, and rubber beyond its band."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.area_term import heat_left_out
-from gripscale.core.finding import Finding, Severity, Topic, ranked
-from gripscale.core.provenance import versions
-from gripscale.experiment.measured_friction import friction_doubts
-from gripscale.io.table import NONE
-from gripscale.questions.answer.findings import LARGE_MISFIT, case_notices, no_answer_notices
-from gripscale.questions.answer.page import answer_cards
-from gripscale.questions.answer.reliance import friction_sentence, has_answer, no_answer
-from gripscale.questions.chain.view import CONVERGED_WORD, PredictionView
-from gripscale.report.elements import Card, number_text, percent_text
-from gripscale.report.failures import Failure, chapter_words
+from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
+from gripscale.questions.answer.findings import LARGE_MISFIT
+from gripscale.questions.answer.reliance import friction_sentence
+from gripscale.questions.chain.view import PredictionView
+from gripscale.report.elements import number_text, percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
-from gripscale.rubber.material import LEAST_POISSON_RATIO
+from gripscale.rubber.material import LEAST_POISSON_RATIO, poisson_ratio
 from gripscale.wave.result import LARGE_MISMATCH
-
-if TYPE_CHECKING:
-    from gripscale.questions.chain.run_folder import RunSource
 
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",
@@ -51,6 +42,26 @@ def conditions_notices(view: PredictionView) -> Iterator[Finding]:
             yield Finding(Severity.WARNING, text, topic=Topic.RUBBER)
 
 
+def wave_notices(view: PredictionView, bulk_modulus: float) -> Iterator[Finding]:
+    """Yield what may be wrong with the waves of a chain: mesh, conditions, bulk modulus [Pa]."""
+    if view.moving:
+        mismatch = np.nan_to_num(view.usable("friction_mismatch"))
+        worst = percent_text(mismatch.max(initial=0.0))
+        words = f"the two frictions are up to {worst} apart; take a finer mesh"
+        yield from _of_waves(view, mismatch > LARGE_MISMATCH, words, mismatch, Topic.SOLUTION)
+    yield from conditions_notices(view)
+    if not view.has("modulus"):
+        return
+    ratio = np.nan_to_num(poisson_ratio(bulk_modulus, view.column("modulus")), nan=0.5)
+    low = ratio < LEAST_POISSON_RATIO
+    if low.any():
+        words = (
+            f"Poisson's ratio is down to {number_text(ratio[low].min())}, less than "
+            f"{LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli"
+        )
+        yield Finding(Severity.WARNING, f"{_named_waves(low)}: {words}.", topic=Topic.RUBBER)
+
+
 def _of_waves(
     view: PredictionView,
     flagged: np.ndarray,
@@ -61,9 +72,11 @@ def _of_waves(
     """Yield a warning of the flagged waves; `error` is the relative one of their friction."""
     waves = _named_waves(flagged)
     if waves:
-        yield Finding(
-            Severity.WARNING, f"{waves}: {words}.", _in_total(view, flagged * error), topic=doubt
-        )
+        in_total = math.nan
+        if view.moving and view.complete:
+            friction = view.column("friction")
+            in_total = float(flagged * error @ friction / friction.sum())
+        yield Finding(Severity.WARNING, f"{waves}: {words}.", in_total, topic=doubt)
 
 
 def _named_waves(flagged: np.ndarray) -> str:
@@ -71,14 +84,6 @@ def _named_waves(flagged: np.ndarray) -> str:
     if len(numbers) > 1 and len(numbers) == flagged.size:
         return f"All {len(numbers)} waves"
     return f"Wave{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}" if numbers else ""
-
-
-def _in_total(view: PredictionView, error: np.ndarray) -> float:
-    """Return what relative errors of the frictions of the waves make of their sum."""
-    if not (view.moving and view.complete):
-        return math.nan
-    friction = view.column("friction")
-    return float(error @ friction / friction.sum())
 
 
 def _share(value: float) -> str:
@@ -127,173 +132,13 @@ def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
             yield Finding(Severity.WARNING, f"{label}: {text}", share, topic=Topic.RUBBER)
 
 
-def notices(run: RunSource) -> list[Finding]:
-    """Return errors first, then warnings by what they change."""
-    of_case = [*no_answer_notices(run.direct), *case_notices(run.direct, run.record)]
-    of_friction = friction_notices(friction_doubts(run.measured, run.predictions[0].speed))
-    return ranked([*run_failures(run), *of_friction, *of_case, *_of_predictions(run)])
-
-
-def friction_notices(doubts: Iterable[str]) -> Iterator[Finding]:
-    """Yield a warning for each doubt of measured friction."""
-    yield from (Finding(Severity.DOUBT, text) for text in doubts)
-
-
-def run_failures(run: RunSource) -> Iterator[Finding]:
-    """Yield what has no numbers in a run: waves and predictions."""
-    yield from (
-        Finding(Severity.ERROR, text) for view in run.predictions for text in _failures(view)
-    )
-
-
-def _failures(view: PredictionView) -> Iterator[str]:
-    for i in np.flatnonzero(~view.converged):
-        why, word = view.why(int(i)), str(view.data["status"].values[i])
-        yield (
-            f"{view.title}: wave {i + 1} did NOT converge ({why}). Its numbers are not to be "
-            f"used, the waves after it were not solved, and there are no totals. {_advice(word)}"
-        ).rstrip()
-    if view.complete or not view.converged.all():
-        return
-    if view.status != CONVERGED_WORD:
-        advice = _advice(view.status_word)
-        yield f"{view.title}: {view.status}. There are no totals. {advice}".rstrip()
-    else:
-        yield (
-            f"{view.title}: the run ended after wave {view.waves} of {view.planned}. The totals "
-            "would lack the smaller waves and are not shown; run the case again."
-        )
-
-
-def _advice(word: str) -> str:
-    """Return what to do about a status as sentences of their own; empty where nothing is known."""
-    status = Failure("", word).status
-    if status is None:
-        return ""
-    return f"{status.advice} See {chapter_words(status.chapter)}."
-
-
-def _of_predictions(run: RunSource) -> Iterator[Finding]:
-    """Yield warnings about the waves, and about where the results come from."""
-    answered = run.direct is not None and has_answer(run.direct)
-    if run.direct is not None and not no_answer(run.direct):
-        yield from _beside_the_answer(run.predictions[0], run.direct)
-    for view in run.predictions:
-        beyond = prediction_sentence(view)
-        if beyond and not answered:
-            text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
-            yield Finding(
-                Severity.WARNING, text, model.extrapolation_of(view.data).share, topic=Topic.RUBBER
-            )
-    for view in run.by_wave:
-        for notice in (
-            *_mismatch(view),
-            *conditions_notices(view),
-            *_compressible(view, run.record.bulk_modulus),
-        ):
-            yield replace(notice, sentence=f"{view.title}: {notice.sentence}")
-    if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
-        text = "The dynamic and the static result come from different case files."
-        yield Finding(Severity.DOUBT, text)
-    solved, here = run.attrs.get("version_gripscale"), versions()["gripscale"]
-    if solved is not None and solved != here:
-        text = f"Solved with gripscale {solved}, reported with {here}."
-        yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)
-
-
-def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Finding]:
-    """Yield how the totals of the chain differ from the best estimate of the same load."""
-    if not chain.complete:
-        return
-    names = ("friction", "contact_fraction") if chain.moving else ("contact_fraction",)
-    ratios = {name: chain.total(name) / float(direct[f"best_{name}"]) for name in names}
-    area = f"{ratios['contact_fraction']:.2g} times the contact area"
-    text = f"{ratios['friction']:.2g} times the friction and {area}" if chain.moving else area
-    yield Finding(
-        Severity.WARNING,
-        f"The chain of waves has {text} of the best estimate.",
-        ratios.get("friction", math.nan) - 1.0,
-        ratios["contact_fraction"] - 1.0,
-        Topic.SOLUTION,
-    )
-
-
-def _compressible(view: PredictionView, bulk: float) -> Iterator[Finding]:
-    """Warn where the bulk modulus is too small for the modulus of a wave."""
-    if not view.has("modulus"):
-        return
-    shear = view.column("modulus") / 3.0
-    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
-    low = np.nan_to_num(ratio, nan=0.5) < LEAST_POISSON_RATIO
-    if low.any():
-        words = (
-            f"Poisson's ratio is down to {number_text(ratio[low].min())}, less than "
-            f"{LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli"
-        )
-        yield Finding(Severity.WARNING, f"{_named_waves(low)}: {words}.", topic=Topic.RUBBER)
-
-
-def _mismatch(view: PredictionView) -> Iterator[Finding]:
-    if not view.moving:
-        return
-    mismatch = np.nan_to_num(view.usable("friction_mismatch"))
-    worst = percent_text(mismatch.max(initial=0.0))
-    words = f"the two frictions are up to {worst} apart; take a finer mesh"
-    large = mismatch > LARGE_MISMATCH
-    yield from _of_waves(view, large, words, mismatch, Topic.SOLUTION)
-
-
-def run_cards(run: RunSource) -> list[Card]:
-    """Return the answer of the measured surface, then the totals of each prediction."""
-    made = [] if run.direct is None else list(answer_cards(run.direct))
-    if not made:
-        return [card for view in run.predictions for card in _cards(view)]
-    return [*made, *(card for view in run.predictions for card in _chain_cards(view))]
-
-
-def _chain_cards(view: PredictionView) -> Iterator[Card]:
-    """Yield the totals of waves one by one, beside the answer of the measured surface."""
-    if not view.complete:
-        yield from _cards(view)
-        return
-    area = number_text(view.total("contact_fraction"))
-    if not view.moving:
-        yield Card("Chain of waves, A_r/A_0", area, view.title)
-        return
-    friction = number_text(view.total("friction"))
-    yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
-
-
-def _cards(view: PredictionView) -> Iterator[Card]:
-    if not view.complete:
-        yield Card("No totals", "not converged", view.title, bad=True)
-        return
-    waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
-    area = number_text(view.total("contact_fraction"))
-    yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
-    if not view.moving:
-        return
-    lost = number_text(view.total("friction_from_dissipation"))
-    friction = number_text(view.total("friction"))
-    yield Card("Friction coefficient μ", friction, f"{view.title}; {lost} from energy lost")
-    both = model.with_adhesive(view.data)
-    if both is not None:
-        yield Card("With the area term, μ", number_text(float(both)), f"{view.title}; as stated")
-    if not view.has("friction_mismatch"):
-        return
-    mismatch = view.usable("friction_mismatch")
-    largest = percent_text(np.nanmax(mismatch)) if np.isfinite(mismatch).any() else NONE
-    bad = bool(np.nanmax(mismatch, initial=0.0) > LARGE_MISMATCH)
-    yield Card("Largest mismatch of μ", largest, "traction against energy lost", bad=bad)
-
-
 def exponent_sentence(data: xr.Dataset) -> str:
     """Return how a prediction changes with its smallest wavelength, or why that is not known.
 
     Empty where there are no totals, or the model does not tell.
     """
     exponents = model.cut_off_exponents_of(data)
-    if exponents.why_not in (model.NOT_TOLD.why_not, model.NOT_CONVERGED.why_not):
+    if exponents.why_not in (NOT_TOLD.why_not, NOT_CONVERGED.why_not):
         return ""
     pairs = (("μ", exponents.friction), ("A_r/A_0", exponents.contact_fraction))
     texts = [
@@ -305,6 +150,6 @@ def exponent_sentence(data: xr.Dataset) -> str:
         return f"The change with the cut-off is not known: {exponents.why_not}."
     text = f"Change with the cut-off, over its last octave: {', '.join(texts)}"
     if math.isfinite(exponents.friction):
-        factor = model.OCTAVE**-exponents.friction
+        factor = OCTAVE**-exponents.friction
         text += f" (half the smallest wavelength: about {factor:.2g} times the friction)"
     return f"{text}."

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
+from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import (
     NONE,
     Column,
@@ -32,7 +33,7 @@ from gripscale.questions.chain.findings import (
     exponent_sentence,
     prediction_sentence,
 )
-from gripscale.questions.chain.view import CONVERGED_WORD, PredictionView
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.page import numbers
 
 if TYPE_CHECKING:
@@ -222,7 +223,7 @@ def totals(data: xr.Dataset) -> str:
     view = PredictionView(data)
     if not view.converged.all():
         return f"No totals: wave {view.waves} did not converge ({view.why(view.waves - 1)})."
-    if not view.waves and view.status != CONVERGED_WORD:
+    if not view.waves and view.status != CONVERGED:
         return f"No totals: {view.status}."
     waves = f"{view.waves} wave{'s' if view.waves != 1 else ''}: " if view.waves else ""
     area = f"{waves}real contact area A_r/A_0 = {significant(view.total('contact_fraction'))}"

@@ -13,7 +13,6 @@ from gripscale.case import Case
 from gripscale.chain import Chain, ChainError
 from gripscale.chain.prediction import ChainResult
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import DisplayUnit
 from gripscale.experiment.task import Task
 from gripscale.io import netcdf
 from gripscale.questions.answer.answer import Answer
@@ -232,8 +231,3 @@ def require_feasible(case: Case) -> None:
     if case.chain.extrapolate == "refuse":
         for _, speed in planned(case):
             require_measured(rubber, case.surface.sines.wavelength, speed)
-
-
-def title(speed: float, speed_unit: DisplayUnit) -> str:
-    """Return what tables and figures call a prediction at `speed` [m/s], shown in `speed_unit`."""
-    return "Static" if speed == 0.0 else f"Dynamic, {speed_unit.text(speed)}"

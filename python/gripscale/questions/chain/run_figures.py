@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
-
-import xarray as xr
 
 from gripscale.charts.figure_folder import FigureProcess, Figures
-from gripscale.questions.answer.charts import named_traces, profile_names, trace_sheet
-from gripscale.questions.chain import charts as wave_and_chain
+from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
-from gripscale.questions.chain.run import planned
-from gripscale.questions.chain.view import JUDGE, PredictionView
+from gripscale.questions.chain.run import ChainRun, planned
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.record import excited
-
-if TYPE_CHECKING:
-    from gripscale.case import Case
-    from gripscale.questions.answer.answer import Answer
-    from gripscale.questions.chain.run import ChainRun
+from gripscale.questions.words import JUDGE
 
 
 @contextmanager
@@ -35,72 +27,57 @@ def background_figures(run: ChainRun, figures: Figures) -> Iterator[OnEvent]:
     first wave the folder of results is ready and the direct contact solved, with the end of a
     prediction its blocks are complete. On leaving, what went wrong is raised.
     """
-    names = [name for name, _ in planned(run.case)]
+    last = [name for name, _ in planned(run.case)][-1]
     with ThreadPoolExecutor(1, thread_name_prefix="figures") as pool:
-        jobs: dict[str, Future[None]] = {}
+        jobs: dict[Callable[[ChainRun, Figures], None], Future[None]] = {}
 
-        def draw(task: Callable[..., None], *arguments: Any) -> None:
-            if task.__name__ not in jobs:
-                jobs[task.__name__] = pool.submit(task, *arguments, figures)
+        def draw(task: Callable[[ChainRun, Figures], None]) -> None:
+            if task not in jobs:
+                jobs[task] = pool.submit(task, run, figures)
 
         def on_event(event: Event) -> None:
             if isinstance(event, WaveSolved):
-                if isinstance(figures, FigureProcess) and "draw_direct" not in jobs:
+                if isinstance(figures, FigureProcess) and _draw_direct not in jobs:
                     figures.release()
-                draw(draw_inputs, run.case)
+                draw(_draw_inputs)
                 if run.answer is not None:
-                    draw(draw_direct, run.answer)
+                    draw(_draw_direct)
             elif isinstance(event, PredictionFinished):
-                draw(draw_blocks, run, event.prediction)
-                if event.prediction == names[-1]:
-                    draw(draw_contact, run)
+                draw(_draw_blocks)
+                if event.prediction == last:
+                    draw(_draw_contact)
 
         if isinstance(figures, FigureProcess):
-            draw(draw_inputs, run.case)
+            draw(_draw_inputs)
         yield on_event
-        if "draw_direct" in jobs:
-            draw(draw_contact, run)
+        if _draw_direct in jobs:
+            draw(_draw_contact)
         for future in jobs.values():
             future.result()
 
 
-def draw_inputs(case: Case, figures: Figures) -> None:
-    """Draw profiles, correlation and master curve."""
-    surface_figures(case.surface, figures)
-    omega = excited(case.load.speed, case.surface.sines)
-    rubber_figures(case.measured_rubber, omega, figures)
+def _draw_inputs(run: ChainRun, figures: Figures) -> None:
+    surface, load = run.case.surface, run.case.load
+    surface_figures(surface, figures)
+    rubber_figures(run.case.measured_rubber, excited(load.speed, surface.sines), figures)
 
 
-def draw_blocks(run: ChainRun, name: str, figures: Figures) -> None:
-    """Draw the blocks of a prediction, "dynamic" or "static"."""
+def _draw_direct(run: ChainRun, figures: Figures) -> None:
+    for name, figure in [] if run.answer is None else run.answer.figures():
+        figures.save(figure, name)
+
+
+def _draw_blocks(run: ChainRun, figures: Figures) -> None:
+    name = next(iter(run.predictions))
     figures.save(all_blocks(run.dataset(name)), f"blocks_{name}")
 
 
-def draw_contact(run: ChainRun, figures: Figures) -> None:
+def _draw_contact(run: ChainRun, figures: Figures) -> None:
     """Draw area and friction of all predictions, what judges them, and against the cut-off."""
     predictions = map(run.dataset, run.predictions)
     titles = {PredictionView(data).title.lower(): data for data in predictions}
     if run.answer is not None and run.answer.is_solved:
         titles[JUDGE] = run.answer.data
-    figures.save(wave_and_chain.contact_sheet(titles), "contact_and_friction")
+    figures.save(contact_sheet(titles), "contact_and_friction")
     if run.answer is not None and run.answer.curve is not None:
         figures.save(cut_off_sheet(run.answer.curve), "cut_off")
-
-
-def draw_direct(answer: Answer, figures: Figures) -> None:
-    """Draw rubber on surface, pressure and friction of the first direct contact, if it is solved.
-
-    The page shows the others.
-    """
-    for name, trace in named_traces(answer.data, profile_names(answer.inputs))[:1]:
-        figures.save(trace_sheet(trace, name), "direct_contact")
-
-
-def draw_heat(data: xr.Dataset, figures: Figures) -> None:
-    """Draw the temperature of each wave of a chain."""
-    figures.save(wave_and_chain.heat_sheet(data), "heat")
-
-
-def draw_effects(results: Sequence[xr.Dataset], figures: Figures) -> None:
-    """Draw what each effect of the conditions is worth."""
-    figures.save(wave_and_chain.effects_sheet(*results), "effects")

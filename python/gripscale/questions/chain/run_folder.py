@@ -12,7 +12,7 @@ from gripscale.experiment.measured_friction import MeasuredFriction, stored_meas
 from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.chain.run import DYNAMIC, STATIC
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.compare.stored import COMPARISON, Compared, stored_comparisons
+from gripscale.questions.compare.page import COMPARISON, Compared, stored_comparisons
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import predicted_tree
 from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty

@@ -2,28 +2,54 @@
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
 import xarray as xr
 
-from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.io.table import Table
+from gripscale import model
+from gripscale.core.finding import Finding, Severity, Topic, ranked
+from gripscale.core.provenance import versions
+from gripscale.experiment.design import CONVERGED
+from gripscale.experiment.measured_friction import friction_doubts
+from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
-from gripscale.questions.answer.reliance import has_answer
-from gripscale.questions.calibration.page_of_measured import measured_lines
-from gripscale.questions.chain import findings as notices
+from gripscale.questions.answer.findings import case_notices, no_answer_notices
+from gripscale.questions.answer.reliance import has_answer, no_answer
+from gripscale.questions.calibration.page import measured_lines
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
+from gripscale.questions.chain.findings import (
+    exponent_sentence,
+    prediction_sentence,
+    wave_notices,
+)
 from gripscale.questions.chain.page import wave_tables
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare import page as comparison
-from gripscale.questions.cut_off import page as cut_off
+from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.uncertainty import page as uncertainty
 from gripscale.questions.vary import page_side_by_side as side_by_side
 from gripscale.report.again import case_name, rerun_section
-from gripscale.report.elements import Element, Page, Section, Text
+from gripscale.report.elements import (
+    Card,
+    Element,
+    Facts,
+    Page,
+    Section,
+    Text,
+    number_text,
+    percent_text,
+)
 from gripscale.report.equations import method_section
+from gripscale.report.failures import Failure, chapter_words
 from gripscale.surface import SineStack
+from gripscale.wave.result import LARGE_MISMATCH
 
 _EVIDENCE = (
     "The two friction coefficients of a wave are found independently, from the traction in the "
@@ -48,16 +74,22 @@ def run_page(run: RunSource) -> Page:
     stale = run.uncertainty is not None and run.own_uncertainty is None
     blocks = ("surface_x", "surface_pressure", "mesh_x")
     meshed = [view for view in run.predictions if all(view.has(name) for name in blocks)]
-    waves = _waves(run)
-    moving = next((view for view in run.by_wave if view.moving), None)
-    origin: list[Element] = [inputs.load_facts(run)]
+    surface: list[Element] = []
+    if "sines_wavelength" in run.data:
+        waves = SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
+        surface = inputs.surface_section(run.record, waves)
+    moving = next((view.data for view in run.by_wave if view.moving), None)
+    effects: list[Element] = []
+    if run.effects:
+        effects = [Text(_EFFECTS), side_by_side.effects_table(*run.effects)]
+    origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
     return Page.of(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
-        [*notices.notices(run), *([_OF_ANOTHER] if stale else [])],
-        [*notices.run_cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
+        [*notices(run), *([_OF_ANOTHER] if stale else [])],
+        [*run_cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
             Section(
                 "contact",
@@ -65,16 +97,16 @@ def run_page(run: RunSource) -> Page:
                 [] if run.direct is None else answer.contact_elements(run.direct, run.record),
             ),
             Section("inputs", "Inputs and their origin", origin),
-            Section(
-                "surface",
-                "Surface",
-                [] if waves is None else inputs.surface_section(run.record, waves),
-            ),
+            Section("surface", "Surface", surface),
             Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
             Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
-            Section("cut-off", "Against the cut-off", cut_off.cut_off_elements(run.cut_off)),
-            Section("effects", "What each effect is worth", effects_elements(run.effects)),
+            Section(
+                "cut-off",
+                "Against the cut-off",
+                [] if run.cut_off is None else CutOff(run.cut_off).elements(),
+            ),
+            Section("effects", "What each effect is worth", effects),
             Section(
                 "blocks",
                 "Deformed blocks",
@@ -89,16 +121,46 @@ def run_page(run: RunSource) -> Page:
     )
 
 
-def _waves(run: RunSource) -> SineStack | None:
-    if "sines_wavelength" not in run.data:
-        return None
-    return SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
+def _load_facts(run: RunSource) -> Facts:
+    """Return load, rubber, surface and model in words."""
+    attrs, data = run.attrs, run.data
+    first = run.predictions[0]
+
+    def text(name: str, value: float) -> str:
+        display_unit = first.display_unit(name)
+        return f"{number_text(display_unit.of(value))} {display_unit.unit}"
+
+    speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
+    if any(not view.moving for view in run.predictions):
+        speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
+    model = str(attrs.get("model", NONE))
+    if "wave_solver" in data:
+        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
+        model += f", waves by {', '.join(solvers)}"
+    record = run.record
+    source = inputs.without_folder(str(attrs.get("rubber_source", attrs.get("rubber", ""))))
+    # of a strain energy such as "MooneyRivlin(share=0.2)" the name in words, and its parameters
+    law, _, parameters = record.text("strain_energy").partition("(")
+    energy = "-".join(re.findall(r"[A-Z][a-z]+", law)) or law or NONE
+    return Facts(
+        "Load and model",
+        [
+            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
+            ("Sliding speed", speeds),
+            ("Footprint", text("footprint", float(data["footprint"]))),
+            ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
+            ("Model", model.replace("_", " ")),
+            ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
+            ("Method", str(attrs.get("method", NONE))),
+        ],
+    )
 
 
 def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:
-    sentences = [(view.title, notices.exponent_sentence(view.data)) for view in run.predictions]
+    sentences = [(view.title, exponent_sentence(view.data)) for view in run.predictions]
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
-    below += judgement_elements(run)
+    if run.direct is not None:
+        below.append(Text(" ".join(comparison.judgement(run.predictions[0], run.direct))))
     if not run.by_wave:
         return [Text("The model has no waves; its totals stand above."), *below]
     names = ("load", "contact", "conditions", "further")
@@ -120,18 +182,6 @@ def _measured(run: RunSource) -> list[Element]:
     return [measured_chart(run.measured, [*sliding, *direct]), *map(Text, lines)]
 
 
-def judgement_elements(run: RunSource) -> list[Element]:
-    """Return the direct contact of the profiles, and the first prediction against it."""
-    if run.direct is None:
-        return []
-    return [Text(" ".join(comparison.judgement(run.predictions[0], run.direct)))]
-
-
-def effects_elements(results: list[xr.Dataset]) -> list[Element]:
-    """Return the answers of each model with and without each effect; nothing without any."""
-    return [Text(_EFFECTS), side_by_side.effects_table(*results)] if results else []
-
-
 def _comparison(run: RunSource) -> list[Element]:
     """Return the comparison of just this case; another's is named and left out."""
     same = run.compared.of(run.attrs.get("case"))
@@ -145,7 +195,7 @@ def _comparison(run: RunSource) -> list[Element]:
 def _verification(run: RunSource, tables: dict[str, Table]) -> list[Element]:
     if not run.by_wave:
         return []
-    errors: list[Element] = list(notices.run_failures(run))
+    errors: list[Element] = list(run_failures(run))
     names = ("errors", "solution", "mesh")
     return [
         *(errors or [Finding(Severity.GOOD, "Every wave converged.")]),
@@ -153,3 +203,121 @@ def _verification(run: RunSource, tables: dict[str, Table]) -> list[Element]:
         *(tables[name] for name in names if name in tables),
         *verification_charts(run.by_wave),
     ]
+
+
+def notices(run: RunSource) -> list[Finding]:
+    """Return errors first, then warnings by what they change."""
+    direct, here = run.direct, versions()["gripscale"]
+    answered = direct is not None and has_answer(direct)
+    findings = [
+        *run_failures(run),
+        *friction_doubts(run.measured, run.predictions[0].speed),
+        *no_answer_notices(direct),
+        *case_notices(direct, run.record),
+    ]
+    if direct is not None and not no_answer(direct):
+        findings += _beside_the_answer(run.predictions[0], direct)
+    for view in run.predictions:
+        beyond, share = prediction_sentence(view), model.extrapolation_of(view.data).share
+        if beyond and not answered:
+            text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
+            findings.append(Finding(Severity.WARNING, text, share, topic=Topic.RUBBER))
+    for view in run.by_wave:
+        findings += [
+            replace(notice, sentence=f"{view.title}: {notice.sentence}")
+            for notice in wave_notices(view, run.record.bulk_modulus)
+        ]
+    if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
+        text = "The dynamic and the static result come from different case files."
+        findings.append(Finding(Severity.DOUBT, text))
+    solved = run.attrs.get("version_gripscale")
+    if solved is not None and solved != here:
+        text = f"Solved with gripscale {solved}, reported with {here}."
+        findings.append(Finding(Severity.WARNING, text, topic=Topic.SOURCE))
+    return ranked(findings)
+
+
+def run_failures(run: RunSource) -> Iterator[Finding]:
+    """Yield what has no numbers in a run: waves and predictions."""
+    for view in run.predictions:
+        text = ""
+        for i in np.flatnonzero(~view.converged):
+            text = (
+                f"wave {i + 1} did NOT converge ({view.why(int(i))}). Its numbers are not to be "
+                "used, the waves after it were not solved, and there are no totals. "
+                f"{_advice(str(view.data['status'].values[i]))}"
+            )
+            yield Finding(Severity.ERROR, f"{view.title}: {text}".rstrip())
+        if view.complete or text:
+            continue
+        text = (
+            f"the run ended after wave {view.waves} of {view.planned}. The totals would lack the "
+            "smaller waves and are not shown; run the case again."
+        )
+        if view.status != CONVERGED:
+            text = f"{view.status}. There are no totals. {_advice(view.status_word)}"
+        yield Finding(Severity.ERROR, f"{view.title}: {text}".rstrip())
+
+
+def _advice(word: str) -> str:
+    """Return what to do about a status as sentences of their own; empty where nothing is known."""
+    status = Failure("", word).status
+    if status is None:
+        return ""
+    return f"{status.advice} See {chapter_words(status.chapter)}."
+
+
+def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Finding]:
+    """Yield how the totals of the chain differ from the best estimate of the same load."""
+    if not chain.complete:
+        return
+    names = ("friction", "contact_fraction") if chain.moving else ("contact_fraction",)
+    ratios = {name: chain.total(name) / float(direct[f"best_{name}"]) for name in names}
+    area = f"{ratios['contact_fraction']:.2g} times the contact area"
+    text = f"{ratios['friction']:.2g} times the friction and {area}" if chain.moving else area
+    yield Finding(
+        Severity.WARNING,
+        f"The chain of waves has {text} of the best estimate.",
+        ratios.get("friction", math.nan) - 1.0,
+        ratios["contact_fraction"] - 1.0,
+        Topic.SOLUTION,
+    )
+
+
+def run_cards(run: RunSource) -> Iterator[Card]:
+    """Yield the answer of the measured surface, then the totals of each prediction."""
+    answered = [] if run.direct is None else list(answer.answer_cards(run.direct))
+    yield from answered
+    for view in run.predictions:
+        yield from _cards(view, beside_answer=bool(answered))
+
+
+def _cards(view: PredictionView, *, beside_answer: bool) -> Iterator[Card]:
+    """Yield the totals of a prediction, in one card beside the answer of the measured surface."""
+    if not view.complete:
+        yield Card("No totals", "not converged", view.title, bad=True)
+        return
+    area = number_text(view.total("contact_fraction"))
+    if beside_answer:
+        if view.moving:
+            friction = number_text(view.total("friction"))
+            yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
+        else:
+            yield Card("Chain of waves, A_r/A_0", area, view.title)
+        return
+    waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
+    yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
+    if not view.moving:
+        return
+    lost = number_text(view.total("friction_from_dissipation"))
+    friction = number_text(view.total("friction"))
+    yield Card("Friction coefficient μ", friction, f"{view.title}; {lost} from energy lost")
+    both = model.with_adhesive(view.data)
+    if both is not None:
+        yield Card("With the area term, μ", number_text(float(both)), f"{view.title}; as stated")
+    if not view.has("friction_mismatch"):
+        return
+    mismatch = view.usable("friction_mismatch")
+    largest = percent_text(np.nanmax(mismatch)) if np.isfinite(mismatch).any() else NONE
+    bad = bool(np.nanmax(mismatch, initial=0.0) > LARGE_MISMATCH)
+    yield Card("Largest mismatch of μ", largest, "traction against energy lost", bad=bad)

@@ -16,40 +16,11 @@ from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array
 from gripscale.core.units import DisplayUnit, display_unit_of
+from gripscale.experiment.design import CONVERGED
 from gripscale.model import status_words
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-HEADINGS = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
-"""What tables and figures call the numbers every model answers with."""
-SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
-"""Their symbols in text."""
-AXIS_TITLES = {
-    name: f"{HEADINGS[name]} ${symbol}$"
-    for name, symbol in (("contact_fraction", "A_r/A_0"), ("friction", "\\mu"))
-}
-"""Headings and symbols at an axis, without the unit."""
-
-CONVERGED_WORD = "converged"
-
-
-def believed(data: xr.Dataset, name: str) -> str:
-    """Return the name of the best there is of `contact_fraction` or `friction` in a study."""
-    return f"best_{name}" if is_estimated(data, name) else f"total_{name}"
-
-
-def is_estimated(data: xr.Dataset, name: str) -> bool:
-    """Return whether a study has a best estimate of `contact_fraction` or `friction`."""
-    best = f"best_{name}"
-    return best in data and bool(data[best].notnull().any())
-
-
-JUDGE = "direct contact of the profiles"
-"""What a figure of a chain calls the model that judges it."""
-ANSWER = "answer (90 %)"
-"""What figures call the best estimate with its interval."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +43,6 @@ class PredictionView:
     @property
     def title(self) -> str:
         """What tables and figures call it."""
-        from gripscale.questions.chain.run import title
-
         return title(self.speed, self.display_unit("speed"))
 
     def display_unit(self, name: str) -> DisplayUnit:
@@ -103,7 +72,7 @@ class PredictionView:
     @property
     def complete(self) -> bool:
         """Whether everything was solved and may be used."""
-        good = self.status == CONVERGED_WORD and bool(self.converged.all())
+        good = self.status == CONVERGED and bool(self.converged.all())
         return good and self.waves >= self.planned
 
     @property
@@ -117,7 +86,7 @@ class PredictionView:
         if "status" not in self.data:
             return np.zeros(self.waves, dtype=bool)
         states = self.data["status"].values
-        return np.array([str(state) == CONVERGED_WORD for state in states], dtype=bool)
+        return np.array([str(state) == CONVERGED for state in states], dtype=bool)
 
     def why(self, i: int) -> str:
         """Return the status of wave `i`, and how much of its pressure was reached."""
@@ -130,19 +99,6 @@ class PredictionView:
     def total(self, name: str) -> float:
         """Return one of `gripscale.model.TOTALS`."""
         return float(self.data[f"total_{name}"])
-
-    def answer(self, name: str) -> tuple[float, float, float]:
-        """Return the best estimate of `contact_fraction` or `friction`, and the ends of its 90 %.
-
-        NaN where there is none.
-        """
-        from gripscale.questions.answer.intervals import interval_ends
-
-        if f"best_{name}" not in self.data:
-            return math.nan, math.nan, math.nan
-        best, width = (self.data[f"best_{name}{end}"] for end in ("", "_half_width"))
-        low, high = interval_ends(best, width)
-        return float(best), float(low), float(high)
 
     def has(self, name: str) -> bool:
         """Return whether there is a column `name` over the waves."""
@@ -185,3 +141,8 @@ class PredictionView:
         x, z = x[layers][:, columns] / length, z[layers][:, columns] / length
         wave = amplitude / length * np.cos(2.0 * math.pi * x[0])
         return x, z - np.min(z[0] - wave)
+
+
+def title(speed: float, speed_unit: DisplayUnit) -> str:
+    """Return what tables and figures call a prediction at `speed` [m/s], shown in `speed_unit`."""
+    return "Static" if speed == 0.0 else f"Dynamic, {speed_unit.text(speed)}"

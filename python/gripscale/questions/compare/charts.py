@@ -17,27 +17,18 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import (
-    Bars,
-    CrossLine,
-    Mark,
-    Note,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-)
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
-from gripscale.questions.chain.view import AXIS_TITLES
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
+from gripscale.questions.words import AXIS_TITLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,12 +46,9 @@ _LINE = 24
 def comparison_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of each rung and the factor from the rung it follows.
 
-    A bar runs from one rung to the next: blue where the number falls, orange where it rises, the
-    factor beside it. Marks carry one standard uncertainty of the mean, dots are the samples. The
-    direct contact of the measured surface judges the others; below it stand the theories,
-    the factors of the best estimate and the estimate itself, and what was measured at this speed. A
-    rung with failed samples is open; one with a star rests partly on the rubber beyond its measured
-    band.
+    Below the direct contact, which judges the others, stand the theories, the factors of the best
+    estimate and the estimate itself, and what was measured at this speed. Dots are the samples. A
+    rung with failed samples is open.
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
@@ -112,7 +100,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     theories = int((comparison.group == "theory").sum())
     rungs = ladder.on_the_surface(comparison).sizes["rung"]
     borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
-    marks: list[Mark] = [CrossLine(at, FAINT, order=0.0) for at in borders]
+    marks: list[Mark] = [chart.CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
         if math.isfinite(follower.before) and follower.before == row.value:
             marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
@@ -144,15 +132,15 @@ def _words(name: str) -> tuple[str, str]:
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     if not (math.isfinite(row.value) and row.value > 0.0):
-        yield Note(0.03, at, row.note, GREY, frame="x", italic=True)
+        yield chart.Note(0.03, at, row.note, GREY, frame="x", italic=True)
         return
     factor = ""
     if math.isfinite(row.before):
         shade = ORANGE if row.value > row.before else BLUE
         least, most = sorted((row.before, row.value))
-        yield Bars(least, most, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
+        yield chart.Bars(least, most, at - HALF, at + HALF, shade, alpha=0.35, order=1.5)
         factor = f"×{row.factor:.2f}"
-        yield Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
+        yield chart.Note(1.0, at, factor, offset=(3.0, 0.0), frame="x")
     if row.samples:
         yield Series(row.samples, [at] * len(row.samples), GREY, dash="", width=0.8, marker="|",
                      size=6.0)  # fmt: skip
@@ -163,13 +151,12 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     numbers = (*row.samples, *row.ends, row.before, row.value)
     rightmost = max(end for end in numbers if math.isfinite(end))
     text = f"{row.value:#.2g}".rstrip(".")  # two significant digits, zeros too
-    yield Note(rightmost, at, text, offset=(5.0, 0.0))
+    yield chart.Note(rightmost, at, text, offset=(5.0, 0.0))
 
 
 def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of each rung down to each wavelength.
 
-    Wavelengths that excite the rubber beyond its measured band are dashed.
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
@@ -216,13 +203,7 @@ def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of all rungs over the axis of a comparison.
-
-    Bands are the standard deviation over the samples. Dashed is what rests on the rubber beyond its
-    measured band. Where a sample failed the mark is open. The
-    best estimate, where it has a factor, is drawn with its standard uncertainty; measured friction
-    with its own.
-    """
+    """Draw area and friction of all rungs over the axis of a comparison, with what was measured."""
     return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
@@ -252,10 +233,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
             marks.append(ShadedBand(x, low, values + spread, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"best_{name}_factor"]).any():
         best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
-        ends = {
-            "low": best * np.exp(-np.arcsinh(width)),
-            "high": best * np.exp(np.arcsinh(width)),
-        }
+        ends = {"low": best * np.exp(-np.arcsinh(width)), "high": best * np.exp(np.arcsinh(width))}
         marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
     adhesive = with_adhesive(comparison) if name == "friction" else None
     for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,
@@ -294,10 +272,7 @@ LEAST_WIDTH = 4.5
 
 
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
-    """Draw measured friction with its spread, and the total of every model at the same points.
-
-    `data` is what `comparison` answers; `labels` are the models in words.
-    """
+    """Draw measured friction with its spread, and the total of every model at the same points."""
     names = [str(name) for name in data.model.values]
 
     def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
@@ -313,9 +288,9 @@ def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
 def measured_sheet(
     data: xr.Dataset, marks_of: Callable[[MeasuredSeries, DisplayUnit], Iterable[Mark]], head: float
 ) -> Sheet:
-    """Return a panel for each measured series of `data`, its points over the marks of `marks_of`.
+    """Return a panel for each measured series, its points over the marks of `marks_of`.
 
-    Speeds are shown as the `DisplayUnit` says; `head` is the height of the legend [inch].
+    `head` is the height of the legend [inch].
     """
     speed_unit = display_unit_of(data.attrs, "speed")
     panels = []
@@ -326,7 +301,7 @@ def measured_sheet(
             PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
             PlotAxis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
             [*marks_of(values, speed_unit), points],
-            title=values.label.removeprefix("measured").removeprefix(", "),
+            title=values.state,
         ))  # fmt: skip
     columns = min(len(panels), MOST_COLUMNS)
     return Sheet(

@@ -65,8 +65,8 @@ def looks(names: list[str]) -> list[Look]:
 
 def flawed(comparison: xr.Dataset) -> list[bool]:
     """Return for each rung whether a sample of it failed."""
-    counts = comparison["converged_samples"] < comparison["samples"]
-    return [bool(few) for few in counts.values]
+    few: list[bool] = (comparison["converged_samples"] < comparison["samples"]).values.tolist()
+    return few
 
 
 def varied(comparison: xr.Dataset) -> str:
@@ -94,17 +94,20 @@ MARKERS = "osD^v"
 
 
 class MeasuredSeries(NamedTuple):
-    """Measured friction at one temperature and pressure over rising speed [m/s].
+    """Measured friction at one temperature and pressure over rising speed [m/s]."""
 
-    Spreads may be NaN.
-    """
-
-    label: str
+    state: str
+    """Temperature, and pressure if there are several; empty if unknown."""
     speed: Array
     friction: Array
     spread: Array
     rows: NDArray[np.intp]
     """Their places among the points of the measurement, which are in any order."""
+
+    @property
+    def label(self) -> str:
+        """What figures and tables call it."""
+        return f"measured, {self.state}" if self.state else "measured"
 
     def at(self, speed: float) -> tuple[float, float] | None:
         """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
@@ -116,15 +119,11 @@ class MeasuredSeries(NamedTuple):
 
 
 def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
-    """Yield what was measured at each temperature, to the kelvin, and each pressure.
-
-    Nothing without a measurement.
-    """
+    """Yield what was measured at each temperature, to the kelvin, and each pressure."""
     if "measured_friction" not in data:
         return
     kelvin = np.round(data.measured_temperature.values)
-    unknown = np.full(kelvin.size, np.nan)
-    pascal = data.measured_pressure.values if "measured_pressure" in data else unknown
+    pascal = data.measured_pressure.values
     several = np.unique(pascal).size > 1
     by_speed = np.argsort(data.measured_speed.values, kind="stable")
     pressure_unit = display_unit_of(data.attrs, "pressure")
@@ -135,7 +134,7 @@ def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
             if not here.any():
                 continue
             rows = by_speed[here[by_speed]]
-            words = ["measured"]
+            words = []
             if not math.isnan(temperature):
                 words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
             if several and not math.isnan(pressure):

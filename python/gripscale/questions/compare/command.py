@@ -8,44 +8,35 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import (
-    CasePath,
-    Cluster,
-    MeasuredPath,
-    OwnFolder,
-    Workers,
-    command,
-    option,
-)
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from gripscale.model import Model
-    from gripscale.questions.compare.comparison_dataset import SolvedLadder
+    from gripscale.questions.compare.comparison import SolvedLadder
 
 
-@command
+@terminal.command
 def compare_command(
-    case: CasePath,
+    case: terminal.CasePath,
     vary: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
             "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, "
             "top_height_fraction, waves.",
             metavar="NAME=VALUES",
         ),
     ] = None,
-    measured: MeasuredPath = None,
+    measured: terminal.MeasuredPath = None,
     rungs: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Models wanted, by name or group (waves, measured, theory, windows, map), such "
             "as 'chain,measured'; windows and map take a minute or two. By default all."
         ),
     ] = None,
-    output: OwnFolder = None,
+    output: terminal.OwnFolder = None,
     seeds: Annotated[int, typer.Option(help="Random phases drawn of each surface.")] = 3,
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
@@ -57,8 +48,8 @@ def compare_command(
             "finite strain adds no more than a third of it."
         ),
     ] = 0.1,
-    workers: Workers = None,
-    cluster: Cluster = None,
+    workers: terminal.Workers = None,
+    cluster: terminal.Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
     from gripscale.case_file import read_case, read_case_file
@@ -69,21 +60,16 @@ def compare_command(
     from gripscale.io import netcdf
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.answer.reliance import has_answer
-    from gripscale.questions.calibration.page_of_measured import residual_table
+    from gripscale.questions.calibration.page import residual_table
     from gripscale.questions.chain.charts import effects_figure
-    from gripscale.questions.compare.charts import at_measured_figure
-    from gripscale.questions.compare.comparison import COMPARED_OVER, at_measured
-    from gripscale.questions.compare.ladder import WINDOWS, chosen
-    from gripscale.questions.compare.page import best_line
-    from gripscale.questions.compare.question import compare
+    from gripscale.questions.compare import charts, comparison, ladder, page, question
     from gripscale.questions.result import warning_lines
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
-    from gripscale.questions.vary.axis import parse_vary
+    from gripscale.questions.vary import axis, page_side_by_side
     from gripscale.questions.vary.effects import case_effects
-    from gripscale.questions.vary.page_side_by_side import effects_table
 
-    axes = None if vary is None else dict([parse_vary(vary, COMPARED_OVER)])
+    axes = None if vary is None else dict([axis.parse_vary(vary, comparison.COMPARED_OVER)])
     file = read_case_file(case)
     read = read_case(file)
     opening = f"Comparison of models for {file.path}"
@@ -92,16 +78,16 @@ def compare_command(
     solving: dict[str, Any] = {"workers": workers, "client": cluster, "on_task": on_task}
     stages: list[SolvedLadder] = []
 
-    def print_stage(ladder: SolvedLadder) -> None:
-        """Print the answer as far as it goes, once, while windows are solved."""
-        if axes is None and staged and has_answer(ladder.data) and not stages:
-            stages.append(ladder)
+    def print_stage(solved: SolvedLadder) -> None:
+        """Print the answer so far, once, while windows are solved."""
+        if axes is None and staged and has_answer(solved.data) and not stages:
+            stages.append(solved)
             console.print()
-            terminal.print_parts(console, ["So far:", *answer_lines(ladder.data), ""])
+            terminal.print_parts(console, ["So far:", *answer_lines(solved.data), ""])
 
     names = [] if rungs is None else [name.strip() for name in rungs.split(",")]
-    staged = any(rung.group == WINDOWS for rung in chosen(names))
-    result = compare(
+    staged = any(rung.group == ladder.WINDOWS for rung in ladder.chosen(names))
+    result = question.compare(
         read,
         vary=axes,
         seeds=seeds,
@@ -129,16 +115,16 @@ def compare_command(
         store = target / PREDICTIONS
         effects = (case_effects(read, model, target, store, **solving) for model in models)
         worth = [effect for effect in effects if effect is not None]
-        residuals = at_measured(result.ladder, store, **solving)
+        residuals = comparison.at_measured(result.ladder, store, **solving)
     if worth:
-        parts.append(effects_table(*worth))
+        parts.append(page_side_by_side.effects_table(*worth))
     if residuals is not None:
         netcdf.save(residuals, target / "at_measured.nc")
         parts.append(residual_table(residuals))
     sampled = stored_uncertainty(file.resolve(file.case.output.folder))
     parts += uncertainty_lines(sampled, file.text, read.origin.digests)
     if axes is None and has_answer(result.data):
-        parts += ["", best_line(result.data)]
+        parts += ["", page.best_line(result.data)]
 
     def draw() -> None:
         figures = FigureFolder(target, file.case.output.figures)
@@ -149,7 +135,7 @@ def compare_command(
         if residuals is not None:
             data = result.data
             labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
-            figures.save(at_measured_figure(residuals, labels), "at_measured")
+            figures.save(charts.at_measured_figure(residuals, labels), "at_measured")
 
     terminal.conclude(
         console,

@@ -1,43 +1,76 @@
-"""Solving a comparison: every sample of every rung is a task, kept as soon as it is done."""
+"""A comparison: every sample of every rung is a task, and the Dataset is over `rung`."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.core import checks
+from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
+from gripscale.core.labels import labelled
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
-from gripscale.experiment.measured_friction import MeasuredFriction
-from gripscale.experiment.solve import Bench, OnTask
+from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
+from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import Store, Task
+from gripscale.half_space.line_to_map import upper_height_of
+from gripscale.half_space.model import resolved_wavelength
+from gripscale.model import input_doubts
+from gripscale.questions.answer import best_estimate as estimates
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.best_estimate import (
-    ESTIMATED,
-    FINITE_STRAIN,
-    Factor,
-)
+from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.intervals import half_width
-from gripscale.questions.calibration import measured_comparison
-from gripscale.questions.compare.comparison_dataset import SolvedLadder
-from gripscale.questions.compare.ladder import (
-    WINDOWS,
-    ComparisonSetup,
-    Rung,
-    chosen,
-)
+from gripscale.questions.calibration import measured_comparison as friction
+from gripscale.questions.compare.ladder import WINDOWS, ComparisonSetup, Rung, chosen
 from gripscale.questions.vary.axis import Axis
-from gripscale.questions.vary.study import Study
+from gripscale.questions.vary.study import Study, coordinates
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.measured_rubber import MeasuredRubber
+
+_SOURCE = "gripscale compare"
+_WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
+"""The two numbers that are compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedLadder:
+    """The rungs of one case with their samples, under one load or over a varied input."""
+
+    case: Case
+    setups: Sequence[ComparisonSetup]
+    """What was compared: one, or one a value of `axis`."""
+    rungs: Sequence[Rung]
+    """Those with samples, in order."""
+    samples: xr.Dataset
+    """Their answers over the axis, `rung` and `sample`, see `samples`."""
+    axis: Axis | None = None
+    """The varied input."""
+    measured: MeasuredFriction | None = None
+    """Friction measured elsewhere, to be put beside the models."""
+    factors: Sequence[Factor] = ()
+    """Factors of the best estimate known from elsewhere."""
+    rubbers: Sequence[MeasuredRubber] = ()
+    """The rubbers of the setups with their sources and doubts."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether every sample of every rung may be used."""
+        return bool((reduce.converged(self.samples) | (self.samples.prediction_status == "")).all())
+
+    @cached_property
+    def data(self) -> xr.Dataset:
+        """Everything as a labelled Dataset over the axis and `rung`."""
+        return comparison_dataset(self)
+
 
 COMPARED_OVER = (
     "speed",
@@ -59,52 +92,28 @@ OnStage = Callable[[SolvedLadder], None]
 """Called with the comparison as it stands, while more samples are solved."""
 
 
-class ComparisonOptions(NamedTuple):
-    """What is compared, how finely, and beside what."""
-
-    seeds: int = 3
-    tolerance: float = 0.05
-    rungs: Sequence[str] = ()
-    measured: MeasuredFriction | None = None
-    factors: Sequence[Factor] = ()
-    accuracy: float = 0.1
-    on_stage: OnStage | None = None
-
-
 def solved_ladder(
-    case: Case, vary: Mapping[str, Any] | None, choice: ComparisonOptions, bench: Bench
-) -> SolvedLadder:
-    """Return the rungs of a case with their samples, under its load or over a varied input.
-
-    Raises `InputError` if an input cannot be used by a model, the case refuses extrapolation and a
-    wave excites the rubber beyond the measured band, or other than one input of numbers is varied.
-    """
-    if vary is None:
-        task = Task(case.rubber, case.surface, case.load, case.chain)
-        return _compared(case, {"": task}, [case.measured_rubber], choice, None, bench)
-    study = Study(case, vary, static=False, model=Chain.name)
-    axis = study.axes[0]
-    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
-        names = ", ".join(other.name for other in study.axes)
-        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
-    if not axis.numeric:
-        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
-    if len(axis.values) < 2:
-        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    tasks = {point.label: point.task for point in study.points}
-    return _compared(case, tasks, study.measured_rubbers, choice, axis, bench)
-
-
-def _compared(
     case: Case,
-    tasks: Mapping[str, Task],
-    rubbers: Sequence[MeasuredRubber],
-    choice: ComparisonOptions,
-    axis: Axis | None,
+    vary: Mapping[str, Any] | None,
     bench: Bench,
+    *,
+    seeds: int,
+    tolerance: float,
+    rungs: Sequence[str],
+    measured: MeasuredFriction | None,
+    factors: Sequence[Factor],
+    accuracy: float,
+    on_stage: OnStage | None,
 ) -> SolvedLadder:
-    """Return the comparison of the rubber, surface and load of each of `tasks`, by its label."""
-    measured = choice.measured or case.friction
+    """Return the rungs of a case with their samples; arguments and errors as of `compare`."""
+    tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
+    rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
+    axis: Axis | None = None
+    if vary is not None:
+        study = Study(case, vary, static=False, model=Chain.name)
+        axis = _axis(study)
+        tasks = {point.label: point.task for point in study.points}
+        rubbers = study.measured_rubbers
     setups = []
     for task in tasks.values():
         chain = checks.instance("model", task.model, Chain)
@@ -113,8 +122,8 @@ def _compared(
             task.surface,
             task.load,
             chain.solver,
-            checks.whole("seeds", choice.seeds, least=1, most=MOST_SEEDS),
-            checks.positive("tolerance", choice.tolerance),
+            checks.whole("seeds", seeds, least=1, most=MOST_SEEDS),
+            checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
             chain.pressure_classes,
             continuation=case.continuation(),
@@ -125,30 +134,50 @@ def _compared(
         for setup in setups:
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
-    wanted = chosen(choice.rungs)
+
+    on_task = bench.on_task
+
+    def of_new_tasks(progress: Progress) -> None:
+        if on_task is not None and not progress.stored:
+            on_task(progress)
+
+    wanted = chosen(rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
-    make = partial(
-        SolvedLadder, case, axis=axis, measured=measured, factors=choice.factors, rubbers=rubbers
-    )
-    rungs: Sequence[Rung] = quick or wanted
+    asked: Sequence[Rung] = quick or wanted
     while True:
-        design, rungs = _design(setups, list(tasks), rungs, axis)
-        if not rungs:
+        design, solved = _design(setups, list(tasks), asked, axis)
+        if not solved:
             raise InputError(
-                f"no rung of {', '.join(choice.rungs)} applies to this case; windows and maps "
+                f"no rung of {', '.join(rungs)} applies to this case; windows and maps "
                 "need measured profiles, klueppel_heinrich the parameters of [compare]"
             )
         numbers = partial(reduce.sample_numbers, conditions=setups[0].conditions)
-        comparison = make(setups=setups, rungs=rungs, samples=solve_design(design, bench, numbers))
-        if choice.on_stage is not None:
-            choice.on_stage(comparison)
-        if quick and len(quick) < len(wanted):
-            quick, rungs = [], wanted
-        elif _windows_left(comparison, choice.accuracy):
+        samples = solve_design(design, bench, numbers)
+        ladder = SolvedLadder(
+            case, setups, solved, samples, axis, measured or case.friction, factors, rubbers
+        )
+        if on_stage is not None:
+            on_stage(ladder)
+        if len(asked) < len(wanted):
+            asked = wanted
+        elif _windows_left(ladder, accuracy):
             setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
         else:
-            return comparison
-        bench = replace(bench, on_task=_of_new_tasks(bench.on_task))
+            return ladder
+        bench = replace(bench, on_task=of_new_tasks)
+
+
+def _axis(study: Study) -> Axis:
+    """Return the varied input of a comparison; raise `InputError` unless it is one of numbers."""
+    axis = study.axes[0]
+    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
+        names = ", ".join(other.name for other in study.axes)
+        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
+    if not axis.numeric:
+        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
+    if len(axis.values) < 2:
+        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
+    return axis
 
 
 def _design(
@@ -181,17 +210,17 @@ def _design(
 def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     """Return whether more windows would narrow the estimate, and there are more.
 
-    Enough are three that converged, with a factor known to a third of the accuracy wanted, or to a
-    third of what the rest of the estimate leaves open.
+    Enough are three that converged, with a factor known to a third of the accuracy wanted, or of
+    what the rest of the estimate leaves open.
     """
-    samples, names = comparison.samples, comparison.samples["rung"].values.tolist()
-    if not {FINITE_STRAIN.over, FINITE_STRAIN.under} <= set(names):
+    samples, pair = comparison.samples, estimates.FINITE_STRAIN
+    if not set(pair) <= set(samples["rung"].values.tolist()):
         return False
-    over, under = (samples.sel(rung=rung) for rung in (FINITE_STRAIN.over, FINITE_STRAIN.under))
+    over, under = (samples.sel(rung=rung) for rung in pair)
     if int((under.subject != "").sum()) < comparison.setups[0].windows:
         return False
     best = comparison.data
-    for name, measure in ESTIMATED.items():
+    for name, measure in estimates.ESTIMATED.items():
         error = reduce.pair_scatter(over, under, measure)
         whole = np.fmax(accuracy, best[f"best_{name}_half_width"].fillna(0.0))
         if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
@@ -199,13 +228,6 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
         ):
             return True
     return False
-
-
-def _of_new_tasks(on_task: OnTask | None) -> OnTask | None:
-    """Return `on_task` without the tasks that were solved before."""
-    if on_task is None:
-        return None
-    return lambda progress: None if progress.stored else on_task(progress)
 
 
 PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")
@@ -246,27 +268,162 @@ def at_measured(
     if measured is None:
         return None
     designs: dict[str, list[Design]] = {}
-    tasks: dict[str, Task] = {}
     for rung in ladder.rungs:
         if rung.name not in PREDICTING:
             continue
         specs = rung.draws(setup)
         designs[rung.name] = []
-        for number, (model, surface, _) in enumerate(specs, start=1):
+        for number, (predicting, surface, _) in enumerate(specs, start=1):
             label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
-            met = setup.rubber_for(model)
-            design = measured_comparison.measured_design(
-                measured, model, met, surface, setup.load, label
-            )
+            met = setup.rubber_for(predicting)
+            design = friction.measured_design(measured, predicting, met, surface, setup.load, label)
             designs[rung.name].append(design)
-            tasks |= design.tasks
     if not designs:
         return None
+    tasks = {
+        key: task for parts in designs.values() for d in parts for key, task in d.tasks.items()
+    }
     answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
-    predicted = {}
-    for name, parts in designs.items():
-        samples = [measured_comparison.predicted_of(part.dataset(answers)) for part in parts]
-        predicted[name] = measured_comparison.averaged(samples)
+    predicted = {
+        name: friction.averaged([friction.predicted_of(d.dataset(answers)) for d in parts])
+        for name, parts in designs.items()
+    }
     law = None if setup.conditions is None else setup.conditions.shear_stress
-    data = measured_comparison.residuals(measured, predicted, law)
+    data = friction.residuals(measured, predicted, law)
     return data.assign_attrs(ladder.case.attributes, measured_source=measured.source)
+
+
+def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
+    """Return means, scatter, factors and the best estimate of the rungs of a comparison."""
+    samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
+    outer = () if axis is None else (axis.name,)
+    wavelength = np.empty(0)
+    if "curve_wavelength" in samples:  # octaves that hold the curves of all samples
+        smallest = min(setup.surface.cutoff_wavelength for setup in setups)
+        ends = reduce.usable(samples, "curve_wavelength")
+        wavelength = reduce.octaves(float(ends.max()), float(ends.min()), smallest)
+    data: dict[str, xr.Variable] = {}
+
+    def add(name: str, values: xr.DataArray, long_name: str, *dims: str, unit: str = "1") -> None:
+        ordered = values.transpose(*outer, *dims)
+        data[name] = labelled(ordered.dims, ordered.values, unit, long_name, _SOURCE)
+
+    def add_by_load(name: str, values: Any, long_name: str, *dims: str, unit: str = "1") -> None:
+        array = np.asarray(values if outer else values[0])
+        add(name, xr.DataArray(array, dims=(*outer, *dims)), long_name, *dims, unit=unit)
+
+    for name in reduce.SAMPLED_QUANTITIES:
+        text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
+        add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
+    reach = upper_height_of(setups[0].surface)
+    best = estimates.best_estimate(samples, comparison.factors, upper_height=reach)
+    for name, text in zip(estimates.BASIS_SHARES, list(model.BASIS.values())[-2:], strict=True):
+        add(f"best_{name}", best[f"best_{name}"], text)
+    cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
+    add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
+    for name, text in _WORDS.items():
+        values = reduce.usable(samples, name)
+        about = "relative standard uncertainty of the"
+        add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "rung")
+        error = reduce.usable(samples, f"{name}_error").mean("sample")
+        add(f"{name}_error", error, f"error of the {text} as the model estimates it", "rung")
+        rungs = [samples.isel(rung=at) for at in range(samples.sizes["rung"])]
+        uncertainty = xr.concat([reduce.relative_uncertainty(rung, name) for rung in rungs], "rung")
+        add(f"{name}_uncertainty", uncertainty, f"{about} mean {text}", "rung")
+        factors = [_factor(comparison, at, name) for at in range(len(rungs))]
+        value, uncertainty = (xr.concat(parts, "rung") for parts in zip(*factors, strict=True))
+        add(f"{name}_factor", value, f"{text} over that of the rung it follows", "rung")
+        text_of_factor = f"{about} factor on the {text}"
+        add(f"{name}_factor_uncertainty", uncertainty, text_of_factor, "rung")
+        add(f"sample_{name}", values, f"{text} by sample", "rung", "sample")
+        curves = reduce.running(samples, name, wavelength)
+        add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
+        for part, long_name in (
+            ("", f"best estimate of the {text}"),
+            ("_uncertainty", f"{about} best estimate"),
+            ("_sampling_error", f"{about} {text}, from the sampling of the road"),
+            ("_grid_error", f"{about} {text}, from the grid of the direct contact"),
+            ("_half_width", f"relative half width of the 90 % interval of the {text}"),
+        ):
+            add(f"best_{name}{part}", best[f"best_{name}{part}"], long_name)
+        text = f"factor on the {text}, NaN if not included"
+        add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
+        uncertainty = best[f"best_{name}_factor_uncertainty"]
+        add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
+    adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
+    if adhesive.notnull().any():
+        add(model.ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term", "rung")
+    beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
+    for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
+        add(name, (beyond if name in beyond else exponents)[name], text, "rung")
+    text = "why an exponent of the cut-off is not known"
+    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text, "rung")
+    add_by_load(
+        "outside_band",
+        [
+            setup.rubber.outside_band(2.0 * np.pi * setup.load.speed / wavelength).astype(np.int8)
+            for setup in setups
+        ],
+        "1 where the wavelength excites the rubber outside the measured frequencies",
+        "wavelength",
+    )
+    count = (samples.prediction_status != "").sum("sample")
+    add("samples", count, "number of samples", "rung")
+    count = reduce.converged(samples).sum("sample")
+    add("converged_samples", count, "number of samples that converged", "rung")
+    add("status", reduce.status(samples), "converged, or what failed", "rung")
+    add("status_word", reduce.status_word(samples), "word of the status", "rung")
+    add("seconds", samples.seconds.sum("sample"), "time its samples took", "rung", unit="s")
+    pressures = [setup.load.pressure for setup in setups]
+    add_by_load("nominal_pressure", pressures, "nominal pressure", unit="Pa")
+    speeds = [setup.load.speed for setup in setups]
+    add_by_load("nominal_speed", speeds, "sliding speed", unit="m/s")
+    words = {
+        "label": "the model in words",
+        "group": "what it can be asked for with",
+        "follows": "rung it is compared with",
+        "change": "what changes from that rung",
+    }
+    for name, text in words.items():
+        column = [getattr(rung, name) for rung in comparison.rungs]
+        data[name] = labelled("rung", np.array(column, dtype=object), "1", text, _SOURCE)
+    labels, text = best.factor_label.values, "factors of the best estimate"
+    data["factor_label"] = labelled("factor", labels, "1", text, _SOURCE)
+    measured = comparison.measured
+    data |= {} if measured is None else measured_variables(measured)
+    coords = {} if axis is None else coordinates([axis], comparison.case.units)
+    text = "lower end of the octave"
+    coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
+    conditions = setups[0].conditions
+    return xr.Dataset(
+        data,
+        {"rung": [rung.name for rung in comparison.rungs], **coords},
+        {
+            "title": "Contact and friction by model",
+            **comparison.case.attributes,
+            **input_doubts(
+                [setups[0].surface, *comparison.rubbers],
+                [setup.load for setup in setups],
+                comparison.case.units,
+            ),
+            "case_file": comparison.case.origin.name,
+            "conditions": json.dumps(conditions and conditions.to_dict()),
+            "seeds": setups[0].seeds,
+            "tolerance": setups[0].tolerance,
+            "measured_source": "" if measured is None else measured.source,
+            **provenance.version_attributes(),
+        },
+    )
+
+
+def _factor(comparison: SolvedLadder, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return the factor from the rung that the one at `at` follows; NaN if it is not there."""
+    samples = comparison.samples
+    before = comparison.rungs[at].follows
+    if before not in samples["rung"].values:
+        unknown = reduce.usable(samples.isel(rung=at, drop=True), name).mean("sample") * np.nan
+        return unknown, unknown
+    value, error = reduce.ratio(
+        samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name
+    )
+    return value, error.sigma

@@ -1,8 +1,8 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each rung.
 
-A new rung is a function that draws its samples, an entry in `LADDER`, and if it follows another,
-one in `_STEPS`. What two rungs on the same surfaces say of an assumption may become a factor of the
-best estimate (`gripscale.questions.answer.best_estimate`).
+A new rung is a function that draws its samples, entered at its place by `_rung`. What two rungs on
+the same surfaces say of an assumption may become a factor of the best estimate
+(`gripscale.questions.answer.best_estimate`).
 """
 
 from __future__ import annotations
@@ -10,29 +10,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
+from gripscale.continuation.curve import ContinuedContact
 from gripscale.core import checks
 from gripscale.core.errors import InputError
-from gripscale.half_space.continued import ContinuedContact
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.direct_contact import each_measured, with_single_measurement
 from gripscale.rubber import Rubber
-from gripscale.surface import (
-    HeightMap,
-    Profile,
-    SineStack,
-    Surface,
-    fit_sines,
-    height_difference,
-)
+from gripscale.surface import Profile, SineStack, Surface, fit_sines, height_difference
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
@@ -103,6 +96,9 @@ class SampleSpec(NamedTuple):
     """What it is a sample of, such as a profile; samples of the same are compared in pairs."""
 
 
+Draws = Callable[[ComparisonSetup], Sequence[SampleSpec]]
+
+
 @dataclass(frozen=True)
 class Rung:
     """One model of the ladder."""
@@ -117,83 +113,21 @@ class Rung:
     """What changes from the rung it follows, in words; empty where there is none."""
     follows: str
     """Name of the rung it is compared with; empty for none."""
-    draws: Callable[[ComparisonSetup], Sequence[SampleSpec]] = field(repr=False)
+    draws: Draws = field(repr=False)
     """From a setup to its samples; none where the model has nothing to say of it."""
 
 
-WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
-"""Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
-(those of the roughness that the measurement has), and how many windows at most."""
-
-
-def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    # its error must not hide what a few per cent of finite strain change; it takes a second
-    return _on_windows(setup, DirectContact(tolerance=0.2 * setup.tolerance, periodic=True))
-
-
-def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    return _on_windows(setup, BlockOnProfile(periodic=True))
-
-
-def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
-    """Return the windows of the profiles, the same for both models."""
-    sines = setup.surface.sines
-    length = WINDOW * float(sines.wavelength[0])
-    return [
-        SampleSpec(
-            model,
-            with_single_measurement(setup.surface, line),
-            f"{line.name} from {line.x[0]:.4g} m",
-        )
-        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))[: setup.windows]
-    ]
-
-
-@lru_cache(maxsize=4)
-def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
-    """Return windows of the profiles that are long enough for one, with waves down to `end`.
-
-    The first few of them are spread over the profiles as well as all are.
-    """
-    enough = [line for line in lines if line.length > length]
-    if not enough:
-        return []
-    smallest = max(length / MOST_WAVES, end, 2.0 * max(line.step for line in enough))
-    spread = spread_windows(enough, length, MOST_WINDOWS, smallest)
-    return [spread[at] for at in np.argsort(_halving(len(spread)), kind="stable")]
-
-
-def _halving(count: int) -> list[int]:
-    """Return the rank of each of `count` places: the first, the middle, the quarters, ..."""
-    bits = max(count - 1, 1).bit_length()
-    return [int(f"{number:0{bits}b}"[::-1], 2) for number in range(count)]
-
-
-_Measurement = TypeVar("_Measurement", Profile, HeightMap)
-
 WINDOWS = "windows"
 """The group of rungs that take a minute and more."""
-
 _BELOW = "below"
 """The group of roughness below the measurement, which is compared on request only."""
 
-LENGTH_OF_SINES = 10
-"""Period of a surface of sines over its largest wave."""
-
-WAVES_OF_UPPER_HALF, CLASSES = 4, 8
-"""Waves and pressure classes of the chain that comes nearest to direct contact on surfaces it was
-not chosen by, see docs/chain-and-direct-contact.md."""
-
-POINTS_OF_A_CLASS = 256
-"""Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
+LADDER: list[Rung] = []
+"""All rungs, in the order of the functions below."""
 
 
 def chosen(names: Iterable[str]) -> list[Rung]:
-    """Return the rungs of the given names and groups in the order of the ladder.
-
-    Without names, return all but the roughness below the measurement. Raises `InputError` for an
-    unknown name.
-    """
+    """Return the rungs of names and groups; without names all but those below the measurement."""
     wanted = set(names)
     groups = dict.fromkeys(rung.group for rung in LADDER)
     checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
@@ -202,17 +136,45 @@ def chosen(names: Iterable[str]) -> list[Rung]:
     return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
 
 
+def _rung(
+    name: str, label: str, group: str, change: str = "", follows: str = ""
+) -> Callable[[Draws], Draws]:
+    """Enter a function in `LADDER`."""
+
+    def entered(draws: Draws) -> Draws:
+        LADDER.append(Rung(name, label, group, change, follows, draws))
+        return draws
+
+    return entered
+
+
+@_rung("chain", "chain, finite strain", "waves")
 def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     if isinstance(setup.solver, HalfPlane):
         return []
     return [SampleSpec(setup.chain(setup.solver), setup.surface)]
 
 
+@_rung("chain_half_plane", "chain, small strain", "waves", "small strain assumed", "chain")
 def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     solver = setup.solver if isinstance(setup.solver, HalfPlane) else HalfPlane()
     return [SampleSpec(setup.chain(solver), setup.surface)]
 
 
+WAVES_OF_UPPER_HALF, CLASSES = 4, 8
+"""Waves and pressure classes of the chain that comes nearest to direct contact on surfaces it was
+not chosen by, see docs/chain-and-direct-contact.md."""
+POINTS_OF_A_CLASS = 256
+"""Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
+
+
+@_rung(
+    "chain_upper",
+    "chain of the upper half, pressure in classes",
+    "waves",
+    "heights that touch, pressure as it is distributed",
+    "chain_half_plane",
+)
 def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = setup.surface
     upper_already = surface.counted.get("top_height_fraction", 1.0) < 1.0
@@ -240,11 +202,32 @@ def _of_upper_half(
         return None
 
 
+LENGTH_OF_SINES = 10
+"""Period of a surface of sines over its largest wave."""
+
+
+@lru_cache(maxsize=16)
+def _of_sines(sines: SineStack, seed: int) -> Profile:
+    return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
+
+
+@_rung(
+    "sines",
+    "direct contact, sine waves of the chain",
+    "waves",
+    "all scales together",
+    "chain_half_plane",
+)
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
     return [SampleSpec(setup.direct, with_single_measurement(setup.surface, x)) for x in lines]
 
 
+_shuffled = lru_cache(maxsize=64)(random_phases)
+"""Drawn once for all loads."""
+
+
+@_rung("random_phases", "direct contact, random phases", "measured", "the whole spectrum", "sines")
 def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = setup.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
@@ -255,10 +238,20 @@ def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     ]
 
 
+@_rung(
+    DIRECT, "direct contact, measured surface", "measured", "the measured phases", "random_phases"
+)
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
 
 
+@_rung(
+    ContinuedContact.name,
+    "direct contact, continued below the measurement",
+    _BELOW,
+    "roughness below the measurement",
+    DIRECT,
+)
 def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     if setup.continuation is None or setup.of_map:
         return []
@@ -266,6 +259,12 @@ def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.continuation, part, name) for name, part in profiles]
 
 
+@lru_cache(maxsize=16)
+def _spectrum(line: Profile) -> ArealSpectrum:
+    return areal_spectrum(profile_spectrum(line))
+
+
+@_rung("persson", "Persson, isotropic surface", "theory", follows=DIRECT)
 def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return each profile down to where the sine waves end, or its spectrum before them."""
     specs = []
@@ -277,6 +276,7 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return specs
 
 
+@_rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", follows=DIRECT)
 def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     theory = setup.klueppel_heinrich
     if theory is None:
@@ -284,57 +284,49 @@ def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(theory, part, name) for name, part in each_measured(setup.surface)]
 
 
-@lru_cache(maxsize=16)
-def _of_sines(sines: SineStack, seed: int) -> Profile:
-    return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
+WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
+"""Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
+(those of the roughness that the measurement has), and how many windows at most."""
 
 
-@lru_cache(maxsize=16)
-def _spectrum(line: Profile) -> ArealSpectrum:
-    return areal_spectrum(profile_spectrum(line))
+def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
+    """Return the windows of the profiles, the same for both models."""
+    sines = setup.surface.sines
+    length = WINDOW * float(sines.wavelength[0])
+    return [
+        SampleSpec(
+            model,
+            with_single_measurement(setup.surface, line),
+            f"{line.name} from {line.x[0]:.4g} m",
+        )
+        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))[: setup.windows]
+    ]
 
 
-@lru_cache(maxsize=64)
-def _shuffled(measured: _Measurement, seed: int) -> _Measurement:
-    """Draw once what is met at every load."""
-    return random_phases(measured, seed)
+@lru_cache(maxsize=4)
+def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
+    """Return windows of the profiles that are long enough for one, with waves down to `end`.
+
+    The first, the middle, the quarters, ...: the first few are spread over the profiles as all are.
+    """
+    enough = [line for line in lines if line.length > length]
+    if not enough:
+        return []
+    smallest = max(length / MOST_WAVES, end, 2.0 * max(line.step for line in enough))
+    spread = spread_windows(enough, length, MOST_WINDOWS, smallest)
+    bits = max(len(spread) - 1, 1).bit_length()
+    halving = [int(f"{number:0{bits}b}"[::-1], 2) for number in range(len(spread))]
+    return [spread[at] for at in np.argsort(halving, kind="stable")]
 
 
-_STEPS = {
-    "chain_half_plane": ("small strain assumed", "chain"),
-    "chain_upper": ("heights that touch, pressure as it is distributed", "chain_half_plane"),
-    "sines": ("all scales together", "chain_half_plane"),
-    "random_phases": ("the whole spectrum", "sines"),
-    DIRECT: ("the measured phases", "random_phases"),
-    ContinuedContact.name: ("roughness below the measurement", DIRECT),
-    "persson": ("", DIRECT),
-    "klueppel_heinrich": ("", DIRECT),
-    "windows_finite_strain": ("finite strain", "windows_half_plane"),
-}
-"""What changes from the rung that a rung follows, and that rung."""
+@_rung("windows_half_plane", "small-strain windows", WINDOWS)
+def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    # its error must not hide what a few per cent of finite strain change; it takes a second
+    return _on_windows(setup, DirectContact(tolerance=0.2 * setup.tolerance, periodic=True))
 
 
-def _rung(
-    name: str, label: str, group: str, draws: Callable[[ComparisonSetup], Sequence[SampleSpec]]
-) -> Rung:
-    return Rung(name, label, group, *_STEPS.get(name, ("", "")), draws)
-
-
-LADDER: tuple[Rung, ...] = (
-    _rung("chain", "chain, finite strain", "waves", _chain),
-    _rung("chain_half_plane", "chain, small strain", "waves", _chain_half_plane),
-    _rung("chain_upper", "chain of the upper half, pressure in classes", "waves", _chain_upper),
-    _rung("sines", "direct contact, sine waves of the chain", "waves", _sines),
-    _rung("random_phases", "direct contact, random phases", "measured", _random_phases),
-    _rung(DIRECT, "direct contact, measured surface", "measured", _direct),
-    _rung(
-        ContinuedContact.name,
-        "direct contact, continued below the measurement",
-        _BELOW,
-        _continued,
-    ),
-    _rung("persson", "Persson, isotropic surface", "theory", _persson),
-    _rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", _klueppel_heinrich),
-    _rung("windows_half_plane", "small-strain windows", WINDOWS, _windows_half_plane),
-    _rung("windows_finite_strain", "finite-strain windows", WINDOWS, _windows_block),
+@_rung(
+    "windows_finite_strain", "finite-strain windows", WINDOWS, "finite strain", "windows_half_plane"
 )
+def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:
+    return _on_windows(setup, BlockOnProfile(periodic=True))

@@ -5,37 +5,77 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale import model
+from gripscale.core.finding import Finding, Severity, Topic, from_json
+from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
-from gripscale.model import (
-    CUT_OFF_EXPONENTS,
-    FRICTION_OUTSIDE_BAND,
-    status_words,
-    with_adhesive,
-)
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, basis_lines
 from gripscale.questions.answer.reliance import has_answer, no_answer
-from gripscale.questions.chain.findings import comparison_notices, friction_notices
-from gripscale.questions.chain.view import CONVERGED_WORD, HEADINGS, SYMBOLS, PredictionView
+from gripscale.questions.chain.findings import comparison_notices
+from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
-from gripscale.questions.compare.stored import Compared
+from gripscale.questions.result import predicted_tree
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
+from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown
+from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report import elements
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import Failure, explained, first_of
+from gripscale.report.failures import Failure, explained
 from gripscale.rubber.extrapolation import WORTH_SAYING
+
+COMPARISON = "comparison"
+"""Folder of a comparison in that of the run, and the name of its file."""
+OVER = "over_*.nc"
+"""Files of comparisons over a varied input."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """The comparisons of one case: under its own load, and over varied inputs."""
+
+    parts: list[xr.Dataset] = field(default_factory=list)
+    uncertainty: xr.Dataset | None = None
+    """What was sampled of the case, or of another."""
+
+    @property
+    def ladder(self) -> xr.Dataset | None:
+        """The comparison under the load of the case; None without one."""
+        return next((data for data in self.parts if not varied(data)), None)
+
+    @property
+    def over(self) -> list[xr.Dataset]:
+        """The comparisons over varied inputs."""
+        return [data for data in self.parts if varied(data)]
+
+    @property
+    def own_uncertainty(self) -> xr.Dataset | None:
+        """What was sampled of this very case, or None."""
+        data, case = self.uncertainty, str(self.parts[0].attrs.get("case", ""))
+        return data if data is not None and of_same_inputs(data, case) else None
+
+    def of(self, case: object) -> Compared:
+        """Return those of just this text of a case."""
+        return Compared([data for data in self.parts if data.attrs.get("case") == case])
+
+
+def stored_comparisons(folder: Path) -> Compared:
+    """Read the comparisons in `folder`."""
+    paths = [folder / f"{COMPARISON}.nc", *sorted(folder.glob(OVER))]
+    return Compared([predicted_tree(path).to_dataset() for path in paths if path.is_file()])
+
 
 TINY = 0.05
 """Per cent below which a spread or an error is as good as none."""
@@ -52,7 +92,11 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     Spread and error are relative to the number, the factor is from the model before. `comparison`
     has no axis but `rung`.
     """
-    beyond = comparison[FRICTION_OUTSIDE_BAND].values
+
+    def per_cent(value: float) -> str:
+        return "0" if value < TINY else significant(value, 2)
+
+    beyond = comparison[model.FRICTION_OUTSIDE_BAND].values
     good, count = comparison.converged_samples.values, comparison.samples.values
     samples = [str(n) if k == n else f"{k}/{n}" for k, n in zip(good, count, strict=True)]
     marks = [" *" if share > WORTH_SAYING else "" for share in beyond]
@@ -63,7 +107,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         if name == "friction":
             lost = comparison.total_friction_from_dissipation.values
             columns.append(Column("friction_from_dissipation", lost, "μ", "losses", group=group))
-            both = with_adhesive(comparison)
+            both = model.with_adhesive(comparison)
             if both is not None:
                 total = both.values
                 columns.append(Column("with_area_term", total, "μ", "+ area term", group=group))
@@ -71,12 +115,12 @@ def comparison_table(comparison: xr.Dataset) -> Table:
             with np.errstate(divide="ignore", invalid="ignore"):
                 share = np.where(value == 0.0, np.nan, comparison[f"{name}_{part}"].values / value)
             columns.append(
-                Column(f"{name}_{part}", share, part, "%", 0.01, format=_share, group=group)
+                Column(f"{name}_{part}", share, part, "%", 0.01, format=per_cent, group=group)
             )
         factors = comparison[f"{name}_factor"].values
         columns.append(Column(f"{name}_factor", factors, "×", group=group))
     columns.append(Column("samples", samples, "n", words=False))
-    for name, symbol in zip(CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
+    for name, symbol in zip(model.CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
         missing = np.full(len(samples), np.nan)
         values = comparison[name].values if name in comparison else missing
         columns.append(Column(name, values, symbol, group="exponents", format=fixed(2)))
@@ -100,16 +144,12 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     )
 
 
-def _share(value: float) -> str:
-    return "0" if value < TINY else significant(value, 2)
-
-
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each model over the axis that was varied."""
     display_unit = axis_shown(comparison, axis)
     data = comparison.transpose(axis, ...)
     failed = (data.converged_samples < data.samples).values
-    beyond = data[FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
+    beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
     columns = [
         Column(
             axis,
@@ -132,18 +172,6 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         columns.append(Column("best", texts, "best estimate", words=False))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
     return Table(f"over-{axis}-{name}", columns, caption)
-
-
-def comparison_parts(comparison: xr.Dataset) -> Iterator[str | Table]:
-    """Yield the tables of a comparison and the sentences below them."""
-    axis = varied(comparison)
-    if axis:
-        yield from (axis_table(comparison, axis, name) for name in SYMBOLS)
-        yield from (f"* {notice.sentence}" for notice in comparison_notices(comparison))
-        yield from temperature_only(comparison)
-        return
-    yield comparison_table(comparison)
-    yield from remarks(comparison)
 
 
 def remarks(comparison: xr.Dataset) -> Iterator[str]:
@@ -193,14 +221,14 @@ def best_line(comparison: xr.Dataset) -> str:
 def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
     """Yield the direct contact of the measured profiles, and how the chain compares with it."""
     status = str(direct.prediction_status.item())
-    if status != CONVERGED_WORD:
+    if status != CONVERGED:
         yield f"The direct contact of the measured profiles has no result: {status}."
         return
     area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
     words = f"A_r/A_0 = {significant(area)}"
     if chain.moving:
         words += f", mu = {significant(friction)}"
-        both = with_adhesive(direct)
+        both = model.with_adhesive(direct)
         if both is not None:
             words += f", with the area term {significant(float(both))}"
     yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
@@ -221,9 +249,9 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
         if at is not None:
             value = axis_shown(comparison, axis).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
-        words = status_words(data, "status").values
+        words = model.status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
-            if str(text) != CONVERGED_WORD:
+            if str(text) != CONVERGED:
                 yield f"{where}{label}", Failure(str(text), str(word))
 
 
@@ -243,7 +271,7 @@ _LADDER = (
 
 def comparison_page(compared: Compared) -> Page:
     """Return the report of a comparison alone."""
-    first = compared.parts[0]
+    first, ladder = compared.parts[0], compared.ladder
     case = case_name(first.attrs) or "case.toml"
     elements = comparison_elements(compared)
     sampled = compared.own_uncertainty
@@ -252,25 +280,15 @@ def comparison_page(compared: Compared) -> Page:
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
         [
-            *friction_notices(str(first.attrs.get(FRICTION_DOUBTS, "")).splitlines()),
-            *_of_ladder(compared.ladder),
+            *from_json(str(first.attrs.get(FRICTION_DOUBTS, ""))),
+            *([*no_answer_notices(ladder), *answer_notices(ladder)] if ladder is not None else ()),
             *(element for element in elements if isinstance(element, Finding)),
             *([Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)] if stale else []),
         ],
-        [*ladder_cards(compared.ladder), *uncertainty_cards(sampled)],
-        [
-            Section("comparison", "Models side by side", elements),
-            rerun_section(first.attrs),
-        ],
-        () if compared.ladder is None else basis_lines(compared.ladder),
+        [*ladder_cards(ladder), *uncertainty_cards(sampled)],
+        [Section("comparison", "Models side by side", elements), rerun_section(first.attrs)],
+        () if ladder is None else basis_lines(ladder),
     )
-
-
-def _of_ladder(ladder: xr.Dataset | None) -> Iterator[Finding]:
-    """Yield what is to be known of the answer of a comparison of one load."""
-    if ladder is not None:
-        yield from no_answer_notices(ladder)
-        yield from answer_notices(ladder)
 
 
 def comparison_elements(compared: Compared) -> list[Element]:
@@ -297,17 +315,3 @@ def comparison_elements(compared: Compared) -> list[Element]:
         elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
         elements += axis_charts(data)
     return elements
-
-
-def failed_models(data: xr.Dataset) -> str:
-    """Return which models failed; empty if the best estimate stands without them.
-
-    A failed sample is named in its row.
-    """
-    if bool(data.best_contact_fraction.notnull().all()):
-        return ""
-    failed = [
-        replace(failure, sentence=f"{where} did not converge: {failure}")
-        for where, failure in comparison_failures(data)
-    ]
-    return first_of(failed, data.status.size, "models with all their samples")

@@ -7,13 +7,14 @@ result.data.total_friction
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gripscale.case import Case
-from gripscale.core.finding import Finding, ranked
+from gripscale.core.finding import Finding, from_json, ranked, to_json
 from gripscale.experiment.measured_friction import (
     FRICTION_DOUBTS,
     MeasuredFriction,
@@ -25,15 +26,14 @@ from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.findings import answer_notices
 from gripscale.questions.answer.page import answer_lines
-from gripscale.questions.chain.findings import friction_notices
-from gripscale.questions.chain.view import SYMBOLS
+from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
-from gripscale.questions.compare.comparison import ComparisonOptions, OnStage, solved_ladder
-from gripscale.questions.compare.comparison_dataset import SolvedLadder
-from gripscale.questions.compare.stored import Compared
+from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
 from gripscale.questions.result import Result
+from gripscale.questions.words import SYMBOLS
 from gripscale.report.elements import Page
+from gripscale.report.failures import first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -73,17 +73,29 @@ class Comparison(Result):
     @property
     def findings(self) -> Sequence[Finding]:
         """Doubts of measured friction, and what may change the answer."""
-        doubts = friction_notices(str(self.data.attrs.get(FRICTION_DOUBTS, "")).splitlines())
+        doubts = from_json(str(self.data.attrs.get(FRICTION_DOUBTS, "")))
         return tuple(doubts if self.axis else ranked([*doubts, *answer_notices(self.data)]))
 
     @property
     def failure(self) -> str:
         """Which models failed; empty if the best estimate stands without them."""
-        return page.failed_models(self.data)
+        if bool(self.data.best_contact_fraction.notnull().all()):
+            return ""
+        failed = [
+            replace(failure, sentence=f"{where} did not converge: {failure}")
+            for where, failure in page.comparison_failures(self.data)
+        ]
+        return first_of(failed, self.data.status.size, "models with all their samples")
 
     def parts(self) -> Iterator[str | Table]:
         """Yield the models with all that qualifies their numbers."""
-        yield from page.comparison_parts(self.data)
+        if self.axis:
+            yield from (page.axis_table(self.data, self.axis, name) for name in SYMBOLS)
+            yield from (f"* {notice.sentence}" for notice in comparison_notices(self.data))
+            yield from page.temperature_only(self.data)
+            return
+        yield page.comparison_table(self.data)
+        yield from page.remarks(self.data)
 
     def table(self) -> Table:
         """Return the models, one a row; over a varied input the friction of each."""
@@ -99,7 +111,7 @@ class Comparison(Result):
 
     def page_content(self) -> Page:
         """Return the models side by side."""
-        return page.comparison_page(Compared.holding([self.data]))
+        return page.comparison_page(page.Compared([self.data]))
 
 
 def compare(
@@ -161,12 +173,22 @@ def compare(
     """
     if vary is None:
         factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
-    choice = ComparisonOptions(seeds, tolerance, rungs, measured, factors, accuracy, on_stage)
     with bench_in(folder, workers, client, on_task) as bench:
-        ladder = solved_ladder(case, vary, choice, bench)
+        ladder = solved_ladder(
+            case,
+            vary,
+            bench,
+            seeds=seeds,
+            tolerance=tolerance,
+            rungs=rungs,
+            measured=measured,
+            factors=factors,
+            accuracy=accuracy,
+            on_stage=on_stage,
+        )
     data = ladder.data
     if doubts := friction_doubts(ladder.measured, case.load.speed):
-        data = data.assign_attrs({FRICTION_DOUBTS: "\n".join(doubts)})
+        data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
     result = Comparison(data)
     result.ladder = ladder
     return result

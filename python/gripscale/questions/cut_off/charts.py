@@ -3,30 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw
-from gripscale.charts.chart import (
-    CrossLine,
-    Mark,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    Sheet,
-    wavelength_axis,
-)
-from gripscale.charts.page_elements import Chart
+from gripscale.charts import chart, draw
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core.units import MILLI
-from gripscale.questions.cut_off.curve import (
-    AREA,
-    CONTACT_SLOPE,
-    FRICTION,
-    SLOPE_IN_CONTACT,
-)
+from gripscale.questions.cut_off.curve import AREA, CONTACT_SLOPE, FRICTION, SLOPE_IN_CONTACT
 
 _CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
@@ -36,42 +21,33 @@ _SAME = 0.01
 """Relative distance of two rules that lie on each other in a figure."""
 
 
-def cut_off_charts(data: xr.Dataset) -> list[Chart]:
-    """Return the panels as charts of the page."""
-    return draw.panels_on_page(_panels(data))
-
-
-def cut_off_sheet(data: xr.Dataset) -> Sheet:
+def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:
     """Describe friction, contact and the slope in contact over the same cut-offs."""
     layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
-    return Sheet(
-        _panels(data), 1, WIDE, 6.6, gap=0.03, legend="above", legend_columns=2, layout=layout
-    )
+    panels = cut_off_panels(data)
+    return draw.Sheet(panels, 1, WIDE, 6.6, gap=0.03, legend_columns=2, layout=layout)
 
 
-def _panels(data: xr.Dataset) -> list[Panel]:
+def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
-    axis = wavelength_axis(lengths)
-    axis = PlotAxis("cut-off: shortest wavelength of the road [mm]", True, axis.low, axis.high)
+    ends = chart.wavelength_axis(lengths)
+    words = "cut-off: shortest wavelength of the road [mm]"
+    axis = chart.PlotAxis(words, True, ends.low, ends.high)
     rules = list(_rules(data))
     panels = []
     for name, (label, colour, title) in _CURVES.items():
-        marks: list[Mark] = [
-            ShadedBand(
-                lengths,
-                data[f"{name}_lower"].values,
-                data[f"{name}_upper"].values,
-                colour,
-                "90 % band of the continuation" if name == FRICTION else "",
-            ),
+        low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
+        band = "90 % band of the continuation" if name == FRICTION else ""
+        marks: list[chart.Mark] = [
+            chart.ShadedBand(lengths, low, high, colour, band),
             *_curve(data, name, colour, labelled=name == FRICTION),
             *rules,
         ]
         panels.append(
-            Panel(
+            chart.Panel(
                 axis,
-                PlotAxis(label, log=name == AREA, low=None if name == AREA else 0.0),
+                chart.PlotAxis(label, log=name == AREA, low=None if name == AREA else 0.0),
                 marks,
                 name=f"cut-off-{'friction' if name == FRICTION else 'area'}",
                 caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
@@ -79,15 +55,15 @@ def _panels(data: xr.Dataset) -> list[Panel]:
                 alt=f"{title} against the shortest wavelength of the road.",
             )
         )
-    slope: list[Mark] = [
+    slope: list[chart.Mark] = [
         *_curve(data, SLOPE_IN_CONTACT, GREY, labelled=False),
-        CrossLine(CONTACT_SLOPE),
-        *(CrossLine(rule.at, rule.colour, "", "dashed", 0.9, upright=True) for rule in rules),
+        chart.CrossLine(CONTACT_SLOPE),
+        *(replace(rule, label="") for rule in rules),
     ]
     panels.append(
-        Panel(
+        chart.Panel(
             axis,
-            PlotAxis("rms slope in contact [-]", low=0.0),
+            chart.PlotAxis("rms slope in contact [-]", low=0.0),
             slope,
             name="cut-off-slope",
             caption="Rms slope of the road where it touches: small strain ends near 1.",
@@ -97,7 +73,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
     return panels
 
 
-def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Iterator[Mark]:
+def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Iterator[chart.Mark]:
     """Yield a curve, solid where it was measured and dotted where it is continued."""
     lengths, values = data.cut_off.values / MILLI, data[name].values
     measured = data.curve_measured.values.astype(bool)
@@ -107,18 +83,12 @@ def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Itera
         (below, "dotted", "continued roughness"),
     ):
         if where.any():
-            yield Series(
-                lengths[where],
-                values[where],
-                colour,
-                label if labelled else "",
-                dash,
-                marker="o",
-                size=3.0,
-            )
+            x, y = lengths[where], values[where]
+            words = label if labelled else ""
+            yield chart.Series(x, y, colour, words, dash, marker="o", size=3.0)
 
 
-def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
+def _rules(data: xr.Dataset) -> Iterator[chart.CrossLine]:
     """Yield the rules of cut-off that lie on the axis; those at the same place are one line."""
     first, last = data.cut_off.values[[0, -1]]
     names: dict[float, list[str]] = {}
@@ -129,4 +99,4 @@ def _rules(data: xr.Dataset) -> Iterator[CrossLine]:
     for i, (at, alike) in enumerate(names.items()):
         colour = COLOURS[(i + 2) % len(COLOURS)]
         label = f"{', '.join(alike)}: {at / MILLI:.2g} mm"
-        yield CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)
+        yield chart.CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)

@@ -9,12 +9,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
+from gripscale.continuation.curve import FACTS, cut_off_at
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
-from gripscale.half_space.below_measurement import FACTS, cut_off_at
 from gripscale.model import STATUS, Load
 from gripscale.surface import RmsSlope, Surface, find_cut_off
 
@@ -42,7 +42,19 @@ def cut_off_curve(
     task = Task(case.rubber, case.surface, load, model)
     label = f"continued down to {in_mm(model.down_to, 3)}"
     data = bench.solve({label: task}, _curves)[task.key]
-    return data.merge(_at_rules(data, case.surface)) if "cut_off" in data.dims else data
+    if "cut_off" not in data.dims:
+        return data
+    names, lengths = zip(*_rules(data, case.surface), strict=True)
+
+    def along(values: list[float], text: str, unit: str = "1") -> tuple[object, ...]:
+        return "rule", values, variable_attributes(text, unit)
+
+    friction, area = ([at_cut_off(data, name, x) for x in lengths] for name in (FRICTION, AREA))
+    return data.assign_coords(rule=list(names)).assign(
+        rule_cut_off=along(list(lengths), "cut-off of the rule", "m"),
+        rule_friction=along(friction, "friction there"),
+        rule_contact_fraction=along(area, "contact fraction there"),
+    )
 
 
 def _curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
@@ -77,22 +89,3 @@ def _rules(data: xr.Dataset, surface: Surface) -> Iterator[tuple[str, float]]:
     end = cut_off_at(CONTACT_SLOPE, data.cut_off.values, data[SLOPE_IN_CONTACT].values)
     if math.isfinite(end):
         yield f"rms slope {CONTACT_SLOPE:g} in contact", end
-
-
-def _at_rules(data: xr.Dataset, surface: Surface) -> xr.Dataset:
-    """Return cut-off, friction and contact of each rule."""
-    names, lengths = zip(*_rules(data, surface), strict=True)
-    values = {
-        "rule_cut_off": (list(lengths), "cut-off of the rule", "m"),
-        "rule_friction": ([at_cut_off(data, FRICTION, x) for x in lengths], "friction there", "1"),
-        "rule_contact_fraction": (
-            [at_cut_off(data, AREA, x) for x in lengths],
-            "contact fraction there",
-            "1",
-        ),
-    }
-    variables = {
-        name: ("rule", numbers, variable_attributes(text, unit))
-        for name, (numbers, text, unit) in values.items()
-    }
-    return xr.Dataset(variables, {"rule": list(names)})

@@ -6,28 +6,40 @@ result.data.curve_friction_from_dissipation
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+import numpy as np
 import xarray as xr
 
 from gripscale.case import Case, in_si
+from gripscale.charts import draw
+from gripscale.charts.draw import Sheet
 from gripscale.core import provenance
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, Severity
+from gripscale.core.units import MILLI, display_unit_of, in_mm
+from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.io.table import Table
-from gripscale.questions.answer.findings import case_notices
-from gripscale.questions.cut_off import page
-from gripscale.questions.cut_off.charts import cut_off_sheet
-from gripscale.questions.cut_off.curve import cut_off_curve
+from gripscale.io.table import Column, Table, change, on_page, significant
+from gripscale.model import STATUS
+from gripscale.questions.answer.intervals import LEVEL
+from gripscale.questions.cut_off.charts import cut_off_panels, cut_off_sheet
+from gripscale.questions.cut_off.curve import (
+    AREA,
+    FRICTION,
+    SLOPE_IN_CONTACT,
+    at_cut_off,
+    cut_off_curve,
+)
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.report.elements import Page
+from gripscale.questions.words import HEADINGS, SYMBOLS
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Element, Page, Section, Text
+from gripscale.report.failures import Failure, explained
 
-if TYPE_CHECKING:
-    from gripscale.charts.chart import Sheet
+_LEVEL = f"{100.0 * LEVEL:.0f} %"
 
 
 class CutOff(Result):
@@ -37,35 +49,145 @@ class CutOff(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        """Friction and contact at the last cut-off, and how the roughness is continued."""
-        return tuple(page.cut_off_lines(self.data))
+        data = self.data
+        if self.failure:
+            return [f"Answer: none. {self.failure}"]
+        below = not bool(data.curve_measured[-1])
+        numbers = ", ".join(
+            f"{SYMBOLS[name]} = {significant(float(data[curve][-1]))}"
+            + (f" ({self._range(curve)})" if below else "")
+            for name, curve in self._curves
+        )
+        level = f" ({_LEVEL} bands)" if below else ""
+        lead = f"Answer: {numbers} with roughness down to {in_mm(self._end, 3)}{level}"
+        return [lead, *(f"  {line}" for line in self.basis)]
 
     @property
-    def findings(self) -> Sequence[Finding]:
-        """What may change the curves, the most important first."""
-        return tuple(case_notices(None, InputRecord(self.inputs)))
+    def basis(self) -> Sequence[str]:
+        """The load, the numbers of the measured roughness, and how it is continued."""
+        data, resolved = self.data, float(self.data.resolved)
+        load = " and ".join(
+            display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
+            for name in ("pressure", "speed")
+        )
+        lead = f"for {load}; direct contact of the measured surface, without factors"
+        if bool(data.curve_measured[-1]):
+            return [lead]
+        measured = ", ".join(
+            f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
+            for name, curve in self._curves
+        )
+        source = f"below it continued {_source(data)}"
+        return [lead, f"measured down to {in_mm(resolved, 3)}: {measured}", source]
 
     @property
     def failure(self) -> str:
-        """Why there is no curve; empty if there is one."""
-        return " ".join(map(str, page.cut_off_failures(self.data)))
+        sentence = str(self.data[STATUS].item())
+        return "" if sentence == CONVERGED else sentence
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the rules of cut-off, and friction and contact by octave."""
-        yield from page.cut_off_parts(self.data)
+        if not self.failure:
+            yield self.rules_table()
+            yield self.table()
+
+    def rules_table(self) -> Table:
+        """Return the cut-off of each rule, with friction and contact there."""
+        data = self.data
+        columns = [
+            Column("rule", data.rule.values.tolist(), "rule"),
+            Column("rule_cut_off", data.rule_cut_off.values, "cut-off", "mm", MILLI),
+            *(
+                Column(f"rule_{name}", data[f"rule_{name}"].values, SYMBOLS[name])
+                for name, _ in self._curves
+            ),
+        ]
+        beyond = bool(np.isnan(data.rule_contact_fraction.values).any())
+        notes = ["Without numbers: beyond the curve."] if beyond else []
+        return Table("rules", columns, "Rules of cut-off", notes, keys=1)
 
     def table(self) -> Table:
-        """Return friction and contact by octave of the cut-off."""
-        return page.curve_table(self.data)
+        data, measured = self.data, self.data.curve_measured.values.astype(bool)
+        columns = [
+            Column("cut_off", data.cut_off.values, "cut-off", "mm", MILLI),
+            Column("roughness", ["measured" if flag else "continued" for flag in measured]),
+        ]
+        for name, curve in self._curves:
+            columns.append(Column(name, data[curve].values, SYMBOLS[name]))
+            ends = np.stack([data[f"{curve}_{end}"].values for end in ("lower", "upper")], axis=-1)
+            ends[measured] = np.nan
+            columns.append(Column(f"{name}_band", ends, f"{_LEVEL} band"))
+        columns.append(Column("slope", data[SLOPE_IN_CONTACT].values, "slope in contact"))
+        return Table("curve", columns, "By octave of the cut-off", keys=1)
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
-        """Yield friction, contact area and slope in contact over the cut-off."""
         if not self.failure:
             yield "cut_off", cut_off_sheet(self.data)
 
+    def elements(self) -> list[Element]:
+        """Return curves, rules and tables for a page; nothing without a curve."""
+        if self.failure:
+            return []
+        charts = draw.panels_on_page(cut_off_panels(self.data))
+        return [*map(Text, self.basis), *charts, self.rules_table(), self.table()]
+
     def page_content(self) -> Page:
-        """Return curves, rules and tables."""
-        return page.cut_off_page(self.data, self.findings)
+        case = case_name(self.data.attrs) or "case.toml"
+        errors: list[Finding] = []
+        cards: list[Card] = []
+        if self.failure:
+            failure = Failure(self.failure, str(self.data[f"{STATUS}_word"].item()))
+            errors = [Finding(Severity.ERROR, explained(failure))]
+        else:
+            for name, curve in self._curves:
+                value = on_page(significant(float(self.data[curve][-1])))
+                detail = f"{self._range(curve)}, roughness down to {in_mm(self._end, 3)}"
+                cards.append(Card(HEADINGS[name].capitalize(), value, detail))
+        return Page.of(
+            f"Contact and friction of {case} against the cut-off",
+            self.lines[0],
+            [*errors, *self.findings],
+            cards,
+            [
+                Section("cut-off", "Against the cut-off", self.elements()),
+                rerun_section(self.data.attrs),
+            ],
+        )
+
+    @property
+    def _end(self) -> float:
+        """Last cut-off [m]."""
+        return float(self.data.cut_off[-1])
+
+    @property
+    def _curves(self) -> list[tuple[str, str]]:
+        """Names of the numbers of an answer and of their curves; no friction at rest."""
+        area = ("contact_fraction", AREA)
+        return [("friction", FRICTION), area] if float(self.data.nominal_speed) > 0.0 else [area]
+
+    def _range(self, curve: str) -> str:
+        low, high = (float(self.data[f"{curve}_{end}"][-1]) for end in ("lower", "upper"))
+        return f"{significant(low)} to {significant(high)}"
+
+
+def _source(data: xr.Dataset) -> str:
+    """Return where the continued roughness comes from, and how well it did."""
+    if "slope_ratio" not in data:
+        overlap = float(data.get("overlap", math.nan))
+        compared = (
+            f"; the faces that touch are {significant(overlap, 2)} times as steep where both are "
+            "measured"
+            if math.isfinite(overlap)
+            else "; no wavelength is measured by both"
+        )
+        return f"with the slopes of the finer measurement{compared}"
+    text = f"with slopes {significant(float(data.slope_ratio), 3)} times as steep each octave"
+    if "withheld_friction_error" not in data:
+        return f"{text}, as stated or as the octaves above"
+    errors = ", ".join(
+        f"{words} {change(float(data[f'withheld_{name}_error']))}"
+        for name, words in (("friction", "friction"), ("contact_fraction", "contact area"))
+    )
+    return f"{text}; the last measured octave, withheld and continued the same way: {errors}"
 
 
 def cut_off(
@@ -95,7 +217,7 @@ def cut_off(
     Returns
     -------
     CutOff
-        Over `cut_off`: the curves of `gripscale.half_space.contact_by_cut_off` with the prefix
+        Over `cut_off`: the curves of `gripscale.continuation.contact_by_cut_off` with the prefix
         `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
         The totals are those of the last cut-off.
 

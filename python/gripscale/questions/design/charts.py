@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.units import MEGA

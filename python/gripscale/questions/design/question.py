@@ -16,7 +16,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.core import checks
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, doubt
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table
@@ -164,9 +164,9 @@ def design(
         replace(case.load, speed=goal.speed, pressure=goal.pressure)
         for goal in problem.friction.goals
     ]
-    misread = [f"{name}: {text}." for name, each in compounds.items() for text in each.doubts]
-    rubber_notes = [*reading_notes(named.values()), *misread]
-    inputs = record.inputs(case, problem.roads.values(), loads, rubber_notes)
+    of_compounds = [doubt(text) for text in reading_notes(named.values())]
+    of_compounds += [d.about(name) for name, each in compounds.items() for d in each.doubts]
+    inputs = record.inputs(case, problem.roads.values(), loads, of_compounds)
     points: list[xr.Dataset] = []
     rising = rising_levels(wanted, problem)
     for level in rising:

@@ -14,14 +14,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.charts import chart, draw
-from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand, Sheet
+from gripscale.charts import draw
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
-from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.record import band, rubber_variables
 from gripscale.rubber import (
     FiniteStrainFit,
@@ -86,15 +86,15 @@ def master_curve_sheet(
     return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
 
 
-def rubber_charts(inputs: xr.Dataset, excited: PredictionView | None) -> list[Chart]:
-    """Return moduli, loss factor and, where it was measured, the residuals of the fit.
+def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]:
+    """Return moduli, loss factor and residuals of the fit of the recorded inputs of a result.
 
-    `inputs` are those of a result. `excited` is the prediction whose waves are marked, if any.
+    `excited` is the prediction of the chain whose waves are marked, if any.
     """
     panels = _moduli_panels(inputs, np.empty(0))
     if excited is not None:
-        omega = excited.column("angular_frequency")
-        values = excited.column("modulus") / MEGA, excited.column("loss_factor")
+        omega = excited["angular_frequency"].values
+        values = excited["modulus"].values / MEGA, excited["loss_factor"].values
         labels = "$|E^*|$ of the waves", "waves"
         panels = [
             replace(
@@ -292,10 +292,10 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
     return Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout)
 
 
-def _temperatures(sweeps: Sweeps) -> chart.ColourBar:
+def _temperatures(sweeps: Sweeps) -> draw.ColourBar:
     """Return what the colours of sweeps mean, cold blue to warm red."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
-    return chart.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
+    return draw.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
 
 
 def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:

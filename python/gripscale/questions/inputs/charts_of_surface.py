@@ -24,9 +24,9 @@ from gripscale.charts.chart import (
     PlotAxis,
     Series,
     ShadedBand,
-    Sheet,
     ValueMap,
 )
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
 from gripscale.core.arrays import Array

@@ -26,13 +26,11 @@ from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
-from gripscale.rubber.material import BEYOND, AdmissibleSeries, End, fast_end, slow_end
+from gripscale.rubber.material import BEYOND, End, fast_end, slow_end
 from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
 
 if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
-    from gripscale.questions.chain.run_folder import RunSource
-    from gripscale.questions.chain.view import PredictionView
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
@@ -160,9 +158,11 @@ def surface_lines(surface: Surface) -> Iterator[str]:
     """Yield what was read and removed, the fits, the sine waves and the cut-off."""
     measured = surface.measured
     if measured is not None:
-        for (raw, cleaned), report in zip(measured.profiles, measured.cleaning, strict=True):
+        # heights taken as they are have no reports
+        reports = [str(report) for report in measured.cleaning] or [""] * len(measured.profiles)
+        for (raw, cleaned), report in zip(measured.profiles, reports, strict=True):
             yield f"{raw.name or raw.source}: {len(cleaned)} points, step {raw.step / MILLI:.4g} mm"
-            yield from (f"  {line}" for line in str(report).splitlines())
+            yield from (f"  {line}" for line in report.splitlines())
         if measured.map is not None:
             yield map_line(measured.map)
         share = surface.counted.get("top_height_fraction", 1.0)
@@ -269,41 +269,6 @@ def _numbers(law: Any) -> str:
 def _end(end: End, plateau: str) -> str:
     kind = plateau if end.plateau else "end of the data"
     return f"{significant(end.modulus / MEGA)} MPa ({kind})"
-
-
-def load_facts(run: RunSource) -> Facts:
-    """Return load, rubber, surface and model in words."""
-    attrs, data = run.attrs, run.data
-    first = run.predictions[0]
-
-    def text(name: str, value: float) -> str:
-        display_unit = first.display_unit(name)
-        return f"{number_text(display_unit.of(value))} {display_unit.unit}"
-
-    speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
-    if any(not view.moving for view in run.predictions):
-        speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
-    model = str(attrs.get("model", NONE))
-    if "wave_solver" in data:
-        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
-        model += f", waves by {', '.join(solvers)}"
-    record = run.record
-    source = without_folder(str(attrs.get("rubber_source", attrs.get("rubber", ""))))
-    # of a strain energy such as "MooneyRivlin(share=0.2)" the name in words, and its parameters
-    law, _, parameters = record.text("strain_energy").partition("(")
-    energy = "-".join(re.findall(r"[A-Z][a-z]+", law)) or law or NONE
-    return Facts(
-        "Load and model",
-        [
-            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
-            ("Sliding speed", speeds),
-            ("Footprint", text("footprint", float(data["footprint"]))),
-            ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
-            ("Model", model.replace("_", " ")),
-            ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
-            ("Method", str(attrs.get("method", NONE))),
-        ],
-    )
 
 
 def without_folder(text: str) -> str:
@@ -450,44 +415,16 @@ def input_sections(data: xr.Dataset) -> list[Section]:
 
 
 def rubbers_of(data: xr.Dataset) -> list[Rubber]:
-    """Return the rubbers of a study from their exact parameters, without strain energy and shift.
-
-    None of a file that does not hold them.
-    """
-    rubbers = []
-    for values in json.loads(str(data.attrs.get("rubber_parameters", "[]"))):
-        names = ("equilibrium_modulus", "moduli", "relaxation_times", "bulk_modulus")
-        exact = {name: _from_hex(values[name]) for name in names}
-        series = values.get("admissible") or {}
-        parts = ("relaxation_times", "equilibrium_moduli", "moduli")
-        others = [_from_hex(series[name]) for name in parts if isinstance(series.get(name), list)]
-        rubbers.append(
-            Rubber(
-                **exact,
-                name=values.get("name", ""),
-                valid_band=_from_hex(values.get("valid_band")),
-                admissible=AdmissibleSeries(*others) if len(others) == len(parts) else None,
-                reference_temperature=_from_hex(values.get("reference_temperature")),
-            )
-        )
-    return rubbers
-
-
-def _from_hex(value: Any) -> Any:
-    """Return the numbers of which hexadecimal texts were written."""
-    if isinstance(value, list):
-        return [_from_hex(part) for part in value]
-    return float.fromhex(value) if isinstance(value, str) else value
+    """Return the rubbers of a study; none of a file that does not hold them."""
+    return list(map(Rubber.from_dict, json.loads(data.attrs.get("rubber_parameters", "[]"))))
 
 
 def _rubber_facts(rubber: Rubber, name: str) -> Facts:
     """Return what a rubber of a study is."""
+    relaxed, glassy = rubber.equilibrium_modulus, rubber.glassy_modulus
     pairs = [
-        (
-            "Relaxed modulus of the series",
-            f"{number_text(rubber.equilibrium_modulus, MEGA)} MPa",
-        ),
-        ("Glassy modulus of the series", f"{number_text(rubber.glassy_modulus, MEGA)} MPa"),
+        ("Relaxed modulus of the series", f"{number_text(relaxed, MEGA)} MPa"),
+        ("Glassy modulus of the series", f"{number_text(glassy, MEGA)} MPa"),
         ("Bulk modulus", f"{number_text(rubber.bulk_modulus, GIGA)} GPa"),
         ("Maxwell elements", str(len(rubber.moduli))),
     ]
@@ -520,14 +457,13 @@ def surface_section(record: InputRecord, waves: SineStack | None = None) -> list
     return [*elements, waves_table(waves.wavelength, waves.amplitude)]
 
 
-def rubber_section(record: InputRecord, moving: PredictionView | None = None) -> list[Element]:
+def rubber_section(record: InputRecord, moving: xr.Dataset | None = None) -> list[Element]:
     """Return facts, moduli with their fit and Prony series of a rubber.
 
     `moving` is a prediction of the chain in motion, whose waves are marked.
     """
     if not record.has("equilibrium_modulus_Pa"):
         return []
-    charts = rubber_charts(record.data, moving)
-    elements: list[Element] = [rubber_facts(record), *charts]
     times, moduli = record.relaxation_times
-    return [*elements, prony_table(times, moduli)] if np.size(times) else elements
+    series = [prony_table(times, moduli)] if np.size(times) else []
+    return [rubber_facts(record), *rubber_charts(record.data, moving), *series]

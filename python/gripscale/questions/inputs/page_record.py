@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core.finding import Finding, Severity, Topic, from_json
 from gripscale.io.table import significant
 from gripscale.report.elements import number_text
 
@@ -101,19 +101,10 @@ class InputRecord:
 
     def warnings(self) -> Iterator[Finding]:
         """Yield what is doubtful about load, conditions, rubber and surface."""
-        for note in (*self.text("doubts").splitlines(), *self.text("load_notes").splitlines()):
-            yield Finding(Severity.DOUBT, note)  # perhaps another road, or unit
-        sentences = [(Topic.RUBBER, text) for text in self.text("conditions_notes").splitlines()]
-        sentences += [(Topic.RUBBER, f"Rubber: {finding}.") for finding in self.findings]
-        notes = self.text("surface_notes").splitlines()
-        sentences += [(Topic.SURFACE, f"Surface: {note.removesuffix('.')}.") for note in notes]
-        if self.has("no_self_affine"):
-            why = f"The surface was not described as self-affine: {self.text('no_self_affine')}"
-            sentences.append((Topic.SURFACE, why))
+        yield from from_json(self.text("findings"))
         if self.is_empty:
             text = (
                 "The result holds no record of its inputs (a script or an older version wrote it): "
                 "profiles, fits, master curve and doubts about the inputs are missing here."
             )
-            sentences.append((Topic.SOURCE, text))
-        yield from (Finding(Severity.WARNING, text, topic=doubt) for doubt, text in sentences)
+            yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)

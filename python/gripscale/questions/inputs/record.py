@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gripscale.case import Case, NamedFile
 from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import measured_variables
 from gripscale.model import Load
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
@@ -102,48 +103,39 @@ def inputs(
     case: Case,
     surfaces: Iterable[Surface] | None = None,
     loads: Iterable[Load] | None = None,
-    rubber_notes: Iterable[str] = (),
-    friction_notes: Iterable[str] = (),
+    further: Iterable[Finding] = (),
 ) -> xr.Dataset:
     """Return everything a report says about the inputs of a case: the group `inputs` of a result.
 
-    Its doubts are those of `surfaces` and `loads` where the answer is not of those of the case, and
-    `rubber_notes`, what is assumed of rubbers beside that of the case; `friction_notes`, what is
-    doubtful of measured friction, come first.
+    Its findings are those of `surfaces` and `loads` where the answer is not of those of the case,
+    and `further` ones, of measured friction and of rubbers beside that of the case.
     """
     surface = case.surface
     excitation = excited(case.load.speed, surface.sines)
     rubber = case.measured_rubber
-    of_rubber = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
-    notes = {
-        "conditions_notes": "\n".join(case.conditions_notes()) or None,
-        "load_notes": "\n".join(case.load_notes()) or None,
-        "doubts": "\n".join([*friction_notes, *case.doubts(surfaces, loads), *rubber_notes])
-        or None,
-    }
-    parts = [({}, _waves(surface)), (_files(case.origin.files), {}), of_rubber]
-    parts.append(({}, notes | _excited_band(excitation)))
+    # what the measurement does not carry stands in `cut_off_beyond_measurement`
+    left_out = [finding.about("Surface") for finding in surface.extrapolated]
+    findings = [f for f in case.findings(surfaces, loads) if f not in left_out]
+    series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
+    data = _files(case.origin.files) | series
+    attrs = _waves(surface) | about_series
+    attrs |= {"findings": to_json([*further, *findings])}
+    if excitation.size:
+        attrs["excited_low_rad_per_s"] = float(excitation.min())
+        attrs["excited_high_rad_per_s"] = float(excitation.max())
     if case.friction is not None:
-        parts.append((dict(measured_variables(case.friction, "measurement_of_case")), {}))
+        data |= measured_variables(case.friction, "measurement_of_case")
     if surface.measured is not None and surface.correlation is not None:
-        parts.append((_profiles(surface.measured), {}))
+        data |= _profiles(surface.measured)
         texture = surface.measured.texture.variables
-        parts.append(({str(name): values for name, values in texture.items()}, {}))
-        parts.append(_cut_off(surface, surface.measured))
-        parts.append(_correlation(surface.correlation, surface.measured, surface.sines))
-    data = {name: value for part, _ in parts for name, value in part.items()}
-    attrs = {name: value for _, part in parts for name, value in part.items() if value is not None}
-    return xr.Dataset(data, attrs=attrs)
-
-
-def _excited_band(excitation: Array) -> Variables:
-    """Return the lowest and the highest frequency that the waves excite; nothing at rest."""
-    if not excitation.size:
-        return {}
-    return {
-        "excited_low_rad_per_s": float(excitation.min()),
-        "excited_high_rad_per_s": float(excitation.max()),
-    }
+        data |= {str(name): values for name, values in texture.items()}
+        for variables, about in (
+            _cut_off(surface, surface.measured),
+            _correlation(surface.correlation, surface.measured, surface.sines),
+        ):
+            data |= variables
+            attrs |= about
+    return xr.Dataset(data, attrs={k: value for k, value in attrs.items() if value is not None})
 
 
 def _files(files: Sequence[NamedFile]) -> Variables:
@@ -161,8 +153,6 @@ def _files(files: Sequence[NamedFile]) -> Variables:
 def _waves(surface: Surface) -> Variables:
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
-    # what the measurement does not carry stands in `cut_off_beyond_measurement`, plates in `doubts`
-    notes = [note for note in surface.notes if note not in surface.extrapolated + surface.doubts]
     return {
         "sines_s_wavelength": sines.s_wavelength,
         "sines_s_amplitude": sines.s_amplitude,
@@ -171,7 +161,6 @@ def _waves(surface: Surface) -> Variables:
         "sines_lag_max_m": high,
         "sines_cut_off_m": sines.cut_off,
         "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
-        "surface_notes": "\n".join(notes) or None,
     }
 
 

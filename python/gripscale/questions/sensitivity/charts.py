@@ -8,17 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import draw, style
-from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, Sheet
-from gripscale.charts.page_elements import Chart, Picture
+from gripscale.charts import style
+from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
-from gripscale.questions.answer.charts import (
-    height_figure,
-    height_panels,
-    named_traces,
-    profile_names,
-)
+from gripscale.questions.answer.charts import NamedTrace, named_traces
 from gripscale.questions.sensitivity.friction_sensitivity import LOSS, STORAGE
 from gripscale.questions.vary.axis import dimensions, points
 
@@ -33,38 +28,18 @@ _EFFECTS = {
 }
 
 
-def sensitivity_charts(data: xr.Dataset) -> list[Chart]:
-    """Return the panels as charts of the page."""
-    return draw.panels_on_page(_panels(data))
-
-
-def height_charts(data: xr.Dataset, inputs: xr.Dataset) -> list[Chart]:
-    """Return what heights of the surface are worth; nothing where something is varied."""
-    return draw.panels_on_page(
-        panel for name, trace in _traces(data, inputs) for panel in height_panels(trace, name)
-    )
-
-
-def height_pictures(data: xr.Dataset, inputs: xr.Dataset) -> list[Picture]:
-    """Return the same for the figures of a folder."""
-    return [
-        Picture(f"height_{number}", height_figure(trace, name), "", "")
-        for number, (name, trace) in enumerate(_traces(data, inputs), start=1)
-    ]
-
-
-def _traces(data: xr.Dataset, inputs: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    """Return the traces at the first point, with the names of the profiles of the inputs."""
-    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)), profile_names(inputs))
+def height_traces(data: xr.Dataset, inputs: xr.Dataset) -> list[NamedTrace]:
+    """Return the traces at the first point, which show what heights of the surface are worth."""
+    return named_traces(data.isel(dict.fromkeys(dimensions(data), 0)), inputs)
 
 
 def sensitivity_figure(data: xr.Dataset) -> Figure:
     """Draw master curve and derivatives of the friction over the same frequencies."""
     layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
-    return Sheet(_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
+    return Sheet(sensitivity_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
 
 
-def _panels(data: xr.Dataset) -> list[Panel]:
+def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
     """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
     omega = data.modulus_frequency.values
     listed = list(points(data))
@@ -83,6 +58,7 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         Note(at, (1.4 + 0.9 * i) * lowest, f" tan δ, {name}", GREY, italic=True)
         for i, (name, at) in enumerate(_rules(data))
     ]
+    frequency = data.frequency.values
     panels = [
         Panel(
             axis,
@@ -94,28 +70,24 @@ def _panels(data: xr.Dataset) -> list[Panel]:
         )
     ]
     for name, (symbol, meaning) in _EFFECTS.items():
-        curves: list[Mark] = [
-            Series(
-                data.frequency.values,
-                # bands that are not excited at this point have no derivative
-                each[name].where(each[name] != 0.0).values * int(data.attrs["bands_per_decade"]),
-                colour,
-                text if len(listed) > 1 else "",
-                marker="o",
-                size=2.5,
-            )
-            for (text, each), colour in zip(listed, colours, strict=True)
-            if np.isfinite(each[name].values).any()
-        ]
+        curves: list[Mark] = []
+        for (text, point), colour in zip(listed, colours, strict=True):
+            if not np.isfinite(point[name].values).any():
+                continue
+            # bands that are not excited at this point have no derivative
+            values = point[name].where(point[name] != 0.0).values
+            values = values * int(data.attrs["bands_per_decade"])
+            label = text if len(listed) > 1 else ""
+            curves.append(Series(frequency, values, colour, label, marker="o", size=2.5))
+        letter = symbol.strip("$")
         panels.append(
             Panel(
                 axis,
                 PlotAxis(f"d ln $\\mu$ / d ln {symbol} per decade"),
                 [*curves, *rules, CrossLine(0.0)],
                 name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
-                caption=f"Per cent of friction for a per cent of {symbol.strip('$')} in a decade: "
-                f"{meaning}.",
-                alt=f"Derivative of friction by {symbol.strip('$')} against angular frequency.",
+                caption=f"Per cent of friction for a per cent of {letter} in a decade: {meaning}.",
+                alt=f"Derivative of friction by {letter} against angular frequency.",
             )
         )
     return panels

@@ -26,13 +26,9 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import (
-    CONVERGED,
-    surface_numbers,
-    variable_attributes,
-)
+from gripscale.experiment.design import CONVERGED, surface_numbers, variable_attributes
 from gripscale.experiment.task import Task
-from gripscale.half_space.location import PREFIX, contact_trace, with_traces
+from gripscale.half_space.location import contact_trace, trace_variables, with_traces
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.model import STATUS
@@ -91,12 +87,13 @@ class FrictionSensitivity(DirectContact):
         answer = super().predict(rubber, surface, load, on_progress=keep)
         if answer[STATUS].item() != CONVERGED:
             return answer
+        shifted_to = None if rubber.shift is None else rubber.reference_temperature
         parts = [
             contact_sensitivity(
                 contact,
                 bands_per_decade=self.bands_per_decade,
                 contact_fraction=self.contact_fraction,
-                reference_temperature=_shifted_to(rubber),
+                reference_temperature=shifted_to,
             )
             for contact in contacts
         ]
@@ -144,11 +141,6 @@ class FrictionSensitivity(DirectContact):
         }
 
 
-def _shifted_to(rubber: Rubber) -> float | None:
-    """Return the temperature that frequencies are shifted to [K], of a rubber with a shift."""
-    return rubber.reference_temperature if rubber.shift is not None else None
-
-
 def _derivatives_of(data: xr.Dataset) -> list[str]:
     """Return the names of derivatives but for those by Prony terms, which rubbers do not share."""
     named = (str(name) for name in data if str(name).startswith("d_ln_"))
@@ -171,8 +163,7 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 
 def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
-    traces = [name for name in map(str, answer) if name.startswith(PREFIX)]
-    kept = answer[[*_derivatives_of(answer), *traces]]
+    kept = answer[[*_derivatives_of(answer), *trace_variables(answer)]]
     return surface_numbers(answer, task).assign(kept.variables)
 
 

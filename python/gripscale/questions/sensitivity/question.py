@@ -10,42 +10,67 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
+import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
+from gripscale.charts import draw
 from gripscale.core import checks, provenance
 from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
-from gripscale.experiment.design import solve_design
+from gripscale.core.finding import Finding, Severity, Topic, doubt
+from gripscale.core.units import display_unit_of
+from gripscale.experiment.design import CONVERGED, solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import contact_sensitivity
-from gripscale.io.table import Table
-from gripscale.questions.answer.findings import case_notices
+from gripscale.io.table import Column, Table, digits, fixed, least_to_most, on_page, percent
+from gripscale.model import STATUS, STATUS_WORD
+from gripscale.questions.answer.charts import height_figure, height_panels
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.questions.sensitivity import page
+from gripscale.questions.sensitivity import charts
 from gripscale.questions.sensitivity.friction_sensitivity import (
     CARRIED,
+    FEEDBACK,
     LOSS,
+    RULE_FREQUENCY,
     STORAGE,
     FrictionSensitivity,
     derivatives_of_answer,
     with_rules_of_thumb,
 )
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
+from gripscale.questions.uncertainty.page import as_elements, not_stated
 from gripscale.questions.uncertainty.sampling import stated_options
-from gripscale.questions.vary.axis import axes_of
+from gripscale.questions.vary.axis import axes_of, points
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
-from gripscale.report.elements import Page
+from gripscale.questions.words import SYMBOLS
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Page, Section, Text
+from gripscale.report.failures import Failure, explained, first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 """What may be varied: derivatives are taken at each value."""
+SCALARS = {
+    "ln_pressure": ("pressure", "1"),
+    "ln_speed": ("speed", "1"),
+    "ln_cut_off": ("cut-off", "1"),
+    "ln_bulk_modulus": ("bulk modulus", "1"),
+    "temperature": ("temperature", "1/K"),
+}
+"""Ends of the names of derivatives by one number, with their headings and units."""
+_MOST_POINTS = 6
+"""Points that the table by decade has columns for."""
+_CURVES = (
+    "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
+    "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
+    "friction, such as that from lines to a surface, do not change them."
+)
+signed = fixed(2, "+")
 
 
 class Sensitivity(Result):
@@ -55,39 +80,189 @@ class Sensitivity(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        """What more loss and less stiffness give, and where on the master curve that is."""
-        return tuple(page.sensitivity_lines(self.data))
+        data = self.data
+        if STORAGE not in data:
+            reasons = sorted({failure.sentence for failure in self.failures})
+            return [f"Answer: none. No contact was solved: {'; '.join(reasons)}"]
+        loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
+        load = [
+            display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
+            for name in ("pressure", "speed")
+            if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
+        ]
+        where = f", at {' and '.join(load)}" if load else ""
+        lines = [
+            f"Answer: 1 % more E'' at all frequencies gives {least_to_most(loss, digits(2))} % "
+            f"more friction, 1 % less E' {least_to_most(-storage, digits(2))} %{where}"
+        ]
+        for text, point in points(data):
+            if np.isfinite(point[LOSS].values).all():
+                low, high = _middle_half(point)
+                where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
+                between = f"between {low:.2g} and {high:.2g} rad/s"
+                lines.append(f"  half of the effect of E''{where} is {between}")
+        return lines
 
     @property
-    def findings(self) -> Sequence[Finding]:
-        """What may change the derivatives, the most important first."""
-        return tuple(case_notices(None, InputRecord(self.inputs)))
+    def failures(self) -> Sequence[Failure]:
+        """Each point without a solution."""
+        sentences, words = (self.data[name].values.ravel() for name in (STATUS, STATUS_WORD))
+        return [
+            Failure(str(sentence), str(word))
+            for sentence, word in zip(sentences, words, strict=True)
+            if sentence != CONVERGED
+        ]
 
     @property
     def failure(self) -> str:
-        """Which points have no solution; empty if all have one."""
-        return page.failure_sentence(self.data)
+        return first_of(self.failures, self.data[STATUS].size, "points")
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the sums, what each decade is worth, errors of inputs, and rules of thumb."""
-        yield from page.sensitivity_parts(self.data)
+        if STORAGE not in self.data:
+            return
+        yield self.table()
+        if self._has_feedback:
+            columns = [self._points_column(), *self._scalar_columns(FEEDBACK)]
+            title = "The same where strain and temperature of the rubber follow the change"
+            yield Table("feedback", columns, title, keys=1)
+        yield self.decades_table()
+        if CARRIED.format("friction") in self.data:
+            yield _carried_table(self.data)
+        yield from _rule_lines(self.data)
 
     def table(self) -> Table:
         """Return the derivatives by each input, the moduli summed over frequency."""
-        return page.sums_table(self.data)
+        moduli = [
+            Column(
+                key,
+                [float(point[name].sum()) for _, point in points(self.data)],
+                symbol,
+                format=signed,
+            )
+            for key, name, symbol in (("loss", LOSS, "E''"), ("storage", STORAGE, "E'"))
+        ]
+        columns = [self._points_column(), *moduli, *self._scalar_columns("")]
+        notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
+        if self.data.attrs["iterated"] and not self._has_feedback:
+            notes.append(
+                "Strain and temperature of the rubber are kept; --with-feedback also lets them "
+                "follow."
+            )
+        return Table("sums", columns, "What the friction depends on", notes, keys=1)
+
+    def decades_table(self) -> Table:
+        """Return what E'' and E' of each decade of frequency are worth, at the first few points."""
+        decade = np.floor(np.log10(self.data.frequency.values) + 1e-9).astype(int)
+        rows = np.arange(decade.min(), decade.max() + 1)
+        listed = list(points(self.data))
+        count = min(_MOST_POINTS, len(listed))
+        chosen = np.unique(np.linspace(0, len(listed) - 1, count).astype(int))
+        columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
+        for i in chosen:
+            text, point = listed[i]
+            unit = text if len(listed) > 1 else ""
+            for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+                values = [float(point[name].values[decade == row].sum()) for row in rows]
+                columns.append(Column(f"{name}_{i}", values, symbol, unit, format=signed))
+        notes = []
+        if chosen.size < len(listed):
+            rest = "the others are in the result file."
+            notes.append(f"{chosen.size} of {len(listed)} points; {rest}")
+        title = "What each decade of the master curve is worth"
+        return Table("decades", columns, title, notes, keys=1)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield the derivatives over the master curve, then by heights of each profile."""
-        from gripscale.questions.sensitivity.charts import height_pictures, sensitivity_figure
-
         if STORAGE in self.data:
-            yield "sensitivity", sensitivity_figure(self.data)
-            for picture in height_pictures(self.data, self.inputs):
-                yield picture.name, picture.figure
+            yield "sensitivity", charts.sensitivity_figure(self.data)
+            traces = charts.height_traces(self.data, self.inputs)
+            for number, (name, trace) in enumerate(traces, start=1):
+                yield f"height_{number}", height_figure(trace, name)
 
     def page_content(self) -> Page:
-        """Return the derivatives by each input, over the master curve and by heights."""
-        return page.sensitivity_page(self.data, self.inputs, self.findings)
+        lead, *below = self.lines
+        panels = charts.sensitivity_panels(self.data) if STORAGE in self.data else []
+        cards = []
+        for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+            if name in self.data:
+                value = least_to_most(self.data[name].sum("frequency"), digits(2))
+                detail = "of friction, at all frequencies"
+                cards.append(Card(f"1 % more {symbol}", on_page(f"{value} %"), detail))
+        effects = as_elements([*below, *self.parts()])
+        traces = charts.height_traces(self.data, self.inputs)
+        heights = [panel for name, trace in traces for panel in height_panels(trace, name)]
+        return Page.of(
+            f"What decides the friction of {case_name(self.data.attrs) or 'a case'}",
+            lead,
+            [
+                *(Finding(Severity.ERROR, explained(failure)) for failure in self.failures),
+                *self.findings,
+            ],
+            cards,
+            [
+                Section("effects", "What the friction depends on", effects),
+                Section(
+                    "curves", "Over the master curve", [Text(_CURVES), *draw.panels_on_page(panels)]
+                ),
+                Section("heights", "Which heights count", draw.panels_on_page(heights)),
+                rerun_section(self.data.attrs),
+            ],
+        )
+
+    @property
+    def _has_feedback(self) -> bool:
+        return f"d_ln_friction_d_ln_speed{FEEDBACK}" in self.data
+
+    def _points_column(self) -> Column:
+        return Column("point", [text for text, _ in points(self.data)], "")
+
+    def _scalar_columns(self, end: str) -> Iterator[Column]:
+        """Yield the derivatives by single numbers that are known, with an end of their names."""
+        for name, (heading, unit) in SCALARS.items():
+            variable = f"d_ln_friction_d_{name}{end}"
+            if variable in self.data and np.isfinite(self.data[variable].values).any():
+                values = [float(point[variable]) for _, point in points(self.data)]
+                size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
+                yield Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
+
+
+def _middle_half(point: xr.Dataset) -> tuple[float, float]:
+    """Return the frequencies between which the middle half of the effect of E'' lies [rad/s]."""
+    effect = np.maximum(point[LOSS].values, 0.0)
+    within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
+    log = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
+    return float(np.exp(log[0])), float(np.exp(log[1]))
+
+
+def _carried_table(data: xr.Dataset) -> Table:
+    """Return what is not known of the inputs, and what it carries to the results, most first."""
+    errors = {name: data[CARRIED.format(name)].values for name in CARRIED_QUANTITIES}
+    ranked = np.argsort(-np.nan_to_num(errors["friction"]), kind="stable")
+    ranked = ranked[np.isfinite(errors["friction"][ranked])]
+    columns = [Column("source", [*data.label.values[ranked].tolist(), "together"], "not known")]
+    for name, error in errors.items():
+        values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
+        columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
+    notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
+    if missing := not_stated(data):
+        notes.append(f"Not included, as the case states no standard error: {', '.join(missing)}.")
+    return Table("carried", columns, "Effect of the errors of the inputs", notes, keys=1)
+
+
+def _rule_lines(data: xr.Dataset) -> Iterator[str]:
+    """Yield what the rules of thumb look at, and how much of the effect is there."""
+    if "rule" not in data.dims:
+        yield (
+            "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place on "
+            "this axis."
+        )
+        return
+    for i, name in enumerate(data.rule.values):
+        share, at = data.rule_share.isel(rule=i), float(data.rule_frequency[i])
+        shares = least_to_most(share, percent)
+        yield (
+            f"The rule of thumb for {name} takes tan δ at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
+            f"shifted); {shares} of the effect of E'' lies within half a decade of it."
+        )
 
 
 @overload
@@ -210,6 +385,6 @@ def sensitivity(
         **provenance.version_attributes(),
     }
     loads = [point.task.load for point in study.points]
-    notes = reading_notes(study.measured_rubbers)
+    notes = [doubt(text, topic=Topic.RUBBER) for text in reading_notes(study.measured_rubbers)]
     inputs = record.inputs(case, study.surfaces, loads, notes)
     return Sensitivity(data.assign_attrs(case.attributes, **attrs), inputs)

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
+from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
-from gripscale.questions.chain.view import ANSWER, AXIS_TITLES, PredictionView
+from gripscale.questions.answer.reliance import answer_interval, answer_number
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import MODELS
 from gripscale.questions.vary.charts import varied_axis
+from gripscale.questions.words import ANSWER, AXIS_TITLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -100,11 +102,7 @@ def parts_figure(data: xr.Dataset) -> Figure:
 
 
 def distribution_figure(data: xr.Dataset) -> Figure:
-    """Draw how friction and contact fraction are distributed, a row for each model.
-
-    Lines are the median and the ends of the 90 % interval, the triangle is the model with the
-    inputs as stated, the star is the answer with its interval.
-    """
+    """Draw how friction and contact fraction are distributed, a row for each model."""
     panels = []
     for model, colour in zip(data.model.values, COLOURS, strict=False):
         samples = data.sel(model=model)
@@ -112,7 +110,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            answer = PredictionView(data).answer(name)
+            answer = answer_number(data, name), *answer_interval(data, name)
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
@@ -159,9 +157,8 @@ def _distribution(
 def tornado_figure(data: xr.Dataset) -> Figure:
     """Draw what each source does to the friction of one model at one load, most on top.
 
-    Bars go from 5 to 95 % of what a source does to friction, the others in their middle. Beside
-    them is its share of the variance with its standard error; grey is an effect that is not
-    significant with so many samples.
+    Bars go from 5 to 95 % of what a source does alone. Beside them is its share of the variance;
+    grey is an effect that is not significant with so many samples.
     """
     shares, errors = data.friction_share.values, data.friction_share_error.values
     ranked = np.argsort(shares, kind="stable")
@@ -216,10 +213,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
             ]  # fmt: skip
         best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
         low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
-        marks += [
-            ShadedBand(x, low, high, INK, alpha=0.12),
-            Series(x, best, INK, ANSWER),
-        ]
+        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, best, INK, ANSWER)]
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return Sheet(panels, keys=[case]).on_paper()

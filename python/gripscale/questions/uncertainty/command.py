@@ -7,25 +7,24 @@ from typing import Annotated, Any
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
 
 
-@command
+@terminal.command
 def uncertainty_command(
-    case: CasePath,
+    case: terminal.CasePath,
     samples: Annotated[
-        int | None, option("Samples, of all inputs at once; 200 by default.")
+        int | None, terminal.option("Samples, of all inputs at once; 200 by default.")
     ] = None,
     model: Annotated[
         str | None,
-        option(
+        terminal.option(
             "direct (contact of the whole profile, the default where one was measured), chain or "
             "both."
         ),
     ] = None,
     without: Annotated[
         list[str] | None,
-        option(
+        terminal.option(
             "A source to be left out: height_noise, cleaning, profile, grid, modulus, "
             "bulk_modulus, equilibrium_modulus, temperature, pressure, load_time, cut_off, waves. "
             "May be given several times.",
@@ -34,7 +33,7 @@ def uncertainty_command(
     ] = None,
     ranges: Annotated[
         list[str] | None,
-        option(
+        terminal.option(
             "What is known of a source, in place of its default: two ends as "
             "bulk_modulus='1.5 GPa:3 GPa', cut_off='50 um:200 um', cleaning=1.5:10 (height per "
             "step that is a spike), load_time=0.5:2 (factors), equally likely values as "
@@ -46,29 +45,31 @@ def uncertainty_command(
     ] = None,
     vary: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Speeds or pressures, the same samples at each: speed=0.003:30:log9.",
             metavar="NAME=VALUES",
         ),
     ] = None,
     block_length: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Length of the blocks of profiles that are drawn, such as '120 mm'; four of the "
             "largest waves by default."
         ),
     ] = None,
     tolerance: Annotated[
         float | None,
-        option(
+        terminal.option(
             "Estimated relative error of each direct contact; by default that of its first "
             "full grid, about a tenth."
         ),
     ] = None,
-    seed: Annotated[int | None, option("Seed of the random numbers; 0 by default.")] = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
-    cluster: Cluster = None,
+    seed: Annotated[
+        int | None, terminal.option("Seed of the random numbers; 0 by default.")
+    ] = None,
+    output: terminal.OwnFolder = None,
+    workers: terminal.Workers = None,
+    cluster: terminal.Cluster = None,
 ) -> None:
     """Answer with what is not known of the inputs, and what matters most; resumes where stopped.
 

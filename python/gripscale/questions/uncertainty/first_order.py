@@ -30,26 +30,22 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.conditions.conditions import Conditions
+from gripscale.conditions import Conditions
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError, RubberWarning
+from gripscale.half_space import sensitivity
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
-from gripscale.half_space.sensitivity import (
-    ContactFractionDifferences,
-    FrictionAdjoint,
-    scalar_changes,
-)
+from gripscale.half_space.sensitivity import FrictionAdjoint
 from gripscale.model import SAMPLING_ERRORS
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.uncertainty.sampled_answer import GRID, ROAD
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_options
-from gripscale.questions.uncertainty.sources import SOURCE_LABELS, Source
+from gripscale.questions.uncertainty.sources import SOURCES, Source
 from gripscale.rubber import Rubber
-from gripscale.surface import HeightMap, Profile
 
 DRAWS = 64
 """Draws of each source: the standard deviation is known to a tenth. A draw costs no contact."""
@@ -67,7 +63,6 @@ class Tangent:
 
     case: Case
     usual: Inputs
-    """Its inputs, which others are compared with."""
     contacts: Sequence[RoughContact]
     adjoints: Sequence[FrictionAdjoint]
     share: Array
@@ -79,10 +74,7 @@ class Tangent:
 
     @classmethod
     def of(cls, case: Case) -> Tangent:
-        """Solve the direct contact of a case on the grid with four points in the smallest wave.
-
-        Raises `InputError` if the case is at rest, or a contact has no result.
-        """
+        """Solve the direct contact of a case; raise `InputError` at rest or without a result."""
         contacts: list[RoughContact] = []
         answer = _model(case).predict(
             case.rubber, case.surface, case.load, on_progress=contacts.append
@@ -111,11 +103,19 @@ class Tangent:
         usual = self.usual
         parts = np.zeros(len(self.contacts))
         for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
+            friction = contact.friction_from_dissipation
             if inputs.rubber is not usual.rubber:
-                parts[at] += _by_rubber(adjoint, inputs.rubber)
+                effect = adjoint.by_modulus(_log_ratio(adjoint, inputs.rubber))
+                parts[at] += float(effect.sum() / friction)
             if inputs.cleaned is not usual.cleaned or inputs.smooth_gaps != usual.smooth_gaps:
                 assert inputs.measured is not None
-                parts[at] += _by_surface(adjoint, inputs.measured.surfaces[at])
+                heights = periodic_heights(
+                    inputs.measured.surfaces[at],
+                    smallest_wavelength=contact.smallest_wavelength,
+                    periodic=False,
+                )
+                change = heights.on(contact.grid.shape) - contact.height
+                parts[at] += float((adjoint.by_height * change).sum() / friction)
             if inputs.end != usual.end:
                 exponent = contact.cut_off_exponents.friction
                 parts[at] += exponent * math.log(inputs.end / usual.end)
@@ -127,7 +127,7 @@ class Tangent:
         for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
             if inputs.rubber is not self.usual.rubber:
                 change = _log_ratio(adjoint, inputs.rubber)
-                parts[at] += ContactFractionDifferences(contact).by_modulus(change)
+                parts[at] += sensitivity.ContactFractionDifferences(contact).by_modulus(change)
             exponent = contact.cut_off_exponents.contact_fraction
             parts[at] += exponent * math.log(inputs.end / self.usual.end)
         return float(self.share[1] @ (parts + self._by_conditions(inputs, 1)))
@@ -142,8 +142,8 @@ class Tangent:
         """Derivatives of ln mu and ln A_r/A_0 by ln p_0 and T [1/K], each (contacts, 2)."""
         friction, area = [], []
         for contact, adjoint in zip(self.contacts, self.adjoints, strict=True):
-            differences = ContactFractionDifferences(contact)
-            change = scalar_changes(contact).get("temperature", np.zeros(1, complex))
+            differences = sensitivity.ContactFractionDifferences(contact)
+            change = sensitivity.scalar_changes(contact).get("temperature", np.zeros(1, complex))
             by_kelvin = float(adjoint.by_modulus(change).sum())
             pair = np.array([adjoint.by_log_pressure, by_kelvin])
             friction.append(pair / contact.friction_from_dissipation)
@@ -161,15 +161,9 @@ def _model(case: Case) -> DirectContact:
     return DirectContact(tolerance=None, conditions=case.conditions)
 
 
-def _by_rubber(adjoint: FrictionAdjoint, rubber: Rubber) -> float:
-    """Return the change of ln mu by another rubber."""
-    effect = adjoint.by_modulus(_log_ratio(adjoint, rubber))
-    return float(effect.sum() / adjoint.contact.friction_from_dissipation)
-
-
 def _log_ratio(adjoint: FrictionAdjoint, rubber: Rubber) -> ComplexArray:
     """Return ln(M'/M) [-] of each wave of another rubber, at the temperature of the case."""
-    contact, body = adjoint.contact, adjoint.body
+    contact, body = adjoint.contact, adjoint.contact.body
     solid = (contact.conditions or Conditions()).before(rubber)
     scales = None if body.by_scale is None else replace(body.by_scale, rubber=solid)
     other = HalfSpace(solid, body.speed, by_scale=scales)
@@ -177,22 +171,8 @@ def _log_ratio(adjoint: FrictionAdjoint, rubber: Rubber) -> ComplexArray:
     return np.broadcast_to(change, contact.grid.spectrum_shape)
 
 
-def _by_surface(adjoint: FrictionAdjoint, surface: Profile | HeightMap) -> float:
-    """Return the change of ln mu by other heights of the same stretch."""
-    contact = adjoint.contact
-    heights = periodic_heights(
-        surface, smallest_wavelength=contact.smallest_wavelength, periodic=False
-    )
-    change = heights.on(contact.grid.shape) - contact.height
-    return float((adjoint.by_height * change).sum() / contact.friction_from_dissipation)
-
-
 def first_order(
-    case: Case,
-    uncertainty: Uncertainty | None = None,
-    *,
-    count: int = DRAWS,
-    seed: int = 0,
+    case: Case, uncertainty: Uncertainty | None = None, *, count: int = DRAWS, seed: int = 0
 ) -> xr.Dataset:
     """Return the errors of friction and contact area of a case by each source.
 
@@ -225,9 +205,8 @@ def first_order(
     drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
     errors = {each.name: _scatter(tangent, each, count, seed) for each in sources}
-    if ROAD not in asked.without:
-        errors[ROAD] = tangent.sampling_errors
-    labels = np.array([SOURCE_LABELS[name] for name in errors], dtype=object)
+    errors |= {ROAD: tangent.sampling_errors} if ROAD not in asked.without else {}
+    labels = np.array([SOURCES[name].label for name in errors], dtype=object)
     text = "relative standard error of {}, by first order"
     return xr.Dataset(
         {

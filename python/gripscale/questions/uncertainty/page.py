@@ -13,35 +13,25 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic
+from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
+from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
-from gripscale.questions.answer.page import (
-    answer_cards,
-    answer_lines,
-    basis_lines,
-    interval_text,
-    number_and_interval,
-)
 from gripscale.questions.answer.reliance import has_answer, is_measured
-from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
+from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.propagation import (
-    FIRST_ORDER,
-    LEVELS,
-    PROPAGATED_QUANTITIES,
-    of_same_inputs,
-)
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
-from gripscale.questions.uncertainty.sources import SOURCE_LABELS, STATED
+from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
+from gripscale.questions.words import SYMBOLS
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
-HEADS = {name: SYMBOLS[name] for name in PROPAGATED_QUANTITIES}
+HEADS = {name: SYMBOLS[name] for name in propagation.PROPAGATED_QUANTITIES}
 """Symbols of the quantities, in their order."""
 OF_ANOTHER = (
     "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
@@ -64,45 +54,29 @@ SUMMARY = (0.05, 0.5, 0.95)
 
 def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield what each model and load is called, with its part."""
-    axis = axis_of(data)
     for name in data.model.values:
-        model = data.sel(model=name)
-        if not axis:
-            yield str(name), model
-        else:
-            for i in range(model.sizes[axis]):
-                yield f"{name}, {axis} {name_of(model, axis, i)}", model.isel({axis: i})
+        for label, part in loads_of(data.sel(model=name)):
+            yield f"{name}{f', {label}' if label else ''}", part
 
 
-def uncertainty_parts(data: xr.Dataset) -> Iterator[str | Table]:
-    """Yield what matters most to the answer, the quantiles of the models, then warnings."""
-    if axis := axis_of(data):
-        yield answer_table(data, axis)
-    yield from part_tables(data)
-    yield quantile_table(data)
-    yield from share_parts(data)
-    yield from warning_sentences(data)
-
-
-def answer_lines_of(data: xr.Dataset) -> Iterator[str]:
-    """Yield the answer with what its interval holds; at several loads what the intervals hold."""
-    if axis_of(data):
-        yield interval_sentence(data)
+def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield what each load is called, with its part; without a name if there is one load."""
+    axis = axis_of(data)
+    if not axis:
+        yield "", data
         return
-    first, *below = answer_lines(data)
-    yield from (first, f"  {interval_sentence(data)}", *below)
+    for at in range(data.sizes[axis]):
+        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
     """Return the answer at each load."""
-    parts = [data.isel({axis: at}) for at in range(data.sizes[axis])]
-    columns = [Column(axis, [name_of(data, axis, at) for at in range(len(parts))])]
+    labels = [name_of(data, axis, at) for at in range(data.sizes[axis])]
+    columns = [Column(axis, labels)]
     for name, symbol in HEADS.items():
-        values = [float(part[f"best_{name}"]) for part in parts]
-        columns.append(Column(f"best_{name}", values, symbol))
-        ends = np.array(
-            [interval_ends(part[f"best_{name}"], part[f"best_{name}_half_width"]) for part in parts]
-        )
+        best = data[f"best_{name}"]
+        columns.append(Column(f"best_{name}", best.values, symbol))
+        ends = np.transpose(interval_ends(best, data[f"best_{name}_half_width"]))
         columns.append(Column(f"{name}_interval", ends, f"{100.0 * LEVEL:.0f} % interval"))
     return Table("answers", columns, f"Answer by {axis}", keys=1)
 
@@ -129,25 +103,21 @@ def interval_sentence(data: xr.Dataset) -> str:
     of_run = data.assign(
         {f"best_{name}_half_width": data[f"best_{name}_{OF_RUN}"] for name in HEADS}
     )
-    ranges = ", ".join(f"{symbol} {interval_text(of_run, name)}" for name, symbol in HEADS.items())
-    return f"{text}; `gripscale run`, without them: {ranges}"
+    ranges = [f"{symbol} {answer.interval_text(of_run, name)}" for name, symbol in HEADS.items()]
+    return f"{text}; `gripscale run`, without them: {', '.join(ranges)}"
 
 
 def not_stated(data: xr.Dataset) -> list[str]:
     """Return labels of the sources that only a case can state and that are not in a result."""
-    return [SOURCE_LABELS[name] for name in STATED if name not in data.source]
+    return [SOURCES[name].label for name in STATED if name not in data.source]
 
 
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
     """Yield what the interval of the answer is made of, at each load, most first."""
-    axis = axis_of(data)
-    loads = [("", data)]
-    if axis:
-        labels = [f" ({axis} {name_of(data, axis, at)})" for at in range(data.sizes[axis])]
-        loads = [(label, data.isel({axis: at})) for at, label in enumerate(labels)]
-    for title, part in loads:
+    for label, part in loads_of(data):
         if has_answer(part) and part.sizes["part"]:
-            yield part_table(part, f"What matters most to the answer{title}")
+            title = f"What matters most to the answer{f' ({label})' if label else ''}"
+            yield part_table(part, title)
 
 
 def part_table(part: xr.Dataset, title: str) -> Table:
@@ -188,7 +158,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
 
 def first_order_of(data: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the error that each source carries to a quantity by derivatives, by its label."""
-    name = FIRST_ORDER.format(quantity)
+    name = propagation.FIRST_ORDER.format(quantity)
     if name not in data:
         return {}
     pairs = zip(data.label.values.tolist(), data[name].values.tolist(), strict=True)
@@ -214,7 +184,7 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
         f"{label} ({percent(tangent[label])}, {percent(error)})"
         for label, error in sampled.items()
         if label in tangent
-        and label != SOURCE_LABELS[ROAD]
+        and label != SOURCES[ROAD].label
         and max(error, tangent[label]) > max(least, _APART * min(error, tangent[label]))
     ]
     if apart:
@@ -238,13 +208,6 @@ def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
         yield f"Too few samples, or no friction, to tell what single inputs add: {where}."
 
 
-def warning_sentences(data: xr.Dataset) -> Iterator[str]:
-    """Yield what the reader is to know of grids, sources left out and failures."""
-    yield from grid_sentences(data)
-    yield from left_out_sentences(data)
-    yield from map(str, filter(None, [sampling_failure(data)]))
-
-
 def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield which sources were not sampled, and why."""
     labels: dict[str, list[str]] = {}
@@ -256,9 +219,7 @@ def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def quantile_table(data: xr.Dataset) -> Table:
     """Return the quantiles of friction and contact fraction of each model and load."""
-    rows = [
-        (title, part, name) for title, part in model_places(data) for name in PROPAGATED_QUANTITIES
-    ]
+    rows = [(title, part, name) for title, part in model_places(data) for name in HEADS]
     quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
     columns = [
         Column("model", [title for title, _, _ in rows]),
@@ -266,7 +227,7 @@ def quantile_table(data: xr.Dataset) -> Table:
         Column("case", [float(part[f"{name}_case"]) for _, part, name in rows], "the case"),
         *(
             Column(f"quantile_{level:g}", quantiles[:, at], f"{level:.0%}")
-            for at, level in enumerate(LEVELS)
+            for at, level in enumerate(propagation.LEVELS)
         ),
         Column("samples", [part.sizes["sample"] for _, part, _ in rows], format="{:.0f}".format),
         Column("failed", [int(part.failed) for _, part, _ in rows], format="{:.0f}".format),
@@ -279,59 +240,37 @@ def quantile_table(data: xr.Dataset) -> Table:
 def share_table(part: xr.Dataset, title: str) -> Table:
     """Return what each source does to friction and contact fraction at one load, most first.
 
-    From and to: 5 and 95 % of what it does alone.
+    From and to: 5 and 95 % of what it does alone. Notes name the shares in friction that are not
+    significant, and those that do not differ.
     """
-    ranked = _ranked(part)
-    columns = [Column("source", [*part.label.values[ranked], "none of them alone"])]
-    for name, symbol in HEADS.items():
-        missing = np.full((1, 2), np.nan)
-        share, error = (part[f"{name}_{end}"].values[ranked] for end in ("share", "share_error"))
-        rest = float(part[f"{name}_unexplained"])
-        columns += [
-            Column(
-                f"{name}_end",
-                np.concatenate([part[f"{name}_end"].values[ranked], missing]),
-                "from to",
-                group=symbol,
-            ),
-            Column(
-                f"{name}_share",
-                [max(value, 0.0) for value in (*share, rest)],
-                "share of variance",
-                group=symbol,
-                format="{:.0%}".format,
-            ),
-            Column(
-                f"{name}_share_error", [*error, np.nan], "±", group=symbol, format="{:.0%}".format
-            ),
-        ]
-    notes = order_sentences(part)
-    return Table("shares", columns, f"What matters most ({title})", notes)
-
-
-def _ranked(part: xr.Dataset) -> list[int]:
-    """Return the places of the sources, the largest share of the friction first."""
-    return [int(k) for k in np.argsort(-part.friction_share.values, kind="stable")]
-
-
-def order_sentences(part: xr.Dataset) -> list[str]:
-    """Return which shares in friction are not significant, and which do not differ."""
     shares, labels = part.friction_share.values, part.label.values
-    apart, ranked = part.friction_share_difference_error.values, _ranked(part)
+    ranked = [int(k) for k in np.argsort(-shares, kind="stable")]
+    columns = [Column("source", [*labels[ranked], NOT_ALONE])]
+    whole = "{:.0%}".format
+    for name, symbol in HEADS.items():
+        ends = [*part[f"{name}_end"].values[ranked], [np.nan, np.nan]]
+        share = [*part[f"{name}_share"].values[ranked], float(part[f"{name}_unexplained"])]
+        share = [max(value, 0.0) for value in share]
+        error = [*part[f"{name}_share_error"].values[ranked], np.nan]
+        columns += [
+            Column(f"{name}_end", np.array(ends), "from to", group=symbol),
+            Column(f"{name}_share", share, "share of variance", group=symbol, format=whole),
+            Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
+        ]
+    apart = part.friction_share_difference_error.values
     seen = [k for k in ranked if shares[k] > SIGNIFICANCE * part.friction_share_error.values[k]]
-    unseen = [str(labels[k]) for k in ranked if k not in seen]
     close = [
         f"{labels[a]} and {labels[b]}"
         for a, b in pairwise(seen)
         if shares[a] - shares[b] < SIGNIFICANCE * apart[a, b]
     ]
-    count = int(np.isfinite(part.friction).sum())
-    sentences = []
+    unseen = [str(labels[k]) for k in ranked if k not in seen]
+    count, notes = int(np.isfinite(part.friction).sum()), []
     if close:
-        sentences.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
+        notes.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
     if unseen:
-        sentences.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
-    return sentences
+        notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
+    return Table("shares", columns, f"What matters most ({title})", notes)
 
 
 def grid_sentences(data: xr.Dataset) -> Iterator[str]:
@@ -383,7 +322,7 @@ def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
     """Return sentence and word of what did not converge."""
     words = status_words(data, sentences).values.ravel()
     pairs = zip(data[sentences].values.ravel(), words, strict=True)
-    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED_WORD]
+    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED]
 
 
 def uncertainty_lines(
@@ -395,24 +334,23 @@ def uncertainty_lines(
     """
     if data is None:
         return []
-    if not of_same_inputs(data, text, digests):
+    if not propagation.of_same_inputs(data, text, digests):
         return [OF_ANOTHER]
-    axis = axis_of(data)
-    if axis:
+    if axis := axis_of(data):
         return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
-    parts = [data.sel(model=name) for name in data.model.values]
-    count = _samples(parts[0])
-    answered = ", ".join(
-        f"{head} = {number_and_interval(data, name)}" for name, head in _widened(data)
-    )
-    return [
-        *([f"With the errors of the inputs, {count}: {answered}"] if answered else []),
-        *(
-            f"Uncertainty, {part.model.item()}, 5, 50 and 95 % of {_samples(part)}: "
-            + "; ".join(f"{head} = {', '.join(numbers)}" for head, numbers in _quantiles(part))
-            for part in parts
-        ),
+    lines = []
+    answered = [
+        f"{head} = {answer.number_and_interval(data, name)}" for name, head in _widened(data)
     ]
+    if answered:
+        count = _samples(data.isel(model=0))
+        lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
+    for name in data.model.values:
+        part = data.sel(model=name)
+        numbers = [f"{head} = {', '.join(values)}" for head, values in _quantiles(part)]
+        head = f"Uncertainty, {name}, 5, 50 and 95 % of {_samples(part)}"
+        lines.append(f"{head}: {'; '.join(numbers)}")
+    return lines
 
 
 def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
@@ -422,13 +360,12 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
     count = _samples(data.isel(model=0))
     detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
     cards = [
-        Card(f"{head}, inputs sampled", interval_text(data, name), detail)
+        Card(f"{head}, inputs sampled", answer.interval_text(data, name), detail)
         for name, head in _widened(data)
     ]
     return cards or [
         Card(f"{head}, 5 to 95 %", f"{low} to {high}", f"{name}: median {median}; {_samples(part)}")
-        for name in data.model.values.tolist()
-        for part in [data.sel(model=name)]
+        for name, part in model_places(data)
         for head, (low, median, high) in _quantiles(part)
     ]
 
@@ -436,7 +373,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
 def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield name and symbol of each number whose interval holds errors of the inputs."""
     if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from ((name, head) for name, head in HEADS.items() if interval_text(data, name))
+        yield from (pair for pair in HEADS.items() if answer.interval_text(data, pair[0]))
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
@@ -452,12 +389,6 @@ def _samples(part: xr.Dataset) -> str:
     return f"{count} samples" if not failed else f"{count - failed} of {count} samples"
 
 
-def subtitle(data: xr.Dataset) -> str:
-    """Return how many samples of which models a page is of."""
-    models = ", ".join(str(name) for name in data.model.values)
-    return f"{data.sizes['sample']} samples; {models}"
-
-
 def page_notices(data: xr.Dataset) -> list[Finding]:
     """Return failures: an error where too many failed."""
     failed = sampling_failure(data)
@@ -465,58 +396,42 @@ def page_notices(data: xr.Dataset) -> list[Finding]:
     return [Finding(level, f"{explained(failed)}.", topic=Topic.SOLUTION)] if failed else []
 
 
-def page_cards(data: xr.Dataset) -> list[Card]:
-    """Return the answer at one load, else the quantiles."""
-    answered = not axis_of(data) and has_answer(data)
-    return list(answer_cards(data)) if answered else uncertainty_cards(data)
+def as_elements(parts: Iterable[str | Table]) -> list[Element]:
+    """Return sentences as paragraphs, tables as they are."""
+    return [Text(part) if isinstance(part, str) else part for part in parts]
 
 
-def page_sections(data: xr.Dataset) -> list[Section]:
-    """Return what matters most with one figure, then the details, folded."""
+def uncertainty_page(data: xr.Dataset) -> Page:
+    """Return what matters most to an answer with one figure, then the details, folded."""
+    case, models = case_name(data.attrs), ", ".join(map(str, data.model.values))
     first, *others = map(image, uncertainty_pictures(data))
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
+    held = interval_sentence(data)
     samples: list[str | Table] = [
         UNCERTAINTY,
         quantile_table(data),
         *grid_sentences(data),
         *left_out_sentences(data),
     ]
-    return [
-        Section(
-            "answer",
-            "Answer" if axis else "What matters most",
-            [*head, Text(_sentence(interval_sentence(data)))],
-        ),
-        Section("parts", "What matters most", parts if axis else [], folded=True),
-        Section("samples", "Samples of each model", as_elements(samples), folded=True),
-        Section(
-            "shares",
-            "What matters most to the samples",
-            [*as_elements(share_parts(data)), *others],
-            folded=True,
-        ),
-    ]
-
-
-def as_elements(parts: Iterable[str | Table]) -> list[Element]:
-    """Return sentences as paragraphs, tables as they are."""
-    return [Text(part) if isinstance(part, str) else part for part in parts]
-
-
-def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}."
-
-
-def uncertainty_page(data: xr.Dataset) -> Page:
-    """Return the page of an answer with the errors of its inputs."""
-    case = case_name(data.attrs)
-    sections = [*page_sections(data), rerun_section(data.attrs)]
-    return Page(
+    shares = [*as_elements(share_parts(data)), *others]
+    title = "What matters most"
+    answered = not axis and has_answer(data)
+    return Page.of(
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
-        subtitle(data),
+        f"{data.sizes['sample']} samples; {models}",
         page_notices(data),
-        page_cards(data),
-        [section for section in sections if section.elements],
-        tuple(basis_lines(data)),
+        answer.answer_cards(data) if answered else uncertainty_cards(data),
+        [
+            Section(
+                "answer",
+                "Answer" if axis else title,
+                [*head, Text(f"{held[0].upper()}{held[1:]}.")],
+            ),
+            Section("parts", title, parts if axis else [], folded=True),
+            Section("samples", "Samples of each model", as_elements(samples), folded=True),
+            Section("shares", "What matters most to the samples", shares, folded=True),
+            rerun_section(data.attrs),
+        ],
+        answer.basis_lines(data),
     )

@@ -23,54 +23,35 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.provenance import software
-from gripscale.experiment.design import (
-    CONVERGED,
-    Design,
-    Index,
-    Point,
-    stack,
-    variable_attributes,
-)
+from gripscale.experiment import design as designs
+from gripscale.experiment.design import CONVERGED, Design, Point
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import (
-    FRICTION_OUTSIDE_BAND,
-    OUTSIDE_BAND,
-    STATUS,
-    STATUS_WORD,
-    TOTALS,
-    Load,
-    Model,
-    input_doubts,
-)
+from gripscale.model import Load, Model, input_doubts
 from gripscale.questions.answer.direct_contact import direct_contact_design
 from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.uncertainty import sampling
 from gripscale.questions.uncertainty.first_order import first_order
 from gripscale.questions.uncertainty.options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
-from gripscale.questions.uncertainty.sampled_answer import GRID, chain_answer, measured_answer
+from gripscale.questions.uncertainty.sampled_answer import chain_answer, measured_answer
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
-from gripscale.questions.uncertainty.sampling import (
-    Chosen,
-    SampledInputs,
-    Uncertainty,
-    draws,
-    stated_options,
-)
+from gripscale.questions.uncertainty.sampling import SampledInputs, Uncertainty
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, Source
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
-"""The quantiles that are told."""
+"""Quantiles of the samples that a result holds."""
 
 PROPAGATED_QUANTITIES = {
     "friction": ("mu", "friction coefficient"),
@@ -99,68 +80,69 @@ def summary(data: xr.Dataset) -> str:
     data : xarray.Dataset
         Of `propagate`, at one load.
     """
-    return "; ".join(_of_model(data.sel(model=name)) for name in data.model.values)
-
-
-def _of_model(data: xr.Dataset) -> str:
-    failed, number = int(data.failed), data.sizes["sample"]
-    count = f"{number} samples" if not failed else f"{number - failed} of {number} samples"
-    intervals = []
-    for name, (letters, _) in PROPAGATED_QUANTITIES.items():
-        levels = data[f"{name}_quantile"].values
-        if np.isfinite(levels).all():
-            low, middle, high = (f"{value:#.2g}" for value in levels[[0, 2, 4]])
-            intervals.append(f"{letters} = {middle} ({low} to {high})")
-    if not intervals:
-        return f"{data.model.item()}: none of {number} samples has an answer"
-    text = f"{data.model.item()}: {', '.join(intervals)} in 90 % of {count}"
-    return f"{text}, {failed} failed" if failed else text
+    sentences = []
+    for name in data.model.values:
+        part = data.sel(model=name)
+        failed, number = int(part.failed), part.sizes["sample"]
+        intervals = []
+        for quantity, (letters, _) in PROPAGATED_QUANTITIES.items():
+            levels = part[f"{quantity}_quantile"].values
+            if np.isfinite(levels).all():
+                low, middle, high = (f"{value:#.2g}" for value in levels[[0, 2, 4]])
+                intervals.append(f"{letters} = {middle} ({low} to {high})")
+        if not intervals:
+            sentences.append(f"{name}: none of {number} samples has an answer")
+            continue
+        count = f"{number - failed} of {number} samples, {failed} failed"
+        if not failed:
+            count = f"{number} samples"
+        sentences.append(f"{name}: {', '.join(intervals)} in 90 % of {count}")
+    return "; ".join(sentences)
 
 
 _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
-    "friction_from_dissipation": TOTALS["total_friction_from_dissipation"],
-    "outside_band": OUTSIDE_BAND[FRICTION_OUTSIDE_BAND][1],
+    "friction_from_dissipation": model.TOTALS["total_friction_from_dissipation"],
+    "outside_band": model.OUTSIDE_BAND[model.FRICTION_OUTSIDE_BAND][1],
 }
 """What is kept of each sample, and its meaning."""
 
 
 def uncertainty_dataset(
     solved: xr.Dataset,
-    drawn: Sequence[SampledInputs],
-    chosen: Chosen,
+    chosen: sampling.Chosen,
+    drawn: Mapping[str, Any],
     logarithms: Mapping[str, Array],
 ) -> xr.Dataset:
     """Return all samples with their quantiles and shares; the first of `solved` is the case.
 
-    `solved` holds the `sample_numbers`, and `logarithms` what each
-    source drew. A sample of the direct contact has the error of its grid in it that was drawn.
+    `solved` holds the `sample_numbers`; `drawn` and `logarithms` are those of `drawn_values`. A
+    sample of the direct contact has the error of its grid in it that was drawn.
     """
-    usable = solved.rename({FRICTION_OUTSIDE_BAND: "outside_band"})[
+    usable = solved.rename({model.FRICTION_OUTSIDE_BAND: "outside_band"})[
         [*_NUMBERS, *(f"{name}_error" for name in PROPAGATED_QUANTITIES)]
     ].where(solved.prediction_status == CONVERGED)
     case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
-    status = solved[STATUS].isel(sample=slice(1, None))
+    status = solved[[model.STATUS, model.STATUS_WORD, "seconds"]].isel(sample=slice(1, None))
+    status_case = solved[[model.STATUS, model.STATUS_WORD]].isel(sample=0)
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
         data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
 
-    words = solved[STATUS_WORD]
-    add("status", status, "converged, or why the sample has no answer")
-    add("status_word", words.isel(sample=slice(1, None)), "word of the status")
-    case_status = solved[STATUS].isel(sample=0)
-    add("status_case", case_status, "converged, or why not, of the case itself")
-    add("status_case_word", words.isel(sample=0), "word of the status of the case itself")
-    add("seconds", solved.seconds.isel(sample=slice(1, None)), "time to solve the sample", "s")
-    failed = (status != CONVERGED).sum("sample")
+    add("status", status[model.STATUS], "converged, or why the sample has no answer")
+    add("status_word", status[model.STATUS_WORD], "word of the status")
+    text = "converged, or why not, of the case itself"
+    add("status_case", status_case[model.STATUS], text)
+    text = "word of the status of the case itself"
+    add("status_case_word", status_case[model.STATUS_WORD], text)
+    add("seconds", status.seconds, "time to solve the sample", "s")
+    failed = (status[model.STATUS] != CONVERGED).sum("sample")
     add("failed", failed, "samples without an answer; they count in no quantile")
     for name, text in _NUMBERS.items():
         add(name, samples[name], text)
         add(f"{name}_case", case[name], f"{text} of the case itself")
     is_direct = solved["model"] == DirectContact.name
-    in_error = np.zeros(len(drawn))
-    if any(source.name == GRID for source in chosen.sources):
-        in_error = np.array([inputs.coordinates[GRID_PLACE] for inputs in drawn])
+    _, in_error, _ = drawn.get(GRID_PLACE, ("sample", np.zeros(samples.sizes["sample"]), {}))
     for name, (_, text) in PROPAGATED_QUANTITIES.items():
         error = (samples[f"{name}_error"] / abs(samples[name])).where(is_direct)
         about = f"estimated relative error of the grid of a direct contact, {text}"
@@ -171,15 +153,15 @@ def uncertainty_dataset(
         parts = _shares(data[name], logarithms, name)
         for part, (_, meaning) in _SHARES.items():
             add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
-    sources = chosen.sources
+    labels = [source.label for source in chosen.sources]
     return xr.Dataset(
         data,
         {
-            "quantile": ("quantile", list(LEVELS), variable_attributes("share below")),
-            "source": ("source", [s.name for s in sources], {"long_name": "source"}),
-            "label": ("source", [s.label for s in sources], {"long_name": "source in words"}),
+            "quantile": ("quantile", list(LEVELS), designs.variable_attributes("share below")),
+            "source": ("source", list(logarithms), {"long_name": "source"}),
+            "label": ("source", labels, {"long_name": "source in words"}),
             "end": ("end", ["low", "high"]),
-            **_coordinates(sources, drawn),
+            **drawn,
         },
         {
             "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
@@ -189,29 +171,21 @@ def uncertainty_dataset(
     )
 
 
-def _coordinates(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> dict[str, Any]:
-    """Return what each source drew, over `sample`."""
-    return {
-        name: (
-            "sample",
-            np.array([inputs.coordinates[name] for inputs in drawn], dtype=float),
-            variable_attributes(number.long_name, number.unit) | {"source": source.name},
-        )
-        for source in sources
-        for name, number in source.coordinates.items()
-    }
-
-
-def drawn_logarithms(sources: Sequence[Source], drawn: Sequence[SampledInputs]) -> dict[str, Array]:
-    """Return logarithms of what each source drew, by its name, shape (samples, coordinates)."""
+def drawn_values(
+    sources: Sequence[Source], drawn: Sequence[SampledInputs]
+) -> tuple[dict[str, Any], dict[str, Array]]:
+    """Return what was drawn over `sample`, and by source its logarithms (samples, coordinates)."""
+    values: dict[str, Any] = {}
     logarithms = {}
     for source in sources:
         columns = []
         for name, number in source.coordinates.items():
             column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
+            attributes = designs.variable_attributes(number.long_name, number.unit)
+            values[name] = ("sample", column, attributes | {"source": source.name})
             columns.append(column if number.logarithm else np.log(column))
         logarithms[source.name] = np.stack(columns, axis=-1)
-    return logarithms
+    return values, logarithms
 
 
 _SHARES = {
@@ -242,7 +216,7 @@ def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -
         parts[at] = xr.Dataset(
             {f"{name}_{part}": (dims, values) for (part, (dims, _)), values in columns}
         )
-    return stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
+    return designs.stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
 
 FOLDER, _RESULT = "uncertainty", "uncertainty.nc"
@@ -256,7 +230,7 @@ _FILES = "file_sha256"
 
 
 def stored_uncertainty(results: Path) -> xr.Dataset | None:
-    """Return the uncertainty in the results folder of a case, or None if there is none whole."""
+    """Return the uncertainty in the results folder of a case, or None without a whole one."""
     return load_stored(results / FOLDER / _RESULT)
 
 
@@ -265,17 +239,17 @@ def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = 
 
     `digests` are those of the files it names; None where they are not known.
     """
-    if _inputs(str(data.attrs.get("case", ""))) != _inputs(text):
+
+    def inputs(case: str) -> dict[str, Any] | None:
+        try:
+            tables = tomllib.loads(case)
+        except tomllib.TOMLDecodeError:
+            return None
+        return {name: table for name, table in tables.items() if name not in NO_INPUTS}
+
+    if inputs(str(data.attrs.get("case", ""))) != inputs(text):
         return False
     return digests is None or sorted(json.loads(data.attrs.get(_FILES, "[]"))) == sorted(digests)
-
-
-def _inputs(text: str) -> dict[str, Any] | None:
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        return None
-    return {name: table for name, table in tables.items() if name not in NO_INPUTS}
 
 
 FIRST_ORDER = "{}_first_order"
@@ -339,23 +313,9 @@ def propagate(
         The case; its speed is the one of the prediction.
     uncertainty : Uncertainty, optional
         What is taken to be uncertain; by default what the case states, or every source it has.
-    samples : int, optional
-        Samples, 10 to 100 000. This, and all that follows, by default as the case states it.
-    seed : int, optional
-        Seed of the random numbers.
-    models : sequence of str, optional
-        "chain" (as the case asks for it), "direct", or both; by default "direct" where profiles
-        were measured.
-    vary : mapping, optional
-        Speeds or pressures, as for `gripscale.questions.Study`; the same samples at each.
-    tolerance : float, optional
-        Estimated relative error of a direct contact, below 1. Without one it is that of the first
-        full grid, about a tenth; asking for less than it has doubles the grid.
-    folder : path, optional
-        Gets `uncertainty.nc`, and the predictions in `predictions`: what it has is not solved
-        again.
-    workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
+    samples, seed, models, vary, tolerance, folder, workers, client, on_task
+        As for `gripscale.uncertainty`. The folder gets `uncertainty.nc`, and the predictions in
+        `predictions`.
 
     Returns
     -------
@@ -374,15 +334,16 @@ def propagate(
     InputError, FileError
         If an argument or a file cannot be used, or a result cannot be written.
     """
-    options = stated_options(case)
-    accuracy = options.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
-    number = options.samples if samples is None else samples
-    choice = Uncertainty.of_case(options) if uncertainty is None else uncertainty
+    defaults = sampling.stated_options(case)
+    choice = Uncertainty.of_case(defaults) if uncertainty is None else uncertainty
+    number = defaults.samples if samples is None else samples
+    start = defaults.seed if seed is None else seed
+    accuracy = defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
     plan = Plan(
         case,
         choice,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", options.seed if seed is None else seed, least=0, most=MOST_SEED),
+        checks.whole("seed", start, least=0, most=MOST_SEED),
         _models(stated_models(case, choice) if models is None else models),
         _axis(vary),
         accuracy,
@@ -399,18 +360,18 @@ def propagate(
 
 
 def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
-    """Return the models a case states; by default the one its answer is of, as far as it is quick.
+    """Return the models a case states; by default that of its answer, if it is quick.
 
     The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
     only the chain has asks for both.
     """
-    model, measured = stated_options(case).model, case.surface.measured
-    if model is None and (measured is None or measured.map is not None):
-        model = "chain"
-    elif model is None:
+    word, measured = sampling.stated_options(case).model, case.surface.measured
+    if word is None and (measured is None or measured.map is not None):
+        word = "chain"
+    elif word is None:
         of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
-        model = "both" if of_chain else "direct"
-    return BOTH[model]
+        word = "both" if of_chain else "direct"
+    return BOTH[word]
 
 
 def _models(names: Sequence[str]) -> tuple[str, ...]:
@@ -433,11 +394,11 @@ def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
     return axes[0]
 
 
-def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
+def _answered(plan: Plan, chosen: sampling.Chosen, bench: Bench) -> xr.Dataset:
     """Return all samples, and the answer of the case at each load."""
     case, axis = plan.case, plan.axis
     usual = Inputs.of(Measurement.of(case))
-    drawn = list(draws(usual, chosen.sources, plan.samples, plan.seed))
+    drawn = list(sampling.draws(usual, chosen.sources, plan.samples, plan.seed))
     loads, labels = [case.load], [""]
     if axis is not None:
         loads = [replace(case.load, **{axis.name: value}) for value in axis.values]
@@ -450,8 +411,8 @@ def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
     for reference in references:
         tasks |= {} if reference is None else reference.tasks
     answers = bench.solve(tasks, sample_numbers)
-    logarithms = drawn_logarithms(chosen.sources, drawn)
-    data = uncertainty_dataset(design.dataset(answers), drawn, chosen, logarithms)
+    values, logarithms = drawn_values(chosen.sources, drawn)
+    data = uncertainty_dataset(design.dataset(answers), chosen, values, logarithms)
     answered = []
     for at, (load, reference) in enumerate(zip(loads, references, strict=True)):
         part = data if axis is None else data.isel({axis.name: at}, drop=True)
@@ -461,7 +422,7 @@ def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
             continue
         direct = None
         if DirectContact.name in plan.models:
-            direct = _as_solved(part.sel(model=DirectContact.name))
+            direct = part.sel(model=DirectContact.name)
         samples = reference.dataset(answers)
         answered.append(measured_answer(samples, case, load, direct, chosen.sources, logarithms))
     answer = answered[0] if axis is None else xr.concat(answered, axis.name)
@@ -480,36 +441,25 @@ def _answered(plan: Plan, chosen: Chosen, bench: Bench) -> xr.Dataset:
     )
 
 
-def _as_solved(direct: xr.Dataset) -> xr.Dataset:
-    """Return samples of the direct contact without the error of the grid that was drawn."""
-    if GRID_PLACE not in direct:
-        return direct
-    drawn = {
-        name: np.exp(direct[GRID_PLACE] * direct[f"{name}_grid_error"].fillna(0.0))
-        for name in PROPAGATED_QUANTITIES
-    }
-    return direct.assign({name: direct[name] / factor for name, factor in drawn.items()})
-
-
 def _design(plan: Plan, samples: Sequence[SampledInputs], loads: Sequence[Load]) -> Design:
     """Return the tasks of the samples, of which the first is the case, by each model and load."""
     case, axis = plan.case, plan.axis
     points: list[Point] = []
-    refused: dict[Index, str] = {}
+    refused: dict[designs.Index, str] = {}
     for at, name in enumerate(plan.models):
-        model: Model = case.chain
+        predicting: Model = case.chain
         if name == DirectContact.name:
             if case.surface.measured is None:
                 raise InputError(
                     "the direct contact needs a measured profile; got waves stated by hand"
                 )
-            model = DirectContact(tolerance=plan.tolerance, conditions=case.conditions)
+            predicting = DirectContact(tolerance=plan.tolerance, conditions=case.conditions)
         for sample, inputs in enumerate(samples):
             by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
             try:
                 if inputs.inputs is None:
                     raise InputError(inputs.why_not)
-                tasks = inputs.inputs.tasks(model, loads)
+                tasks = inputs.inputs.tasks(predicting, loads)
             except InputError as refusal:
                 refused |= dict.fromkeys(by_load, str(refusal))
                 continue

@@ -15,7 +15,9 @@ from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask
 from gripscale.io.table import Table
 from gripscale.questions.answer.answer import NumbersWithIntervals
+from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.uncertainty import page
+from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.propagation import propagate
 from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
 from gripscale.report.elements import Page
@@ -31,8 +33,12 @@ class SampledAnswer(NumbersWithIntervals):
 
     @property
     def lines(self) -> Sequence[str]:
-        """The answer with its interval; over a varied input the range of the answers."""
-        return tuple(page.answer_lines_of(self.data))
+        """The answer with what its interval holds; at several loads what the intervals hold."""
+        held = page.interval_sentence(self.data)
+        if axis_of(self.data):
+            return (held,)
+        first, *below = answer_lines(self.data)
+        return (first, f"  {held}", *below)
 
     @property
     def findings(self) -> Sequence[Finding]:
@@ -45,8 +51,15 @@ class SampledAnswer(NumbersWithIntervals):
         return str(page.sampling_failure(self.data)) if page.too_many_failed(self.data) else ""
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the parts of the interval, the samples and the shares of the sources."""
-        yield from page.uncertainty_parts(self.data)
+        """Yield what matters most to the answer, the quantiles of the models, then warnings."""
+        if axis := axis_of(self.data):
+            yield page.answer_table(self.data, axis)
+        yield from page.part_tables(self.data)
+        yield page.quantile_table(self.data)
+        yield from page.share_parts(self.data)
+        yield from page.grid_sentences(self.data)
+        yield from page.left_out_sentences(self.data)
+        yield from map(str, filter(None, [page.sampling_failure(self.data)]))
 
     def table(self) -> Table:
         """Return the parts of the interval, the largest first."""
@@ -54,8 +67,6 @@ class SampledAnswer(NumbersWithIntervals):
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
         """Yield what matters most, and how friction and contact area scatter."""
-        from gripscale.questions.uncertainty.charts import uncertainty_pictures
-
         for picture in uncertainty_pictures(self.data):
             yield picture.name, picture.figure
 

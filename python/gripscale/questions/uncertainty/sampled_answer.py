@@ -20,7 +20,7 @@ one.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -34,7 +34,7 @@ from gripscale.questions.answer.best_estimate import BASIS_SHARES, ESTIMATED, Sa
 from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_totals
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.answer.samples import running, usable
-from gripscale.questions.uncertainty.sources import Source
+from gripscale.questions.uncertainty.sources import GRID_PLACE, Source
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.rubber.extrapolation import Extrapolation
 
@@ -44,21 +44,19 @@ FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
 """Name of the share of the friction in waves shorter than the `resolution_limit` [m]."""
 ROAD, GRID, REST = "profile", "grid", "together"
 """Sources that are errors of the answer itself, too; and what no source does alone."""
-
-
 NOT_ALONE, TOGETHER = "none of them alone", "all inputs together"
 """What tables call `REST`: beside sources, and where the samples are too few to tell them apart."""
 
 
 class SampledError(NamedTuple):
-    """What samples say of the logarithm of one number."""
+    """What samples say of the logarithm of one number [-]."""
 
     errors: list[LogError]
     """Independent errors, which add up in squares."""
     variance: dict[str, float]
-    """Of each source, and `REST` [-]."""
+    """Of each source, and `REST`."""
     share_error: dict[str, float]
-    """Standard error of the variance of a source [-]."""
+    """Standard error of the variance of a source."""
 
 
 def sampled_error(
@@ -66,16 +64,9 @@ def sampled_error(
 ) -> SampledError:
     """Return the error that samples of a number show, and its parts; NaN for fewer than two.
 
-    Parameters
-    ----------
-    values : array, shape (samples,)
-        Above zero [-]; NaN samples do not count.
-    case : float
-        The number of the case itself [-].
-    logarithms : mapping
-        What each source drew, as for `gripscale.questions.shares`.
-    freedom : mapping
-        Degrees of freedom of the sources that know theirs.
+    `case` is the number of the case itself; samples that are NaN do not count. `logarithms` are of
+    what each source drew, as for `shares`, and `freedom` the degrees of freedom of those that have
+    some.
     """
     with np.errstate(divide="ignore", invalid="ignore"):  # without friction at rest
         logs = np.log(values / case)
@@ -112,30 +103,13 @@ def measured_answer(
     sources: Sequence[Source],
     logarithms: Mapping[str, Array],
 ) -> xr.Dataset:
-    """Return the answer of a case with a measured surface under one load.
+    """Return the answer of a case with a measured surface under one load, widened by samples.
 
-    Parameters
-    ----------
-    reference : xarray.Dataset
-        Samples of `gripscale.questions.compare.comparison.reference_design` under the load.
-    case : Case
-        The case.
-    load : Load
-        The load.
-    direct : xarray.Dataset or None
-        Samples of the direct contact over `sample` with `_case` of the case itself; None if only
-        the chain was sampled, whose errors say nothing of the direct contact.
-    sources : sequence of Source
-        What was drawn.
-    logarithms : mapping
-        The draws, as for `gripscale.questions.shares`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Of `reference_totals`, the interval widened by the samples;
-        `best_..._half_width_of_run` is without them; over `part` the standard errors
-        `best_..._part_error` the interval is made of, `part_label`.
+    `reference` are the samples of `direct_contact_design`. `direct` holds the drawn samples of the
+    direct contact with `_case` of the case itself; None if only the chain was sampled, whose
+    errors say nothing of the direct contact. In the answer `best_..._half_width_of_run` is without
+    samples; over `part` stand `part_label` and the standard errors `best_..._part_error` that the
+    interval is made of.
     """
     curve = continued_curve(case, load)
     total = of_run = direct_contact_totals(reference, case, load, curve)
@@ -147,28 +121,23 @@ def measured_answer(
         drawn = {source.name: logarithms[source.name] for source in ours}
         freedom = {s.name: s.freedom for s in ours if s.freedom is not None}
         for name, measure in ESTIMATED.items():
+            values = direct[measure]
+            if GRID_PLACE in direct and f"{measure}_grid_error" in direct:
+                error = direct[f"{measure}_grid_error"].fillna(0.0)
+                values = values / np.exp(direct[GRID_PLACE] * error)
             usual = float(direct[f"{measure}_case"])
-            errors[name] = sampled_error(direct[measure].values, usual, drawn, freedom)
+            errors[name] = sampled_error(values.values, usual, drawn, freedom)
         sampled = {name: error.errors for name, error in errors.items()}
         total = direct_contact_totals(reference, case, load, curve, SampledErrors(sampled, of_road))
-    labels = {source.name: source.label for source in sources}
-    total = total.assign(_below_measurement(reference, case))
-    return _with_parts(total, of_run, errors, labels, of_road=of_road)
-
-
-def _below_measurement(reference: xr.Dataset, case: Case) -> dict[str, float]:
-    """Return the shortest wavelength that was measured [m], and how much friction is below it.
-
-    Roughness that ends there has none: its shorter waves are those of the rubber at edges.
-    """
     correlation = case.surface.correlation
     limit = None if correlation is None else correlation.resolution_limit
-    if limit is None or resolved_wavelength(case.surface) > 0.99 * limit:
-        return {}
-    above = float(running(reference, "friction", np.array([limit]))[0])
-    total = float(usable(reference, "friction_from_dissipation").mean("sample"))
-    share = 1.0 - above / total if total > 0.0 else math.nan
-    return {"resolution_limit": limit, FRICTION_BELOW_MEASUREMENT: share}
+    # roughness that ends at the limit has no friction below it: shorter waves are of the edges
+    if limit is not None and resolved_wavelength(case.surface) <= 0.99 * limit:
+        above = float(running(reference, "friction", np.array([limit]))[0])
+        friction = float(usable(reference, "friction_from_dissipation").mean("sample"))
+        share = 1.0 - above / friction if friction > 0.0 else math.nan
+        total = total.assign({"resolution_limit": limit, FRICTION_BELOW_MEASUREMENT: share})
+    return _with_parts(total, of_run, errors, sources, of_road=of_road)
 
 
 def chain_answer(
@@ -180,7 +149,7 @@ def chain_answer(
 ) -> xr.Dataset:
     """Return the answer of a case of waves stated by hand: the chain, with the scatter of samples.
 
-    Arguments and result as of `measured_answer`, with no factors and nothing of a road.
+    As `measured_answer`, with no factors and nothing of a road.
     """
     drawn = {source.name: logarithms[source.name] for source in sources}
     best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
@@ -203,51 +172,42 @@ def chain_answer(
     answered = predicted_answer(
         best, totals, str(chain.status_case.item()), "chain", load, beyond, status_word=word
     )
-    labels = {source.name: source.label for source in sources}
-    return _with_parts(answered, answered, errors, labels, of_road=True)
+    return _with_parts(answered, answered, errors, sources, of_road=True)
 
 
 def _with_parts(
     total: xr.Dataset,
     of_run: xr.Dataset,
     sampled: Mapping[str, SampledError],
-    labels: Mapping[str, str],
+    sources: Sequence[Source],
     *,
     of_road: bool,
 ) -> xr.Dataset:
     """Return an answer with what `run` says, and with the parts of its interval."""
-    parts: dict[str, xr.Variable] = {}
+    labels = {source.name: source.label for source in sources}
+    data: dict[str, xr.Variable] = {}
     for name in ESTIMATED:
-        rows = list(_parts(total, name, sampled.get(name), labels, of_road=of_road))
-        texts, sigma, error = (np.array(column) for column in zip(*rows, strict=True))
-        parts["part_label"] = xr.Variable("part", texts.astype(object))
+        square = float(total[f"best_{name}_uncertainty"]) ** 2
+        error = sampled.get(name, SampledError([], {}, {}))
+        parts: list[tuple[str, float, float]] = []
+        for source, variance in error.variance.items():
+            text = labels.get(source, NOT_ALONE if len(error.variance) > 1 else TOGETHER)
+            share_error = error.share_error.get(source, math.nan)
+            share_error = share_error / square if square > 0.0 else math.nan
+            parts.append((text, math.sqrt(variance), share_error))
+        if not of_road:
+            road = float(total[f"best_{name}_sampling_error"])
+            parts.append(("stretch of road measured", road, math.nan))
+        if math.isfinite(grid := float(total[f"best_{name}_grid_error"])):
+            parts.append(("grid of the answer", grid, math.nan))
+        factors = total[f"best_{name}_factor_uncertainty"].values.tolist()
+        for label, factor in zip(total.factor_label.values, factors, strict=True):
+            if math.isfinite(factor):
+                parts.append((f"factor: {label}", factor, math.nan))
+        texts, sigma, share = (np.array(column) for column in zip(*parts, strict=True))
         about = {"units": "1"}
-        parts[f"best_{name}_part_error"] = xr.Variable("part", sigma, about)
-        parts[f"best_{name}_part_share_error"] = xr.Variable("part", error, about)
-        parts[f"best_{name}_{OF_RUN}"] = of_run[f"best_{name}_half_width"].variable
-    return total.assign(parts)
-
-
-def _parts(
-    total: xr.Dataset,
-    name: str,
-    sampled: SampledError | None,
-    labels: Mapping[str, str],
-    *,
-    of_road: bool,
-) -> Iterator[tuple[str, float, float]]:
-    """Yield label, standard error and standard error of the share of each part of an interval."""
-    square = float(total[f"best_{name}_uncertainty"]) ** 2
-    variances = {} if sampled is None else sampled.variance
-    for source, variance in variances.items():
-        text = labels.get(source, NOT_ALONE if len(variances) > 1 else TOGETHER)
-        share_error = sampled.share_error.get(source, math.nan) if sampled else math.nan
-        yield text, math.sqrt(variance), share_error / square if square > 0.0 else math.nan
-    if not of_road:
-        yield "stretch of road measured", float(total[f"best_{name}_sampling_error"]), math.nan
-    if math.isfinite(float(total[f"best_{name}_grid_error"])):
-        yield "grid of the answer", float(total[f"best_{name}_grid_error"]), math.nan
-    uncertainties = total[f"best_{name}_factor_uncertainty"].values.tolist()
-    for label, sigma in zip(total.factor_label.values, uncertainties, strict=True):
-        if math.isfinite(sigma):
-            yield f"factor: {label}", sigma, math.nan
+        data["part_label"] = xr.Variable("part", texts.astype(object))
+        data[f"best_{name}_part_error"] = xr.Variable("part", sigma, about)
+        data[f"best_{name}_part_share_error"] = xr.Variable("part", share, about)
+        data[f"best_{name}_{OF_RUN}"] = of_run[f"best_{name}_half_width"].variable
+    return total.assign(data)

@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from gripscale import model
 from gripscale.case import Case
@@ -20,39 +21,29 @@ from gripscale.core.checks import Checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import parse_quantity
 from gripscale.experiment.task import Task
-from gripscale.model import Load, LoadTime, Model
+from gripscale.model import Load, Model, OnProgress
 from gripscale.questions.vary.axis import plain_number
 from gripscale.rubber import PronyFit, Rubber
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.surface import (
-    HeightDifference,
-    Measured,
-    Profile,
-    Surface,
-    SurfacePart,
-    fit_sines,
-    height_difference,
-)
+from gripscale.surface import Profile, fit_sines
+from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.resampling import fill_gaps_smoothly
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
+from gripscale.surface.surface import Measured, Surface, SurfacePart
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
     """Return the solver for waves loaded `factor` [-] times as long: t_i = factor A_(i-1) / v.
 
     The load time is that of a mean contact; contacts are shorter and longer than their mean, and
-    the modulus of the mean state goes with it. Raises `InputError` if the factor is not above zero.
+    the modulus of the mean state goes with it.
     """
-    times = checks.positive("factor", factor)
     if isinstance(solver, RefinableSolver):
-        return RefinableLongerLoaded(solver, times)
-    return LongerLoaded(solver, times)
+        return RefinableLongerLoaded(solver, factor)
+    return LongerLoaded(solver, factor)
 
 
 @dataclass(frozen=True)
@@ -94,34 +85,21 @@ class Measurement:
 
     surface: Surface
     rubber: Rubber
+    load: Load
     master: MasterCurve | None = None
     fit: PronyFit | None = None
-    speed: float = 0.0
-    """Sliding speed of the case [m/s]."""
-    pressure: float = math.nan
-    """Nominal pressure of the case [Pa]."""
     temperature: float | None = None
     """Before the contact [K]; None where it is not known."""
-    load_time: LoadTime = "passage"
     cleaning: Mapping[str, Any] = field(default_factory=dict)
     """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
 
     @classmethod
     def of(cls, case: Case) -> Measurement:
         """Return what a prepared case is known from."""
-        rubber, load = case.measured_rubber, case.load
-        kelvin = (case.conditions or Conditions()).temperature_of(rubber.rubber)
-        return cls(
-            case.surface,
-            rubber.rubber,
-            rubber.master,
-            rubber.fit,
-            load.speed,
-            load.pressure,
-            kelvin,
-            load.load_time,
-            case.cleaning,
-        )
+        measured = case.measured_rubber
+        rubber, master, fit = measured.rubber, measured.master, measured.fit
+        kelvin = (case.conditions or Conditions()).temperature_of(rubber)
+        return cls(case.surface, rubber, case.load, master, fit, kelvin, case.cleaning)
 
     @property
     def profiles(self) -> list[Profile]:
@@ -155,7 +133,7 @@ class CleanedProfiles:
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """The inputs of one sample, before any model is asked: as prepared, or as drawn."""
+    """The inputs of one sample: as prepared, or as drawn."""
 
     surface: Surface
     rubber: Rubber
@@ -212,10 +190,7 @@ class Inputs:
         return next((float(end) for end in ends if end), self.surface.cutoff_wavelength)
 
     def ended_at(self, wavelength: float) -> Inputs:
-        """Return the inputs with the end of the waves at a wavelength [m].
-
-        It is the cut-off where the case states one, else the last wave.
-        """
+        """Return the inputs with a cut-off [m], or a last wave where the case states none."""
         name = "cut_off" if self.fit.get("cut_off") is not None else "smallest_wavelength"
         fit = {**self.fit, **dict.fromkeys(END_KEYS), name: wavelength}
         if fit.get("s_wavelength") is not None:
@@ -229,7 +204,11 @@ class Inputs:
         """
         surface = self.surface
         if self.warming:
-            model = self._warmed(model)
+            conditions = model.conditions or Conditions()
+            kelvin = conditions.temperature_of(self.rubber)
+            assert kelvin is not None  # the source has asked for it
+            warmed = replace(conditions, temperature=kelvin + self.warming)
+            model = model.with_conditions(warmed)
         if "waves" not in model.needs:
             return Surface(None, surface.source, measured=self.measured, end=self.end), model
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
@@ -241,10 +220,7 @@ class Inputs:
         return replace(surface, waves=fit_sines(correlation, **self.fit)), model
 
     def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
-        """Return what has to be solved under each load; a refusal of the model is an answer.
-
-        Raises `InputError` as `for_model` does.
-        """
+        """Return what has to be solved under each load; a refusal of the model is an answer."""
         surface, changed = self.for_model(model)
         relevant = surface.only(changed.needs)
         solved = FailSafeModel(changed)
@@ -253,12 +229,6 @@ class Inputs:
     def under(self, load: Load) -> Load:
         """Return a load with the pressure of this sample."""
         return replace(load, pressure=load.pressure * math.exp(self.log_pressure))
-
-    def _warmed(self, model: Model) -> Model:
-        conditions = model.conditions or Conditions()
-        kelvin = conditions.temperature_of(self.rubber)
-        assert kelvin is not None  # the source has asked for it
-        return model.with_conditions(replace(conditions, temperature=kelvin + self.warming))
 
 
 class Range(Checked):
@@ -302,8 +272,7 @@ class Range(Checked):
     def read(cls, name: str, text: Any, quantity: Callable[[Any], float]) -> Range:
         """Return the range of a text such as `1 GPa:3 GPa` or `1 GPa,2 GPa`, a number or several.
 
-        Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units and
-        raises `InputError` for one that cannot be used.
+        Two numbers in a tuple or a list are ends. `quantity` turns an entry into SI units.
         """
         if isinstance(text, Range):
             return text
@@ -361,10 +330,7 @@ kelvins = partial(_quantity, kind="temperature difference", unit="K")
 
 @dataclass(frozen=True)
 class FailSafeModel(Model):
-    """Another model, whose refusal of an input is an answer without totals that says why.
-
-    So one sample of many does not end them all.
-    """
+    """Another model, whose refusal of an input is an answer that says why, and ends no others."""
 
     model: Model
 
@@ -378,31 +344,10 @@ class FailSafeModel(Model):
         """Parts of a surface that the model within depends on."""
         return self.model.needs
 
-    @property
-    def takes_conditions(self) -> bool:
-        """Whether the model within takes conditions."""
-        return self.model.takes_conditions
-
-    @property
-    def conditions(self) -> Conditions | None:
-        """Conditions of the model within."""
-        return self.model.conditions
-
-    def with_conditions(self, conditions: Conditions | None) -> FailSafeModel:
-        """Return the model within under other conditions."""
-        return FailSafeModel(self.model.with_conditions(conditions))
-
     def predict(
-        self,
-        rubber: Rubber,
-        surface: Surface,
-        load: Load,
-        *,
-        on_progress: Callable[[Any], None] | None = None,
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer of the model within, or why there is none as `prediction_status`."""
-        import xarray as xr
-
         try:
             return self.model.predict(rubber, surface, load, on_progress=on_progress)
         except InputError as refusal:

@@ -87,10 +87,8 @@ class Uncertainty:
     ) -> Uncertainty:
         """Return what a case states, or what is stated here in its place.
 
-        What is `ranges` of a source goes before that the case gives or leaves it out, and `without`
-        before all that the case leaves out and gives of the same.
-
-        Raises `InputError` as the constructor does.
+        A source in `ranges` goes before that the case gives or leaves it out, and `without` before
+        all that the case leaves out and gives of the same.
         """
         ranged = options.ranges.items()
         merged = {name: value for name, value in ranged if name not in (without or ())}

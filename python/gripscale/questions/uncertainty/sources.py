@@ -18,28 +18,27 @@ from gripscale.core.errors import InputError
 from gripscale.questions.uncertainty import sampled_inputs as quantities
 from gripscale.questions.uncertainty.options import pressure_error
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
-from gripscale.questions.uncertainty.sampled_inputs import (
-    CleanedProfiles,
-    Inputs,
-    Measurement,
-    Range,
-)
+from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inputs, Measurement
 from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
 from gripscale.surface.sines import FACTOR_RANGE
 
+STATED = ("height_noise", "temperature", "pressure")
+"""Sources whose standard error a case must state: nothing in it says how large it is."""
+NOT_STATED = "standard error not stated"
+
 
 class Coordinate(NamedTuple):
     """A number that says what a source drew: its unit and meaning.
 
-    A factor is told by its logarithm, and is `logarithm` then, as is a number of either sign; of
-    any other, above zero, the logarithm is taken where the effect of a source is estimated.
+    A factor is given by its logarithm and is `logarithm`, and so is a number of either sign. Of
+    other numbers, above zero, the logarithm is taken where the effect of a source is estimated.
     """
 
-    unit: str
     long_name: str
-    logarithm: bool = False
+    unit: str = "1"
+    logarithm: bool = True
 
 
 @dataclass(frozen=True)
@@ -49,6 +48,22 @@ class SourceOptions:
     values: Any = None
     block_length: float | None = None
     models: Sequence[str] = ()
+
+    def range_of(
+        self, name: str, quantity: Callable[[Any], float], usual: quantities.Range
+    ) -> quantities.Range:
+        """Return the values the user states, else the usual range."""
+        return usual if self.values is None else quantities.Range.read(name, self.values, quantity)
+
+    def standard_error(self, name: str, quantity: Callable[[Any], float]) -> float:
+        """Return the standard error the user states [SI]; raise `InputError` for what is none."""
+        if self.values is None:
+            raise SourceNotApplicable(NOT_STATED)
+        try:
+            return quantity(self.values)
+        except ValueError as wrong:
+            short = checks.short_repr(self.values)
+            raise InputError(f"{name}: {short}: {wrong}") from wrong
 
 
 class SourceNotApplicable(InputError):
@@ -61,6 +76,8 @@ Drawn = tuple[Inputs, Sequence[float]]
 Draw = Callable[[float, np.random.Generator, Inputs], Drawn]
 """Draws from a quantile, above 0 and below 1 and spread evenly over all samples, the random numbers
 of one sample and its inputs."""
+
+Prepare = Callable[[Measurement, SourceOptions], Draw]
 
 
 @dataclass(frozen=True)
@@ -77,8 +94,8 @@ class Source:
     models: tuple[str, ...]
     """Names of the models it has an effect on."""
     coordinates: Mapping[str, Coordinate]
-    prepare: Callable[[Measurement, SourceOptions], Draw]
-    """Makes what draws for a case; raises `SourceNotApplicable` if there is nothing to draw."""
+    prepare: Prepare
+    """Makes what draws; raises `SourceNotApplicable`, or `InputError` for options of no use."""
     draw: Draw | None = None
     """None before the source is that of a case."""
 
@@ -88,11 +105,7 @@ class Source:
         return self.draw.freedom if isinstance(self.draw, BlockDraw) else None
 
     def of(self, measurement: Measurement, options: SourceOptions) -> Source:
-        """Return the source of a case.
-
-        Raises `SourceNotApplicable` if it has nothing to draw, `InputError` if the options cannot
-        be used.
-        """
+        """Return the source of a case, as `prepare` makes it."""
         return replace(self, draw=self.prepare(measurement, options))
 
 
@@ -126,29 +139,34 @@ class BlockDraw:
         return changed, self.blocks.log_ratios(drawn).tolist()
 
 
-def _profile(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw another stretch of the same road."""
-    if not measurement.fitted or not measurement.profiles:
-        raise SourceNotApplicable("no profile was measured")
-    if "direct" in options.models and measurement.is_map:
-        raise InputError(
-            "the direct contact of a map has no blocks of profiles to draw; leave out the "
-            "source profile (without), or ask for the chain only"
-        )
-    surface = measurement.surface
-    largest = float(surface.sines.wavelength[0])
-    blocks = ProfileBlocks(measurement.profiles, largest, options.block_length, surface.counted)
-    if "direct" in options.models:
-        blocks.require_lines()
-    return BlockDraw(blocks)
+_BOTH = ("chain", "direct")
+
+SOURCES: dict[str, Source] = {}
+"""In the order of the functions below, in which they are drawn: noisy profiles are cleaned and cut
+into blocks, the waves are fitted last."""
 
 
-USUAL_SPIKE = 3.0
-SPIKE_RANGE = (1.5, 10.0)
-"""Change of height per step at which neighbours are a spike: ISO 13473-1 says 3; half of it marks
-many true flanks, three times of it leaves most spikes of a laser standing."""
-SPIKE_LEVELS = 8
-"""Limits a range is drawn at: the profiles are cleaned once for each."""
+def _source(
+    label: str, models: tuple[str, ...] = _BOTH, /, **coordinates: Coordinate
+) -> Callable[[Prepare], Prepare]:
+    """Enter what prepares a source in `SOURCES`, by its name without the underscore."""
+
+    def entered(prepare: Prepare) -> Prepare:
+        name = prepare.__name__.removeprefix("_")
+        SOURCES[name] = Source(name, label, models, coordinates, prepare)
+        return prepare
+
+    return entered
+
+
+def _number(value_at: Callable[[float], float], applied: Callable[[Inputs, float], Inputs]) -> Draw:
+    """Draw a number by its quantile and apply it."""
+
+    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
+        value = value_at(quantile)
+        return applied(inputs, value), [value]
+
+    return draw
 
 
 def _cleaned(lines: Sequence[Profile], measurement: Measurement, **changed: Any) -> CleanedProfiles:
@@ -158,89 +176,14 @@ def _cleaned(lines: Sequence[Profile], measurement: Measurement, **changed: Any)
     return CleanedProfiles(after, measurement.surface.counted)
 
 
-def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw the limit of spikes, and how the gaps they leave are filled.
-
-    Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
-    points of a coarse road at low limits, and is a choice of the case.
-    """
-    usual, measured = measurement.cleaning, measurement.surface.measured
-    if measured is None or not usual:
-        raise SourceNotApplicable("no profile was measured")
-    if measurement.is_map:
-        raise SourceNotApplicable("a map is cleaned as the case states")
-    scale = usual["spike_slope"] / USUAL_SPIKE
-    values = Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
-    raw = [line for line, _ in measured.profiles]
-    if options.values is not None:
-        values = Range.read("cleaning", options.values, quantities.factor)
-    elif not usual["remove_spikes"]:
-        raise SourceNotApplicable("the case leaves spikes in")
-    levels = values.levels(SPIKE_LEVELS)
-
-    def cleaned(lines: Sequence[Profile], slope: float) -> CleanedProfiles:
-        changed = {"remove_spikes": True, "spike_slope": slope}
-        return _cleaned(lines, measurement, **changed)
-
-    as_measured = cache(partial(cleaned, raw))
-
-    def draw(quantile: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
-        slope, smooth = levels.at(quantile), bool(random.integers(2))
-        lines = as_measured(slope) if inputs.raw is None else cleaned(inputs.raw(), slope)
-        changed = replace(inputs, cleaned=lines, smooth_gaps=smooth)
-        return changed, [math.log(slope / usual["spike_slope"]), float(smooth)]
-
-    return draw
+def _rms_step(lines: Sequence[Profile]) -> float:
+    """Return the rms difference of neighbouring heights [m]."""
+    return math.sqrt(float(np.nanmean(np.concatenate([np.diff(line.z) ** 2 for line in lines]))))
 
 
-def _grid(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw where within the estimated error of its grid the answer of a sample lies."""
-    if measurement.surface.measured is None:
-        raise SourceNotApplicable("no profile was measured")
-
-    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
-        return inputs, [2.0 * quantile - 1.0]
-
-    return draw
-
-
-def _modulus(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw a series the measured moduli leave open, see `SeriesScatter`; series have no order."""
-    master, fit, speed = measurement.master, measurement.fit, measurement.speed
-    if master is None or fit is None:
-        raise SourceNotApplicable("no moduli were measured")
-    series = SeriesScatter.of(master, fit, measurement.rubber.bulk_modulus)
-    excited = 2.0 * np.pi * speed / measurement.surface.sines.wavelength[[0, -1]]
-    omega = excited if speed > 0.0 else np.array(fit.measured_band)
-
-    def draw(_: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
-        drawn = with_series(inputs.rubber, series.draw(random))
-        ratios = _log_ratios(drawn, omega) - _log_ratios(inputs.rubber, omega)
-        return replace(inputs, rubber=drawn), ratios.ravel().tolist()
-
-    return draw
-
-
-def _log_ratios(rubber: Rubber, omega: Array) -> Array:
-    """Return ln |E*| and ln E''/E' at each frequency, shape (frequencies, 2)."""
-    modulus = rubber.complex_modulus(omega)
-    parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
-    return np.asarray(np.log(parts))
-
-
-STATED = ("height_noise", "temperature", "pressure")
-"""Sources whose standard error a case must state: nothing in it says how large it is."""
-NOT_STATED = "standard error not stated"
-
-
-def _standard_error(name: str, value: Any, quantity: Callable[[Any], float]) -> float:
-    """Return the standard error of a source [SI]; raise `InputError` for what is none."""
-    try:
-        return quantity(value)
-    except ValueError as wrong:
-        raise InputError(f"{name}: {checks.short_repr(value)}: {wrong}") from wrong
-
-
+@_source(
+    "noise of the heights", rms_step=Coordinate("ln of the rms step over that of the profiles")
+)
 def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the noise of the instrument once more, before the profiles are cleaned.
 
@@ -252,9 +195,7 @@ def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
         raise SourceNotApplicable("no profile was measured")
     if measurement.is_map:
         raise SourceNotApplicable("a map is taken as measured")
-    if options.values is None:
-        raise SourceNotApplicable(NOT_STATED)
-    size = _standard_error("height_noise", options.values, quantities.length)
+    size = options.standard_error("height_noise", quantities.length)
     usual = _rms_step(measurement.profiles)
 
     def noisy(seed: int) -> list[Profile]:
@@ -273,46 +214,119 @@ def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
     return draw
 
 
-def _rms_step(lines: Sequence[Profile]) -> float:
-    """Return the rms difference of neighbouring heights [m]."""
-    return math.sqrt(float(np.nanmean(np.concatenate([np.diff(line.z) ** 2 for line in lines]))))
+USUAL_SPIKE = 3.0
+SPIKE_RANGE = (1.5, 10.0)
+"""Change of height per step at which neighbours are a spike: ISO 13473-1 says 3; half of it marks
+many true flanks, three times of it leaves most spikes of a laser standing."""
+SPIKE_LEVELS = 8
+"""Limits a range is drawn at: the profiles are cleaned once for each."""
 
 
-def _temperature(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw the temperature before the contact, normally about that of the case."""
-    if options.values is None:
-        raise SourceNotApplicable(NOT_STATED)
-    if measurement.rubber.shift is None or measurement.temperature is None:
-        raise SourceNotApplicable("the rubber has no temperature shift")
-    error = _standard_error("temperature", options.values, quantities.kelvins)
+@_source(
+    "cleaning of the profiles",
+    spike_slope=Coordinate("ln of the limit of spikes over that of the case"),
+    smooth_gaps=Coordinate("1 where cubics fill the gaps, 0 for straight lines"),
+)
+def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the limit of spikes, and how the gaps they leave are filled.
 
-    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
-        warming = error * NormalDist().inv_cdf(quantile)
-        return replace(inputs, warming=warming), [warming]
+    Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
+    points of a coarse road at low limits, and is a choice of the case.
+    """
+    usual, measured = measurement.cleaning, measurement.surface.measured
+    if measured is None or not usual:
+        raise SourceNotApplicable("no profile was measured")
+    if measurement.is_map:
+        raise SourceNotApplicable("a map is cleaned as the case states")
+    scale = usual["spike_slope"] / USUAL_SPIKE
+    if options.values is None and not usual["remove_spikes"]:
+        raise SourceNotApplicable("the case leaves spikes in")
+    usual_range = quantities.Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
+    levels = options.range_of("cleaning", quantities.factor, usual_range).levels(SPIKE_LEVELS)
+    raw = [line for line, _ in measured.profiles]
+
+    def cleaned(lines: Sequence[Profile], slope: float) -> CleanedProfiles:
+        return _cleaned(lines, measurement, remove_spikes=True, spike_slope=slope)
+
+    as_measured = cache(partial(cleaned, raw))
+
+    def draw(quantile: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
+        slope, smooth = levels.at(quantile), bool(random.integers(2))
+        lines = as_measured(slope) if inputs.raw is None else cleaned(inputs.raw(), slope)
+        changed = replace(inputs, cleaned=lines, smooth_gaps=smooth)
+        return changed, [math.log(slope / usual["spike_slope"]), float(smooth)]
 
     return draw
 
 
-def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
-    """Draw the nominal pressure, normally in its logarithm about that of the case."""
-    if options.values is None:
-        raise SourceNotApplicable(NOT_STATED)
-    of_load = partial(pressure_error, pressure=measurement.pressure)
-    error = _standard_error("pressure", options.values, of_load)
+@_source(
+    "stretch of road measured",
+    **{
+        f"correlation_{lags}": Coordinate(f"ln of C_z over the measured one, {lags} lags")
+        for lags in ("short", "middle", "long")
+    },
+)
+def _profile(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw another stretch of the same road."""
+    if not measurement.fitted or not measurement.profiles:
+        raise SourceNotApplicable("no profile was measured")
+    if "direct" in options.models and measurement.is_map:
+        raise InputError(
+            "the direct contact of a map has no blocks of profiles to draw; leave out the "
+            "source profile (without), or ask for the chain only"
+        )
+    surface = measurement.surface
+    largest = float(surface.sines.wavelength[0])
+    blocks = ProfileBlocks(measurement.profiles, largest, options.block_length, surface.counted)
+    if "direct" in options.models:
+        blocks.require_lines()
+    return BlockDraw(blocks)
 
-    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
-        change = error * NormalDist().inv_cdf(quantile)
-        return replace(inputs, log_pressure=change), [change]
 
-    return draw
+GRID_PLACE = "grid_place"
+"""Coordinate of the source `grid`."""
 
 
-def _in_range(range: Range, applied: Callable[[Inputs, float], Inputs]) -> Draw:
-    """Draw a number anywhere in a range and apply it."""
+@_source(
+    "grid of the direct contact",
+    ("direct",),
+    grid_place=Coordinate("error of the grid over its estimate, from -1 to 1"),
+)
+def _grid(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw where within the estimated error of its grid the answer of a sample lies."""
+    if measurement.surface.measured is None:
+        raise SourceNotApplicable("no profile was measured")
+    return _number(lambda quantile: 2.0 * quantile - 1.0, lambda inputs, _: inputs)
 
-    def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
-        value = range.at(quantile)
-        return applied(inputs, value), [value]
+
+def _log_ratios(rubber: Rubber, omega: Array) -> Array:
+    """Return ln |E*| and ln E''/E' at each frequency, shape (frequencies, 2)."""
+    modulus = rubber.complex_modulus(omega)
+    parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
+    return np.asarray(np.log(parts))
+
+
+@_source(
+    "scatter and ends of the moduli",
+    **{
+        f"{name}_{wave}_wave": Coordinate(f"ln of {text} over the fitted one, at the {wave} wave")
+        for wave in ("largest", "smallest")
+        for name, text in (("modulus", "|E*|"), ("loss", "E''/E'"))
+    },
+)
+def _modulus(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw a series the measured moduli leave open, see `SeriesScatter`; series have no order."""
+    master, fit, speed = measurement.master, measurement.fit, measurement.load.speed
+    if master is None or fit is None:
+        raise SourceNotApplicable("no moduli were measured")
+    series = SeriesScatter.of(master, fit, measurement.rubber.bulk_modulus)
+    excited = 2.0 * np.pi * speed / measurement.surface.sines.wavelength[[0, -1]]
+    omega = excited if speed > 0.0 else np.array(fit.measured_band)
+
+    def draw(_: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
+        drawn = with_series(inputs.rubber, series.draw(random))
+        ratios = _log_ratios(drawn, omega) - _log_ratios(inputs.rubber, omega)
+        return replace(inputs, rubber=drawn), ratios.ravel().tolist()
 
     return draw
 
@@ -322,17 +336,17 @@ BULK_MODULUS_FACTOR = 1.5
 1); 1.5 times more or less than the usual 2 GPa covers that range."""
 
 
+@_source("bulk modulus", bulk_modulus=Coordinate("bulk modulus", "Pa", False))
 def _bulk_modulus(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the bulk modulus, hardly ever measured together with a master curve."""
-    values = Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
-    if options.values is not None:
-        values = Range.read("bulk_modulus", options.values, quantities.modulus)
-    return _in_range(
-        values,
+    usual = quantities.Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
+    return _number(
+        options.range_of("bulk_modulus", quantities.modulus, usual).at,
         lambda inputs, value: replace(inputs, rubber=replace(inputs.rubber, bulk_modulus=value)),
     )
 
 
+@_source("equilibrium modulus", equilibrium_modulus=Coordinate("equilibrium modulus", "Pa", False))
 def _equilibrium_modulus(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw the equilibrium modulus where somebody states it; it has no default.
 
@@ -348,7 +362,26 @@ def _equilibrium_modulus(measurement: Measurement, options: SourceOptions) -> Dr
         rubber = replace(inputs.rubber, equilibrium_modulus=value, admissible=None)
         return replace(inputs, rubber=rubber)
 
-    return _in_range(Range.read("equilibrium_modulus", options.values, quantities.modulus), applied)
+    values = quantities.Range.read("equilibrium_modulus", options.values, quantities.modulus)
+    return _number(values.at, applied)
+
+
+@_source("temperature", warming=Coordinate("above the temperature of the case", "K"))
+def _temperature(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the temperature before the contact, normally about that of the case."""
+    error = options.standard_error("temperature", quantities.kelvins)
+    if measurement.rubber.shift is None or measurement.temperature is None:
+        raise SourceNotApplicable("the rubber has no temperature shift")
+    normal = NormalDist(0.0, error)
+    return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, warming=value))
+
+
+@_source("nominal pressure", log_pressure=Coordinate("ln of the pressure over that of the case"))
+def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
+    """Draw the nominal pressure, normally in its logarithm about that of the case."""
+    of_load = partial(pressure_error, pressure=measurement.load.pressure)
+    normal = NormalDist(0.0, options.standard_error("pressure", of_load))
+    return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, log_pressure=value))
 
 
 LOAD_TIME_FACTOR = 2.0
@@ -356,18 +389,26 @@ LOAD_TIME_FACTOR = 2.0
 contacts are shorter and longer than their mean."""
 
 
+@_source(
+    "load time of a wave",
+    ("chain",),
+    load_time_factor=Coordinate("load time over that of the case", "1", False),
+)
 def _load_time(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw how long the mean state of a wave has had to relax, over the passage."""
-    if measurement.speed == 0.0:
+    if measurement.load.speed == 0.0:
         raise SourceNotApplicable("at rest it is infinite")
-    values = Range.about(1.0, LOAD_TIME_FACTOR)
-    if options.values is not None:
-        values = Range.read("load_time", options.values, quantities.factor)
-    elif measurement.load_time != "passage":
+    if options.values is None and measurement.load.load_time != "passage":
         raise SourceNotApplicable("the case states it")
-    return _in_range(values, lambda inputs, value: replace(inputs, load_time_factor=value))
+    usual = quantities.Range.about(1.0, LOAD_TIME_FACTOR)
+    values = options.range_of("load_time", quantities.factor, usual)
+    return _number(values.at, lambda inputs, value: replace(inputs, load_time_factor=value))
 
 
+@_source(
+    "cut-off of the roughness",
+    cut_off=Coordinate("cut-off, or last wave, of the roughness", "m", False),
+)
 def _cut_off(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw where the roughness ends, by default in an octave about the end of the case.
 
@@ -375,16 +416,20 @@ def _cut_off(measurement: Measurement, options: SourceOptions) -> Draw:
     """
     if not measurement.fitted:
         raise SourceNotApplicable("the waves are stated by hand")
-    values = Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0))
-    if options.values is not None:
-        values = Range.read("cut_off", options.values, quantities.length)
-    return _in_range(values, Inputs.ended_at)
+    usual = quantities.Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0))
+    return _number(options.range_of("cut_off", quantities.length, usual).at, Inputs.ended_at)
 
 
 CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
 """Arguments of a fit that leave no choice of waves."""
 
 
+@_source(
+    "choice of sine waves",
+    ("chain",),
+    waves=Coordinate("number of sine waves", "1", False),
+    first_wavelength=Coordinate("wavelength of the largest wave", "m", False),
+)
 def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
     """Draw one of the stacks that follow C_z as well as it is known, see `sine_ambiguity`.
 
@@ -403,7 +448,7 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
     stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
     good: Sequence[SineStack] = stacks
     if options.values is not None:
-        values = Range.read("waves", options.values, quantities.count)
+        values = quantities.Range.read("waves", options.values, quantities.count)
         wanted: Sequence[int] = [int(value) for value in values.values]
         wanted = range(wanted[0], wanted[-1] + 1) if values.between else wanted
         good = [stack for stack in stacks if len(stack) in wanted]
@@ -425,62 +470,3 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
         return replace(inputs, fit=fit), [float(number), first]
 
     return draw
-
-
-_BOTH = ("chain", "direct")
-
-_BLOCKS = {
-    f"correlation_{lags}": Coordinate("1", f"ln of C_z over the measured one, {lags} lags", True)
-    for lags in ("short", "middle", "long")
-}
-_SERIES = {
-    f"{name}_{wave}_wave": Coordinate(
-        "1", f"ln of {text} over the fitted one, at the {wave} wave", True
-    )
-    for wave in ("largest", "smallest")
-    for name, text in (("modulus", "|E*|"), ("loss", "E''/E'"))
-}
-_NOISE = {"rms_step": Coordinate("1", "ln of the rms step over that of the profiles", True)}
-_CLEANING = {
-    "spike_slope": Coordinate("1", "ln of the limit of spikes over that of the case", True),
-    "smooth_gaps": Coordinate("1", "1 where cubics fill the gaps, 0 for straight lines", True),
-}
-GRID_PLACE = "grid_place"
-_GRID = {
-    GRID_PLACE: Coordinate("1", "error of the grid over its estimate, from -1 to 1", True),
-}
-_BULK = {"bulk_modulus": Coordinate("Pa", "bulk modulus")}
-_EQUILIBRIUM = {"equilibrium_modulus": Coordinate("Pa", "equilibrium modulus")}
-_WARMING = {"warming": Coordinate("K", "above the temperature of the case", True)}
-_PRESSURE = {"log_pressure": Coordinate("1", "ln of the pressure over that of the case", True)}
-_FACTOR = {"load_time_factor": Coordinate("1", "load time over that of the case")}
-_END = {"cut_off": Coordinate("m", "cut-off, or last wave, of the roughness")}
-_STACK = {
-    "waves": Coordinate("1", "number of sine waves"),
-    "first_wavelength": Coordinate("m", "wavelength of the largest wave"),
-}
-
-SOURCES = {
-    source.name: source
-    for source in (
-        Source("height_noise", "noise of the heights", _BOTH, _NOISE, _height_noise),
-        Source("cleaning", "cleaning of the profiles", _BOTH, _CLEANING, _cleaning),
-        Source("profile", "stretch of road measured", _BOTH, _BLOCKS, _profile),
-        Source("grid", "grid of the direct contact", ("direct",), _GRID, _grid),
-        Source("modulus", "scatter and ends of the moduli", _BOTH, _SERIES, _modulus),
-        Source("bulk_modulus", "bulk modulus", _BOTH, _BULK, _bulk_modulus),
-        Source(
-            "equilibrium_modulus", "equilibrium modulus", _BOTH, _EQUILIBRIUM, _equilibrium_modulus
-        ),
-        Source("temperature", "temperature", _BOTH, _WARMING, _temperature),
-        Source("pressure", "nominal pressure", _BOTH, _PRESSURE, _pressure),
-        Source("load_time", "load time of a wave", ("chain",), _FACTOR, _load_time),
-        Source("cut_off", "cut-off of the roughness", _BOTH, _END, _cut_off),
-        Source("waves", "choice of sine waves", ("chain",), _STACK, _waves),
-    )
-}
-"""In the order in which they are drawn: noisy profiles are cleaned and cut into blocks, the waves
-are fitted last. A new one is added here."""
-
-SOURCE_LABELS = {name: source.label for name, source in SOURCES.items()}
-"""Names of the sources in words."""

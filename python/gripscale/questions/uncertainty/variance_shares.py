@@ -37,7 +37,7 @@ SIGNIFICANCE = 1.645
 SAMPLES_PER_TERM = 3
 """Samples there must be for each term of the fit."""
 SWING = (0.05, 0.95)
-"""Quantiles of what a source does to the answer that are told."""
+"""Quantiles of the effect of a source that tables and figures show."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,12 +16,12 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand, Sheet
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW, RowFlags
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
-from gripscale.questions.chain.view import AXIS_TITLES, believed
 from gripscale.questions.vary.axis import (
     WORDS,
     axis_label,
@@ -33,6 +33,7 @@ from gripscale.questions.vary.axis import (
 )
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
 from gripscale.questions.vary.words import is_evidence, telling, words_of
+from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -460,7 +461,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     """
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
-    bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
+    bar = draw.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
     panels = [
         _reduced_panel(result, believed(result, quantity)) for quantity in reversed(AXIS_TITLES)
     ]

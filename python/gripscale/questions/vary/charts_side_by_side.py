@@ -11,7 +11,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart
-from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, Sheet
+from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.arrays import Array

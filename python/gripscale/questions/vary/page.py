@@ -10,13 +10,14 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core.units import MILLI
+from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
 from gripscale.questions.chain.findings import study_sentence
-from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS, believed
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
 from gripscale.questions.vary.words import is_evidence, telling, words_of
+from gripscale.questions.words import SYMBOLS, believed
 from gripscale.report.failures import Failure
 
 _MOST_ROWS = 200
@@ -79,7 +80,7 @@ def study_table(data: xr.Dataset) -> Table:
     columns.append(Column("status", status))
     more = len(chosen) - len(rows)
     notes = [f"{more} more predictions are in the result file."] if more else []
-    bad = [text != CONVERGED_WORD for text in status]
+    bad = [text != CONVERGED for text in status]
     return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
 
 
@@ -99,7 +100,7 @@ def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
             data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
         )
     ]
-    return [ending for ending in endings if ending.sentence != CONVERGED_WORD], len(endings)
+    return [ending for ending in endings if ending.sentence != CONVERGED], len(endings)
 
 
 def shift_sentence(data: xr.Dataset) -> str:
@@ -210,7 +211,7 @@ def totals_table(data: xr.Dataset) -> Table | None:
         unit = str(data[name].attrs.get("units", "")).replace("1", "")
         columns.append(Column(name, values, words_of(data, name), unit, format=digits(4)))
     states = [name for name in names if name.endswith("status")]
-    bad = [any(str(row[name].values[()]) != CONVERGED_WORD for name in states) for row in rows]
+    bad = [any(str(row[name].values[()]) != CONVERGED for name in states) for row in rows]
     return Table("totals", columns, f"Totals of all {len(rows)} predictions", bad=bad)
 
 
@@ -231,7 +232,7 @@ def study_failures(data: xr.Dataset) -> Iterator[Failure]:
             for n, i in index.items()
         )
         for name in states:
-            if (status := str(row[name].values[()])) != CONVERGED_WORD:
+            if (status := str(row[name].values[()])) != CONVERGED:
                 word = str(status_words(row, name).item())
                 yield Failure(f"{where}: NOT converged: {status or NONE}", word)
         if not states and any(math.isnan(float(row[name])) for name in totals):

@@ -9,14 +9,15 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core.arrays import Array
+from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
-from gripscale.questions.answer.best_estimate import IsotropicSurface
+from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
-from gripscale.questions.chain.view import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
+from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.elements import Card, percent_text
 
 _SAME = 0.03
@@ -53,7 +54,7 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
 def study_basis(data: xr.Dataset) -> Iterator[str]:
     """Yield what the numbers of a study are for, what they are made of and what they rest on."""
     if doubts := input_doubts_of(data):
-        yield f"not to be relied on: {' '.join(doubts)}"
+        yield f"not to be relied on: {sentences(doubts)}"
     status = data[STATUS]
     failed = int((status != "converged").sum())
     count = f"{status.size} predictions, {failed or 'none'} without a result"
@@ -184,7 +185,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     steep = float(data[STEEP_SHARE].max()) if STEEP_SHARE in data else 0.0
     if steep > WORTH_NAMING:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
-    if IsotropicSurface.label in data.factor_label.values:
+    if LINES_TO_SURFACE in data.factor_label.values:
         yield "a road without direction is assumed"
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"

@@ -12,17 +12,17 @@ import xarray as xr
 from gripscale.chain.chain import Chain
 from gripscale.charts.draw import image
 from gripscale.charts.style import power_of_ten
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
-from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
+from gripscale.experiment.design import CHANGES, CONVERGED, WITH_AREA_TERM
 from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of, status_words
-from gripscale.questions.chain.view import CONVERGED_WORD, SYMBOLS
 from gripscale.questions.inputs.page import texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
 from gripscale.questions.vary.inputs import TEMPERATURE
 from gripscale.questions.vary.page_of_study import count_cards, study_findings, study_sections
+from gripscale.questions.words import SYMBOLS
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.equations import method_section
@@ -81,7 +81,7 @@ def effects_table(*results: xr.Dataset) -> Table:
         ]
     status = [str(value) for value in every("prediction_status")]
     columns.append(Column("status", status))
-    bad = [value != CONVERGED_WORD for value in status]
+    bad = [value != CONVERGED for value in status]
     rules = np.cumsum([result.sizes["effect"] for result in results])[:-1] - 1
     return Table("effects", columns, "What each effect is worth", keys=2, bad=bad, rules=set(rules))
 
@@ -109,7 +109,7 @@ def side_by_side_totals(data: xr.Dataset, dim: str, heading: str, model: str = "
         Column(name, difference, "difference of μ from the first", format=fixed(3, "+")),
         Column(f"{name}_range", span, "range", format=fixed(3, "+")),
     ]
-    bad = [text != CONVERGED_WORD for text in status]
+    bad = [text != CONVERGED for text in status]
     if any(bad):
         columns.append(Column("status", status))
     caption = f"Totals, {model}" if model else "Totals"
@@ -156,7 +156,7 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
         head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
     yield f"Answer: {head}{level}."
     if doubts := input_doubts_of(data):
-        yield f"  not to be relied on: {' '.join(doubts)}"
+        yield f"  not to be relied on: {sentences(doubts)}"
     if TEMPERATURE in data.attrs:
         pressure, speed = (
             display_unit_of(data.attrs, name).text(float(data.attrs[f"nominal_{name}"]))
@@ -273,7 +273,7 @@ def failed_totals(data: xr.Dataset) -> list[Failure]:
             str(words.values[at]),
         )
         for at, text in np.ndenumerate(stacked.values)
-        if str(text) not in ("", CONVERGED_WORD)
+        if str(text) not in ("", CONVERGED)
     ]
 
 

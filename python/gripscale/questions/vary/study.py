@@ -412,9 +412,9 @@ class Study:
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "surface_measured": int(all(s.measured is not None for s in self.surfaces)),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
-            "rubber_parameters": json.dumps(canonical_json(self.rubbers)),
+            "rubber_parameters": json.dumps([rubber.to_dict() for rubber in self.rubbers]),
             "notes": "\n".join(
-                dict.fromkeys(n for surface in self.surfaces for n in surface.notes)
+                dict.fromkeys(str(f) for surface in self.surfaces for f in surface.findings)
             ),
             "software": software(),
             "study_key": self.key,

@@ -302,7 +302,7 @@ def compare_surfaces(
         points.append(Point((i, j, AS_MEASURED), f"{name}, {road}, as measured", task))
         if samples is None:
             continue
-        measurement = Measurement(surface, rubber, speed=load.speed, load_time=load.load_time)
+        measurement = Measurement(surface, rubber, load)
         try:
             tasks = _drawn(measurement, model, load, samples)
         except InputError as why:

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.core.errors import InputError
-from gripscale.half_space import (
+from gripscale.continuation import (
     ContinuedContact,
     FinerMeasurement,
     HurstExponent,
     contact_by_cut_off,
 )
-from gripscale.half_space.below_measurement import BAND, cut_off_at
+from gripscale.continuation.curve import BAND, cut_off_at
+from gripscale.continuation.roughness import Intermittency, PeriodicLine
+from gripscale.core.errors import InputError
 from gripscale.model import Load
 from gripscale.surface import HeightMap, Measured, Surface, self_affine_profile
-from gripscale.surface.periodic import Intermittency, PeriodicLine
 from tests.samples import THREE_SINES
 from tests.verification.families import tread
 from tests.verification.withheld_octaves import coarser, intermittent
@@ -142,9 +142,11 @@ def test_wrong_arguments_are_refused_by_value(change, message):
         contact_by_cut_off(tread(), **arguments)
 
 
-def test_hurst_exponents_beyond_one_are_refused():
+def test_hurst_exponents_beyond_one_or_below_zero_are_refused():
     with pytest.raises(InputError, match=r"hurst must be at most 1; got 1\.2"):
         HurstExponent(1.2)
+    with pytest.raises(InputError, match="hurst must be greater than zero"):
+        HurstExponent(-0.2)
 
 
 def test_waves_stated_by_hand_and_maps_are_refused():

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.core.finding import sentences
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import STATUS, input_doubts_of
@@ -94,7 +95,7 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
         if not str(name).endswith(LEFT_OUT) and set(variable.dims) <= set(rows.dims)
     }
     texts = {name: data.attrs.get(name, about.get(name)) for name in ABOUT}
-    texts[DOUBTS] = no_answer(data) if has_answer(data) else " ".join(input_doubts_of(data))
+    texts[DOUBTS] = no_answer(data) if has_answer(data) else sentences(input_doubts_of(data))
     for name, value in texts.items():
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):

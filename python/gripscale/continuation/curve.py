@@ -1,10 +1,10 @@
 """Contact and friction against the cut-off, from the longest waves to far below the measurement.
 
 A line is continued octave by octave: its measured waves stay, and random waves are added below them
-(`gripscale.surface.periodic`). What counts is how rough the faces are that touch, so the slope of
-each octave is measured on the points in contact of the solution without it, as the 68 % quantile of
-its magnitude: steep edges, of which there are few, do not decide it. Each new octave gets a slope
-that is r times that of the octave above. r comes from
+(`gripscale.continuation.roughness`). What counts is how rough the faces are that touch, so the
+slope of each octave is measured on the points in contact of the solution without it, as the 68 %
+quantile of its magnitude: steep edges, of which there are few, do not decide it. Each new octave
+gets a slope that is r times that of the octave above. r comes from
 
 - the faces themselves (`OwnFaces`): the last measured octave is withheld, continued in the same way
   and solved; with r_1 the ratio that gives its true friction, r = sqrt(r_1);
@@ -22,29 +22,40 @@ import math
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
-from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any, ClassVar
 
 import numpy as np
-import scipy
+import xarray as xr
 
+from gripscale.continuation.roughness import (
+    LONGEST_SHARE,
+    FinerMeasurement,
+    HurstExponent,
+    Intermittency,
+    OwnFaces,
+    PeriodicLine,
+    Roughness,
+    as_roughness,
+    slope_on_faces,
+)
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask
-from gripscale.core.checks import Checked, checked
+from gripscale.core.checks import checked
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
-from gripscale.half_space.grid import nearest, periodic_heights
-from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
+from gripscale.half_space.grid import nearest
+from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
+from gripscale.model import STATUS, Load, OnProgress
 from gripscale.rubber import Rubber
-from gripscale.surface import HeightMap, Profile
-from gripscale.surface.periodic import Intermittency, PeriodicLine
+from gripscale.surface import Profile, Surface
 
-if TYPE_CHECKING:
-    import xarray as xr
+DOWN_TO = 10e-6
+"""Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
 
 BAND = 0.20
 """Half width of the 90 % band of a number one octave below the measurement, relative to it.
@@ -53,8 +64,8 @@ Measured on withheld octaves, see docs/below-measurement.md."""
 _BAND_GROWTH = 0.5
 """Power of the octaves below the measurement that the band grows with."""
 
-QUANTILE = 0.68
-"""Share of the points in contact whose slope is below that of an octave."""
+QUANTILE_90 = 1.645
+"""Half width of the 90 % interval of a Gaussian over its standard deviation."""
 
 RATIO_LIMIT = 0.3
 """Largest |ln r_1|: an octave that rolls off faster is the end of an instrument's band."""
@@ -63,57 +74,10 @@ MOST_OCTAVES = 8
 _LEAST_STEP = 0.05
 """Rest of an octave, over the last cut-off, that is not a step of its own."""
 
-_LONGEST = 0.25
-"""Longest cut-off over the length of the shortest line."""
+MOST_APART = 3.0
+"""Largest ratio of the slope of the faces to that of a finer measurement, or its inverse."""
 
 OnContact = Callable[[RoughContact], None]
-
-
-class OwnFaces(Checked):
-    """Continue with the slopes of the faces that touch."""
-
-
-class HurstExponent(Checked):
-    """Continue the slopes of the faces that touch as a power law with this exponent."""
-
-    hurst: float = checked(checks.positive)
-
-    def __post_init__(self) -> None:
-        checks.at_most_one("hurst", self.hurst)
-
-
-class FinerMeasurement(Checked):
-    """Continue with the slopes of a finer measurement of a face of a stone: a line or a map."""
-
-    surface: Profile | HeightMap
-
-    @cached_property
-    def lines(self) -> list[Profile]:
-        """The measured lines."""
-        return [self.surface] if isinstance(self.surface, Profile) else self.surface.lines()
-
-    @property
-    def wavelengths(self) -> tuple[float, float]:
-        """Longest and shortest wavelength [m] whose slope is measured."""
-        longest = _LONGEST * self.lines[0].length
-        return longest, max(line.resolution_limit for line in self.lines)
-
-    def slope(self, longest: float, shortest: float) -> float:
-        """Return the slope [-] of the waves between two wavelengths [m]."""
-        periodic = [_periodic(line, shortest) for line in self.lines]
-        return typical(np.concatenate([line.slope(longest, shortest) for line in periodic]))
-
-
-Roughness = OwnFaces | HurstExponent | FinerMeasurement
-"""Where the roughness below the measurement comes from."""
-
-
-def as_roughness(name: str, value: Any) -> Roughness:
-    """Return `value` if it is a `Roughness`; else raise `InputError`."""
-    if not isinstance(value, Roughness):
-        expected = "OwnFaces, HurstExponent or FinerMeasurement"
-        raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
-    return value
 
 
 @dataclass(frozen=True)
@@ -196,7 +160,6 @@ class ContactByCutOff:
 
     def to_dataset(self) -> xr.Dataset:
         """Return the curves over `cut_off` with their bands."""
-        import xarray as xr
 
         def over(values: Any, unit: str, text: str) -> xr.Variable:
             return xr.Variable("cut_off", values, {"units": unit, "long_name": text})
@@ -213,11 +176,7 @@ class ContactByCutOff:
         )
         statuses = ["; ".join({str(c.status) for c in step.contacts}) for step in self.steps]
         data["status"] = over(np.array(statuses, dtype=object), "1", "converged, or why not")
-        facts = {
-            "resolved": self.resolved,
-            "slope_ratio": self.slope_ratio,
-            "overlap": self.overlap,
-        }
+        facts = {name: getattr(self, name) for name in ("resolved", "slope_ratio", "overlap")}
         if self.withheld is not None:
             facts |= {f"withheld_{name}": value for name, value in vars(self.withheld).items()}
         for name, value in facts.items():
@@ -256,10 +215,7 @@ FACTS = {
 
 
 def cut_off_at(slope: float, wavelength: Array, slopes: Array) -> float:
-    """Return the cut-off [m] at which the rms slope in contact reaches a value; NaN if none.
-
-    `slopes` are those at the cut-offs `wavelength` [m], which fall.
-    """
+    """Return the cut-off [m], from falling ones, at which `slopes` reach a value; NaN if none."""
     above = np.flatnonzero(slopes >= slope)
     if not above.size or above[0] == 0:
         return math.nan
@@ -327,18 +283,20 @@ def contact_by_cut_off(
             f"down_to must be at least {resolved / 2**MOST_OCTAVES:.3g} m, {MOST_OCTAVES} octaves "
             f"below the {in_mm(resolved, 3)} that the lines resolve; got {last:.3g} m"
         )
-    solver = _Solver(rubber, {"pressure": pressure, "speed": speed, "tolerance": None, **options})
-    periodic = [_periodic(line, resolved, last) for line in profiles]
+    load = {"pressure": pressure, "speed": speed, "tolerance": None, **options}
+    solver = _Solver(rubber, load, on_contact)
+    periodic = [PeriodicLine.of(line, resolved, last) for line in profiles]
     shortest_line = min(line.length for line in periodic)
-    most = min(checks.positive("longest", longest, unit="m"), _LONGEST * shortest_line)
+    most = min(checks.positive("longest", longest, unit="m"), LONGEST_SHARE * shortest_line)
     measured_to = max(resolved, last)
     octaves = max(0, math.floor(math.log2(most / measured_to) + 1e-9))
-    cut_offs = measured_to * 2.0 ** np.arange(octaves, -1, -1)
     steps: list[CutOffContact] = []
-    for cut_off in cut_offs:
+    for cut_off in measured_to * 2.0 ** np.arange(octaves, -1, -1):
+        slope = math.nan
+        if steps:
+            slope = slope_on_faces(periodic, steps[-1].faces, 2.0 * cut_off, cut_off)
         shorter = [line.down_to(cut_off) for line in periodic]
-        slope = _octave_slope(periodic, steps[-1].faces, cut_off) if steps else math.nan
-        steps.append(solver.step(shorter, float(cut_off), slope, on_contact))
+        steps.append(solver.step(shorter, float(cut_off), slope))
     if last >= resolved:
         return ContactByCutOff(tuple(steps), resolved, math.nan, None, math.nan)
     if len(steps) < 3:
@@ -346,53 +304,18 @@ def contact_by_cut_off(
             f"lines must hold three octaves above {in_mm(resolved, 3)}, the shortest wavelength "
             f"they resolve, to be continued; got lines of {in_mm(periodic[0].length, 3)}"
         )
-    continuation = _Continuation.of(solver, steps, source, last, random)
-    while steps[-1].wavelength > last:
-        steps.append(continuation.next(solver, steps, last, random, on_contact))
-    return ContactByCutOff(
-        tuple(steps),
-        resolved,
-        continuation.slope_ratio,
-        continuation.withheld,
-        continuation.overlap,
-    )
-
-
-def _periodic(line: Profile, shortest: float, finest: float | None = None) -> PeriodicLine:
-    """Return the waves of a line down to `shortest`, with points for waves to `finest` [m]."""
-    heights = periodic_heights(line, smallest_wavelength=shortest, periodic=False)
-    length = heights.grid.lengths[0]
-    waves = length / min(shortest, finest or shortest)
-    points = 2 * scipy.fft.next_fast_len(math.ceil(0.5 * POINTS_IN_WAVE * waves))
-    return PeriodicLine(length, points, np.asarray(scipy.fft.rfft(heights.on((points,)))))
-
-
-def typical(slopes: Array) -> float:
-    """Return the slope [-] that stands for an octave."""
-    return float(np.quantile(np.abs(slopes), QUANTILE))
-
-
-def _octave_slope(
-    lines: Sequence[PeriodicLine], faces: Sequence[Mask], shortest: float, octaves: float = 1.0
-) -> float:
-    """Return the slope of the waves down to `shortest` [m] on faces [-]."""
-    longest = 2.0**octaves * shortest
-    slopes = [line.slope(longest, shortest)[on] for line, on in zip(lines, faces, strict=True)]
-    return typical(np.concatenate(slopes))
+    return _continued(solver, steps, source, last, random)
 
 
 @dataclass(frozen=True)
 class _Solver:
+    """The rubber and its load, for the contacts of the lines at each cut-off."""
+
     rubber: Rubber
     options: dict[str, Any]
+    on_contact: OnContact | None
 
-    def step(
-        self,
-        lines: Sequence[PeriodicLine],
-        cut_off: float,
-        slope: float,
-        on_contact: OnContact | None = None,
-    ) -> CutOffContact:
+    def step(self, lines: Sequence[PeriodicLine], cut_off: float, slope: float) -> CutOffContact:
         """Return the contacts of lines with waves down to a cut-off [m]."""
 
         def job(line: PeriodicLine, _: threading.Event) -> RoughContact:
@@ -409,103 +332,71 @@ class _Solver:
         with closing(in_threads(jobs, worker_count(None))) as solved:
             for at, contact in solved:
                 contacts[at] = contact
-                if on_contact is not None:
-                    on_contact(contact)
+                if self.on_contact is not None:
+                    self.on_contact(contact)
         return CutOffContact(cut_off, tuple(c for c in contacts if c), tuple(lines), slope)
 
-    def continued(
+    def next_step(
         self,
         step: CutOffContact,
         intermittency: Intermittency,
         slope: float,
         shortest: float,
         random: np.random.Generator,
-        on_contact: OnContact | None = None,
     ) -> CutOffContact:
         """Return the contacts with another octave, whose slope on the faces is `slope`."""
-        waves = [
-            line.with_waves(intermittency.octave(line, step.wavelength, shortest, random))
-            for line in step.lines
-        ]
-        octaves = math.log2(step.wavelength / shortest)
-        scale = slope / _octave_slope(waves, step.faces, shortest, octaves)
+        longest = step.wavelength
+        octaves = [intermittency.octave(line, longest, shortest, random) for line in step.lines]
+        scale = slope / slope_on_faces(octaves, step.faces, longest, shortest)
         lines = [
-            line.with_waves(line.waves + scale * new.waves)
-            for line, new in zip(step.lines, waves, strict=True)
+            replace(line, waves=line.waves + scale * octave.waves)
+            for line, octave in zip(step.lines, octaves, strict=True)
         ]
-        return self.step(lines, shortest, slope, on_contact)
+        return self.step(lines, shortest, slope)
 
 
-@dataclass(frozen=True)
-class _Continuation:
-    """How to go on below the measurement."""
-
-    intermittency: Intermittency
-    slope_ratio: float
-    finer: FinerMeasurement | None
-    withheld: Withheld | None
-    overlap: float
-
-    @classmethod
-    def of(
-        cls,
-        solver: _Solver,
-        steps: Sequence[CutOffContact],
-        source: Roughness,
-        last: float,
-        random: np.random.Generator,
-    ) -> _Continuation:
-        """Return the continuation of measured steps, from long cut-offs to short ones."""
-        here = steps[-1]
-        intermittency = Intermittency.of(here.lines, steps[-2].faces, here.wavelength, random)
-        if isinstance(source, FinerMeasurement):
-            overlap = _overlap(source, steps, last)
-            return cls(intermittency, math.nan, source, None, overlap)
-        if isinstance(source, HurstExponent):
-            return cls(intermittency, 2.0 ** (1.0 - source.hurst), None, None, math.nan)
-        withheld = _withheld(solver, steps, random)
+def _continued(
+    solver: _Solver,
+    steps: list[CutOffContact],
+    source: Roughness,
+    last: float,
+    random: np.random.Generator,
+) -> ContactByCutOff:
+    """Return the curve of measured steps, continued octave by octave to the last cut-off [m]."""
+    here = steps[-1]
+    resolved = here.wavelength
+    intermittency = Intermittency.of(here.lines, steps[-2].faces, resolved, random)
+    ratio, withheld, overlap = math.nan, None, math.nan
+    if isinstance(source, FinerMeasurement):
+        overlap = _overlap(source, steps, last)
+    elif isinstance(source, HurstExponent):
+        ratio = 2.0 ** (1.0 - source.hurst)
+    else:
+        withheld = _withheld(replace(solver, on_contact=None), steps, random)
         ratio = 1.0 if withheld is None else math.sqrt(withheld.slope_ratio)
-        return cls(intermittency, ratio, None, withheld, math.nan)
-
-    def next(
-        self,
-        solver: _Solver,
-        steps: Sequence[CutOffContact],
-        last: float,
-        random: np.random.Generator,
-        on_contact: OnContact | None,
-    ) -> CutOffContact:
-        """Return the step an octave below the last, or at the last cut-off [m]."""
-        here = steps[-1]
+    while here.wavelength > last:
         shortest = 0.5 * here.wavelength
         if shortest < last * (1.0 + _LEAST_STEP):
             shortest = last
-        share = math.log2(here.wavelength / shortest)
-        if self.finer is None:
-            # a part of an octave has its part of the mean square slope
-            slope = here.slope * self.slope_ratio * math.sqrt(share)
+        if isinstance(source, FinerMeasurement):
+            slope = _finer_slope(source, steps, shortest)
         else:
-            slope = self._finer_slope(self.finer, here, shortest, steps)
-        return solver.continued(here, self.intermittency, slope, shortest, random, on_contact)
-
-    def _finer_slope(
-        self,
-        finer: FinerMeasurement,
-        here: CutOffContact,
-        shortest: float,
-        steps: Sequence[CutOffContact],
-    ) -> float:
-        """Return the slope of the finer measurement; between both, it is interpolated."""
-        longest, _ = finer.wavelengths
-        if here.wavelength <= longest:
-            return finer.slope(here.wavelength, shortest)
-        measured = next(step for step in reversed(steps) if step.wavelength > longest)
-        ends = np.log([longest, measured.wavelength])
-        slopes = np.log([finer.slope(longest, 0.5 * longest), measured.slope])
-        return float(np.exp(np.interp(math.log(2.0 * shortest), ends, slopes)))
+            # a part of an octave has its part of the mean square slope
+            slope = here.slope * ratio * math.sqrt(math.log2(here.wavelength / shortest))
+        here = solver.next_step(here, intermittency, slope, shortest, random)
+        steps.append(here)
+    return ContactByCutOff(tuple(steps), resolved, ratio, withheld, overlap)
 
 
-MOST_APART = 3.0
+def _finer_slope(finer: FinerMeasurement, steps: Sequence[CutOffContact], shortest: float) -> float:
+    """Return the slope of the finer measurement; between both measurements, it is interpolated."""
+    longest, _ = finer.wavelengths
+    if steps[-1].wavelength <= longest:
+        return finer.slope(steps[-1].wavelength, shortest)
+    measured = next(step for step in reversed(steps) if step.wavelength > longest)
+    ends = np.log([longest, measured.wavelength])
+    slopes = np.log([finer.slope(longest, 0.5 * longest), measured.slope])
+    return float(np.exp(np.interp(math.log(2.0 * shortest), ends, slopes)))
 
 
 def _overlap(finer: FinerMeasurement, steps: Sequence[CutOffContact], last: float) -> float:
@@ -544,7 +435,7 @@ def _withheld(
     seed = random.integers(2**32)
     logs = np.array([-RATIO_LIMIT, 0.0, RATIO_LIMIT])
     tried = [
-        solver.continued(
+        solver.next_step(
             above,
             intermittency,
             above.slope * math.exp(log),
@@ -557,3 +448,59 @@ def _withheld(
     ratio = math.exp(float(np.interp(0.0, errors, logs))) if np.all(np.diff(errors) > 0) else 1.0
     area = tried[1].mean("contact_fraction") / true.mean("contact_fraction")
     return Withheld(area - 1.0, math.expm1(errors[1]), ratio)
+
+
+class ContinuedContact(DirectContact):
+    """Direct contact of profiles, continued below their sampling and labelled as such.
+
+    The answer holds the curves of `contact_by_cut_off` over `cut_off`, and as its estimated errors
+    the standard error of a continuation. `down_to`, `roughness` and `seed` are arguments of this
+    function; `periodic` and `tolerance` have no effect.
+    """
+
+    name: ClassVar[str] = "continued"
+
+    tolerance: float | None = None
+    down_to: float = checked(checks.positive, unit="m", default=DOWN_TO)
+    roughness: Roughness = checked(as_roughness, default=OwnFaces())
+    seed: int = checked(checks.whole, least=0, most=2**32 - 1, default=0)
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer with the curves over `cut_off`; `on_progress` gets each contact.
+
+        Raises `InputError` as `contact_by_cut_off` does, and unless the surface is measured
+        profiles.
+        """
+        measured = surface.measured
+        if measured is None or measured.map is not None:
+            surface_kind = "waves stated by hand" if measured is None else "a map"
+            raise InputError(
+                "roughness below the measurement is continued from measured profiles; "
+                f"got {surface_kind}"
+            )
+        curve = contact_by_cut_off(
+            rubber,
+            measured.cleaned,
+            pressure=load.pressure,
+            speed=load.speed,
+            down_to=self.down_to,
+            roughness=self.roughness,
+            seed=self.seed,
+            on_contact=on_progress,
+            conditions=self.conditions,
+            footprint=load.footprint,
+        )
+        answer = self._answer(curve.steps[-1].contacts, surface, load)
+        if answer[STATUS].item() != "converged":
+            return answer
+        error = float(np.arcsinh(curve.band[-1])) / QUANTILE_90
+        for name in ("contact_fraction", "friction"):
+            about = answer[f"{name}_error"].attrs
+            answer[f"{name}_error"] = (error * answer[name]).assign_attrs(about)
+        # `friction` without a dimension is that of the last cut-off
+        data = curve.to_dataset().drop_vars("status")
+        return answer.merge(
+            data.rename({name: f"curve_{name}" for name in data if data[name].dims})
+        )

@@ -1,4 +1,4 @@
-"""What a report is made of: a run with its inputs, comparisons, or the result of a question."""
+"""The page of a results folder or of one of its files, by what the file holds."""
 
 from __future__ import annotations
 
@@ -9,13 +9,37 @@ from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.questions.chain.run_folder import RunSource, read_run, run_of
 from gripscale.questions.chain.run_page import run_page
-from gripscale.questions.compare.page import comparison_page
-from gripscale.questions.compare.stored import Compared, stored_comparisons
+from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
 from gripscale.questions.result import KINDS_OF_REPORTS, Result, require_totals, result_of
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
+from gripscale.report import write_page
 from gripscale.report.elements import Page
 
 ReportSource = RunSource | Compared | Result
+"""A run with its inputs, comparisons, or the result of a question."""
+
+
+def write_report(result: str | Path, output: str | Path | None = None) -> Path:
+    """Write the HTML report of `result` and return its path.
+
+    Parameters
+    ----------
+    result
+        Results folder of a run, comparison, study, calibration or uncertainty, or of roads or
+        compounds side by side; or one of their netCDF files.
+    output
+        The file to write; `report.html` in the results folder by default.
+
+    Raises
+    ------
+    FileError
+        If the result is missing or unreadable, or the page cannot be written.
+    InputError
+        If the libraries of `gripscale[report]` are not installed.
+    """
+    path = Path(result)
+    folder = path if path.is_dir() else path.parent
+    return write_page(lambda: page_of(read_result(path)), output or folder / "report.html")
 
 
 def page_of(source: ReportSource) -> Page:

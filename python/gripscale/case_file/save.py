@@ -1,0 +1,304 @@
+"""Saving a case as a case file, with its measurements as text files beside it.
+
+A case from a file keeps its text, with copies of its files. One made in Python is written in SI
+units with all digits, so that the case that is read again has the same answers to the last digit:
+heights and moduli as tables with a title and a unit for each column, a Prony series as the JSON
+file that `gripscale fit-rubber` writes, too.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gripscale.case import Case
+from gripscale.case_file.folder import (
+    SavedCase,
+    free_target,
+    saved_case,
+    saved_inputs,
+    write_saved,
+)
+from gripscale.case_file.prepare import named_files
+from gripscale.case_file.read import CaseFile, validate
+from gripscale.case_file.schema import kelvin_text, law_keys, toml_text
+from gripscale.case_file.tables import CaseTables, SurfaceTable
+from gripscale.chain.chain import Chain, wave_solver
+from gripscale.conditions.conditions import Conditions
+from gripscale.continuation.roughness import FinerMeasurement, HurstExponent
+from gripscale.core.arrays import Array
+from gripscale.core.errors import FileError, InputError
+from gripscale.core.provenance import version_of
+from gripscale.core.units import quantity_in_si
+from gripscale.experiment.measured_friction import MEASURED
+from gripscale.questions.uncertainty.options import UncertaintyOptions
+from gripscale.rubber import ShiftTable, fit_prony_report
+from gripscale.rubber.measured_rubber import MeasuredRubber
+from gripscale.rubber.softening import SofteningTable
+from gripscale.rubber.strain_energy import NeoHookean
+from gripscale.surface import HeightMap, Profile, fit_sines
+from gripscale.surface.cut_off import ContactSlope, RmsSlope
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.wave.block import FiniteStrainBlock
+from gripscale.wave.problem import Mesh
+
+
+def write_case(case: Case, path: Path) -> Path:
+    """Write a case to `path`, its measurements to the folder `inputs` beside it; return `path`."""
+    if case.origin.text:
+        write_saved(_copied(case, path), path.parent, path.name)
+        return path
+    inputs = _Inputs(path.parent, saved_inputs(path.parent, path.name))
+    tables = _tables(case, inputs)
+    validate(CaseTables, tables, str(path))  # refuses laws that no case file knows
+    lines = [
+        f"# Written by gripscale {version_of('gripscale')}. Plain numbers are in SI units; names "
+        "of files start at this file."
+    ]
+    for name, keys in tables.items():
+        if keys:
+            lines += ["", f"[{name}]", *(f"{key} = {toml_text(keys[key])}" for key in keys)]
+    saved = SavedCase("\n".join([*lines, ""]), inputs.contents)
+    write_saved(saved, path.parent, path.name)
+    return path
+
+
+def _copied(case: Case, path: Path) -> SavedCase:
+    """Return a case that came from a file with its files, which must be as they were."""
+    origin = case.origin
+    tables = validate(CaseTables, tomllib.loads(origin.text), origin.name)
+    file = CaseFile(tables, Path(origin.name), origin.text, origin.units)
+    for before, now in zip(origin.files, named_files(file), strict=True):
+        if before != now:
+            raise FileError(f"{file.resolve(now.name)} has changed since the case was read")
+    return saved_case(file, path.parent, path.name)
+
+
+@dataclass
+class _Inputs:
+    """Files to be written into a folder, in which an `earlier` case has some."""
+
+    folder: Path
+    earlier: set[str]
+    contents: dict[str, bytes] = field(default_factory=dict)
+
+    def add(self, name: str, suffix: str, text: str) -> str:
+        """Keep a text; return the name by which the case finds its file."""
+        stem = re.sub(r"[^\w-]+", "_", name).strip("_")[:60]
+        file, content = Path(f"{stem}{suffix}"), text.encode("utf-8")
+        target = free_target(file, content, set(self.contents), self.folder, self.earlier)
+        self.contents[target] = content
+        return target
+
+    def add_table(self, name: str, columns: Mapping[str, ArrayLike], head: str = "") -> str:
+        """Keep columns by their titles, below a comment; return the name of their file."""
+        numbers = [np.asarray(values, dtype=float).tolist() for values in columns.values()]
+        rows = [",".join(map(repr, row)) for row in zip(*numbers, strict=True)]
+        return self.add(name, ".csv", "\n".join([head, ",".join(columns), *rows, ""]).lstrip())
+
+    def add_heights(self, name: str, heights: Profile | HeightMap) -> str:
+        """Keep a profile or the points of a map; return the name of the file."""
+        # such a title keeps the doubt that the heights may be depths
+        title = "depth [m]" if heights.doubts else "z [m]"
+        if isinstance(heights, HeightMap):
+            along, across = heights.z.shape
+            x, y = np.repeat(heights.x, across), np.tile(heights.y, along)
+            return self.add_table(name, {"x [m]": x, "y [m]": y, title: heights.z.ravel()})
+        unit, x = _even_distances(heights.x)
+        return self.add_table(name, {f"x [{unit}]": x, title: heights.z})
+
+
+def _even_distances(x: Array) -> tuple[str, Array]:
+    """Return a unit and the even grid that is `x` [m] to the last bit once a file is read.
+
+    Without one, `x` itself: readers return even grids only, which differ in the last digits.
+    """
+    for unit, size in (("m", 1.0), ("mm", 1e-3), ("um", 1e-6)):
+        for digits in (17, 12):  # of a number as computed, and as instruments print it
+            first, last = (float(f"{end / size:.{digits}g}") for end in (x[0], x[-1]))
+            grid = np.linspace(first, last, x.size)
+            if np.array_equal(quantity_in_si(grid, unit, "length"), x):
+                return unit, grid
+    return "m", x
+
+
+def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
+    """Return the tables of a case by name, each with the keys that have a value."""
+    load, options = case.load, case.options.get("uncertainty", UncertaintyOptions())
+    below: dict[str, Any] = {"down_to": case.below_measurement.down_to}
+    below["seed"] = case.below_measurement.seed
+    match case.below_measurement.roughness:
+        case HurstExponent(hurst=hurst):
+            below["hurst"] = hurst
+        case FinerMeasurement(surface=face):
+            kind = "map" if isinstance(face, HeightMap) else "file"
+            below["finer"] = {kind: inputs.add_heights(face.name or "finer", face)}
+    measured = {}
+    if case.friction is not None:
+        columns = {
+            name if unit == "1" else f"{name} [{unit}]": getattr(case.friction, name)
+            for name, (unit, _) in MEASURED.items()
+        }
+        measured["friction"] = inputs.add_table("friction", columns)
+    tables: dict[str, dict[str, Any]] = {
+        "surface": _surface_keys(case, inputs),
+        "rubber": _rubber_keys(case.measured_rubber, inputs),
+        "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")},
+        "solver": _solver_keys(case.chain),
+        "chain": {"pressure_classes": case.chain.pressure_classes},
+        "conditions": _conditions_keys(case.conditions, inputs),
+        "below_measurement": below,
+        "measured": measured,
+        "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
+        "uncertainty": asdict(options) | {"without": list(options.without)},
+    }
+    tables["rubber"]["extrapolate"] = case.chain.extrapolate
+    tables["load"] |= {"static": case.static, "load_time": load.load_time}
+    return {
+        name: {key: value for key, value in keys.items() if value not in (None, [], {})}
+        for name, keys in tables.items()
+    }
+
+
+def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
+    surface, measured = case.surface, case.surface.measured
+    if measured is None:
+        if surface.sines.cut_off is not None or surface.end is not None:
+            raise InputError("a case file cannot state waves that end beyond the last one")
+        pairs = zip(surface.sines.wavelength, surface.sines.amplitude, strict=True)
+        return {"sines": [{"wavelength": float(w), "amplitude": float(a)} for w, a in pairs]}
+    fitted = surface.correlation and fit_sines(surface.correlation, **surface.fit)
+    if not fitted or not all(
+        np.array_equal(getattr(fitted, part), getattr(surface.sines, part))
+        for part in ("wavelength", "amplitude")
+    ):
+        raise InputError("a case file cannot state waves that are not fitted to the heights")
+    keys: dict[str, Any] = {}
+    if measured.map is not None:
+        reliable = {measured.map.reliable}
+        keys["map"] = inputs.add_heights(measured.map.name or "map", measured.map)
+    else:
+        # heights that a question may clean otherwise are kept as they were before
+        lines = [raw for raw, _ in measured.profiles] if case.cleaning else measured.cleaned
+        reliable = {line.reliable for line in lines}
+        keys["files"] = [inputs.add_heights(line.name or "profile", line) for line in lines]
+    if len(reliable) > 1:
+        raise InputError("a case file cannot state profiles of unlike reliable wavelengths")
+    keys |= {"reliable": reliable.pop(), "clean": bool(case.cleaning)}
+    numbers = {**case.cleaning, **surface.counted, **surface.fit}
+    if surface.rule is not None:
+        match surface.rule:
+            case RmsSlope() as rule:
+                numbers["cut_off"] = asdict(rule)
+            case ContactSlope(contact_slope=slope):
+                numbers["cut_off"] = {"contact_slope": slope}
+            case _:
+                numbers["cut_off"] = surface.rule
+    for name, value in numbers.items():
+        if name not in SurfaceTable.model_fields:
+            raise InputError(f"a case file cannot state {name} of the surface")
+        if value != SurfaceTable.model_fields[name].default:
+            keys[name] = list(value) if isinstance(value, tuple) else value
+    return keys
+
+
+def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
+    rubber, master = measured.rubber, measured.master
+    name = rubber.name or "rubber"
+    if master is None:
+        return {"file": inputs.add(name, ".json", json.dumps(rubber.to_dict(), indent=1))}
+    usual, _ = fit_prony_report(master, bulk_modulus=rubber.bulk_modulus)
+    series = ("equilibrium_modulus", "moduli", "relaxation_times")
+    if not all(np.array_equal(getattr(usual, key), getattr(rubber, key)) for key in series):
+        raise InputError(
+            "a case file cannot state how this series was fitted to its master curve; a case with "
+            "its Rubber alone can be saved"
+        )
+    columns = {
+        "frequency (Hz)": master.frequency,
+        "storage modulus E' (Pa)": master.storage,
+        "loss modulus E'' (Pa)": master.loss,
+    }
+    keys: dict[str, Any] = {"file": inputs.add_table(name, columns), "source": rubber.source}
+    keys["bulk_modulus"] = rubber.bulk_modulus
+    if rubber.strain_energy != NeoHookean():
+        keys["strain_energy"] = law_keys(rubber.strain_energy)
+    if rubber.reference_temperature is not None:
+        keys["reference_temperature"] = kelvin_text(rubber.reference_temperature)
+    match rubber.shift:
+        case None:
+            pass
+        case ShiftTable() as table:
+            factors = {
+                "temperature [K]": table.temperature,
+                "log10 a_T": table.horizontal,
+                "error of log10 a_T": table.horizontal_error,
+                "log10 b_T": table.vertical,
+                "error of log10 b_T": table.vertical_error,
+            }
+            kelvin = table.reference_temperature
+            head = "" if kelvin is None else f"# reference temperature (K): {kelvin!r}"
+            keys["shift"] = inputs.add_table(f"{name}_shift", factors, head)
+        case law:
+            keys["shift"] = law_keys(law)
+    return keys
+
+
+def _solver_keys(chain: Chain) -> dict[str, Any]:
+    solver = chain.solver
+    options: dict[str, Any] = {}
+    if isinstance(solver, FiniteStrainBlock):
+        options = asdict(solver.mesh) if solver.mesh != Mesh() else {}
+        options |= {"tolerance": solver.tolerance, "time_limit": solver.time_limit}
+    elif isinstance(solver, HalfPlane):
+        options = {"points": solver.points}
+    else:
+        raise InputError(f"a case file cannot state the solver {solver.name} of the chain")
+    if wave_solver(solver.name, options) != solver:
+        raise InputError(f"a case file cannot state all options of the solver {solver.name}")
+    if chain.rubber_at is not None:
+        raise InputError("a case file cannot state the rubber of each wave (rubber_at)")
+    return {"model": solver.name, **options}
+
+
+def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str, Any]:
+    if conditions is None:
+        return {}
+    keys: dict[str, Any] = {}
+    if conditions.temperature is not None:
+        keys["temperature"] = kelvin_text(conditions.temperature)
+    if conditions.softening is not None:
+        law = conditions.softening
+        keys["softening"] = (
+            _softening_table(law, inputs) if isinstance(law, SofteningTable) else law_keys(law)
+        )
+        keys["strain_norm"] = conditions.strain_norm
+    for name in ("heat", "shear_stress"):
+        effect = getattr(conditions, name)
+        keys[name] = None if effect is None else law_keys(effect)
+    return keys
+
+
+def _softening_table(table: SofteningTable, inputs: _Inputs) -> dict[str, Any]:
+    """Return the keys of strain sweeps; shear moduli are read as thirds of Young's."""
+    letter, divisor = ("G", 3.0) if table.deformation == "shear" else ("E", 1.0)
+    files = []
+    for at, strain in enumerate(table.strain):
+        columns: dict[str, ArrayLike] = {
+            "strain [1]": strain,
+            f"{letter}' [Pa]": np.array(table.storage[at]) / divisor,
+            f"{letter}'' [Pa]": np.array(table.loss[at]) / divisor,
+        }
+        if table.temperature is not None:
+            columns["temperature [K]"] = np.full(len(strain), table.temperature[at])
+        files.append(inputs.add_table("strain_sweep", columns))
+    options = {"measured_at": table.measured_at, "amplitude": "single"}
+    return {"kind": "table", "files": files, **options}

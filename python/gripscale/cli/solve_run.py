@@ -1,0 +1,218 @@
+"""What `gripscale run` does: it solves a case, prints and writes it, step by step."""
+
+from __future__ import annotations
+
+import shlex
+from contextlib import nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gripscale import case_file, terminal
+from gripscale.case_file.folder import case_replaced
+from gripscale.core.provenance import version_of
+from gripscale.io.table import Table, as_text
+from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
+from gripscale.questions.answer.page import slopes_table
+from gripscale.questions.calibration.page import measured_lines
+from gripscale.questions.chain import events
+from gripscale.questions.chain.charts import effects_sheet, heat_sheet
+from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
+from gripscale.questions.chain.run import DYNAMIC, ChainRun
+from gripscale.questions.chain.run_figures import background_figures
+from gripscale.questions.chain.view import PredictionView, title
+from gripscale.questions.compare.page import judgement
+from gripscale.questions.cut_off.question import CutOff, cut_off_result
+from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
+from gripscale.questions.result import warning_lines
+from gripscale.questions.summary_table import SUMMARY_FILE
+from gripscale.questions.uncertainty.page import uncertainty_lines
+from gripscale.questions.uncertainty.propagation import stored_uncertainty
+from gripscale.questions.vary.effects import EFFECTS_FILE, case_effects
+from gripscale.questions.vary.inputs import effects_asked
+from gripscale.questions.vary.page_side_by_side import effects_table
+from gripscale.report.failures import explained
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from rich.console import Console
+
+    from gripscale.case import Case
+    from gripscale.charts.figure_folder import Figures
+    from gripscale.core.units import DisplayUnit
+
+REPORT_WIDTH = 110
+"""Characters of the lines of the report."""
+
+
+def solve_run(
+    console: Console,
+    emit: events.OnEvent,
+    file: case_file.CaseFile,
+    target: Path,
+    figures: Figures,
+    fresh: bool,
+) -> None:
+    """Prepare, solve, print and write a case, with an event for each step."""
+    chain = ChainRun.of(case_file.read_case(file), target, fresh=fresh)
+    other = case_replaced(file, target)
+    if other:
+        words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
+        terminal.print_wrapped(console, words)
+    with background_figures(chain, figures) as draw:
+        answer, opening = _print_answer(console, chain, target)
+        effects = _solve(console, emit, file, chain, answer, draw)
+        parts, heat = _parts(chain, answer, effects, target)
+        solved = [answer.data] if answer.is_solved else []
+        solved += [chain.dataset(name) for name in chain.predictions]
+
+        def draw_conditions() -> None:
+            if heat is not None:
+                figures.save(heat_sheet(heat), "heat")
+            if effects is not None:
+                figures.save(effects_sheet(effects), "effects")
+
+        terminal.conclude(
+            console,
+            target,
+            parts,
+            results=solved,
+            text=terminal.RUN_REPORT,
+            closing=terminal.RUN_CLOSING,
+            opening=opening,
+            width=REPORT_WIDTH,
+            draw=draw_conditions,
+        )
+        emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
+        if solved:
+            emit(events.FileWritten(str(target / SUMMARY_FILE)))
+    page = target / "report.html"
+    if page.is_file() and page.stat().st_mtime < (target / "case.toml").stat().st_mtime:
+        words = shlex.join(["gripscale", "report", str(target)])
+        terminal.print_wrapped(console, f"{page.name} in it is older; `{words}` renews it")
+    failures = list(chain.failures.values())
+    for failure in failures[:-1]:
+        terminal.print_error(explained(failure))
+    if failures:
+        raise failures[-1]
+
+
+def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answer, list[str]]:
+    """Solve the answer of a case, print it above the inputs; return it and the lines printed."""
+    case = chain.case
+    header = f"gripscale {version_of('gripscale')}, case {case.name}"
+    terminal.print_wrapped(console, header)
+    if case.below_measurement.down_to is not None:
+        terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
+    result = chain.answer = answer(case, folder=target)
+    lead, inputs = ["", *result.lines], ["", *_inputs(case)]
+    for line in (*lead, *warning_lines(result.findings, terminal.RUN_REPORT), *inputs):
+        terminal.print_wrapped(console, line)
+    return result, [header, *lead, *warning_lines(result.findings), *inputs]
+
+
+def _solve(
+    console: Console,
+    emit: events.OnEvent,
+    file: case_file.CaseFile,
+    chain: ChainRun,
+    answer: Answer,
+    draw: events.OnEvent,
+) -> xr.Dataset | None:
+    """Solve and write the chain and, where the case asks for them, the effects of conditions."""
+    case, target = chain.case, chain.folder
+    assert target is not None
+    print_event = _event_printer(console, case.display_unit("speed"))
+
+    def on_event(event: events.Event) -> None:
+        emit(event)
+        print_event(event)
+        draw(event)
+
+    with console.status("solving") if console.is_terminal else nullcontext():
+        case_file.run_case(file, output=target, on_event=on_event, run=chain)
+        if answer.is_solved:
+            answer.save(target / ANSWER_FILE)
+            converged = answer.status == "converged"
+            emit(events.AnswerSolved(converged, answer.contact_fraction, answer.friction))
+            emit(events.FileWritten(str(target / ANSWER_FILE)))
+        if answer.curve is not None:
+            cut_off_result(answer.curve, case).save(target / "cut_off.nc")
+        effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
+        if effects is not None:
+            emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
+            emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
+    return effects
+
+
+def _inputs(case: Case) -> list[str]:
+    rubber = as_text(*rubber_parts(case.measured_rubber), width=10**6).splitlines()
+    lines = [
+        "Surface",
+        *(f"  {line}" for line in surface_lines(case.surface)),
+        "",
+        "Rubber",
+        *(f"  {line}".rstrip() for line in rubber),
+    ]
+    if case.conditions is not None:
+        conditions = conditions_lines(case.conditions, case.rubber)
+        lines += ["", "Conditions", *(f"  {line}" for line in conditions)]
+    return lines
+
+
+def _event_printer(console: Console, speed_unit: DisplayUnit) -> events.OnEvent:
+    """Return what prints a sentence for each event that a person waits for."""
+
+    def print_event(event: events.Event) -> None:
+        match event:
+            case events.ResultsReplaced():
+                terminal.print_wrapped(console, event.message)
+            case events.WaveSolved():
+                if event.number == 1 and event.pass_number == 1:
+                    console.print()
+                    terminal.print_wrapped(console, title(event.speed, speed_unit))
+                elif event.number == 1:
+                    terminal.print_wrapped(console, f"  pass {event.pass_number}")
+                parts = [
+                    f"  wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
+                    f"contact {event.contact_fraction:.3f}",
+                ]
+                if event.speed > 0.0:
+                    parts.append(f"friction {event.friction:.3f}")
+                if event.status != "conditions not settled":
+                    parts.append(event.message)
+                parts.append("already solved" if event.stored else f"{event.seconds:.1f} s")
+                terminal.print_wrapped(console, ", ".join(parts))
+            case events.PredictionFinished(passes=int(passes)):
+                agree = "agree" if event.converged else f"do not agree ({event.message})"
+                terminal.print_wrapped(
+                    console, f"  rubber and contact {agree} after {passes} passes on these meshes"
+                )
+
+    return print_event
+
+
+def _parts(
+    chain: ChainRun, answer: Answer, effects: xr.Dataset | None, target: Path
+) -> tuple[list[str | Table], xr.Dataset | None]:
+    """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
+    case = chain.case
+    views = [PredictionView(chain.dataset(name), name) for name in chain.predictions]
+    parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
+    parts += [LEGEND] if views else []
+    moving, heat = chain.dynamic, None
+    if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
+        heat = chain.dataset(DYNAMIC)
+        parts.append(heat_table(heat))
+    if effects is not None:
+        parts.append(effects_table(effects))
+    if answer.is_solved:
+        parts += slopes_table(answer.data)
+        parts += ["", *judgement(views[0], answer.data)] if views else []
+    if case.friction is not None and case.load.speed > 0.0:
+        parts += measured_lines(case.friction, case.load.speed, case.display_unit("speed"))
+    sampled = stored_uncertainty(target)
+    parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
+    if answer.curve is not None:
+        curve = CutOff(answer.curve)
+        parts += ["", *curve.basis, curve.rules_table()]
+    return parts, heat

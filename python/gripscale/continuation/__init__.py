@@ -1,0 +1,5 @@
+"""Roughness below the measurement: measured lines continued by random waves, and their contact."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
