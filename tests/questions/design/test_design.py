@@ -37,7 +37,7 @@ from gripscale.questions.design.design_text import (
     rolling_at_todays_friction,
 )
 from gripscale.questions.design.goal_friction import CompoundGoal
-from gripscale.questions.design.page import design_cards, design_lines
+from gripscale.questions.design.page import design_cards, design_lines, design_table
 from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
@@ -75,6 +75,11 @@ def test_the_page_begins_with_the_gain(case, data):
     text = page.read_text(encoding="utf-8")
     assert "Compound for case.toml" in text
     assert text.index(cards[0].value) < text.index("Points of the curve")
+
+
+def test_shares_at_a_limit_are_per_cent(data):
+    column = next(c for c in design_table(data).columns if c.name == "limited_share")
+    assert column.format(0.5) == "50 %"
 
 
 def test_the_promised_friction_is_that_of_a_new_contact(case, data):

@@ -168,8 +168,9 @@ def design_table(data: xr.Dataset) -> Table:
         columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
         wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
         notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
+    share = data.limited_share.values
     columns.append(
-        Column("limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format)
+        Column("limited_share", share, "at a limit", format=lambda part: f"{100.0 * part:.0f} %")
     )
     columns.append(Column("gap", data.gap.values, "left to gain", format=change))
     return Table("design", columns, _TITLE, notes)
