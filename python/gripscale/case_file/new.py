@@ -251,7 +251,6 @@ def case_text(
 def findings_of_inputs(case: Case) -> Iterator[Finding]:
     """Yield what reading and fitting the files of a case puts in doubt."""
     yield from case.findings()
-    yield from case.surface.extrapolated
     joint = case.measured_rubber.superposition
     for text in () if joint is None else joint.findings:
         yield assumption(TENS_OF_PERCENT, f"Rubber: {text}.")
