@@ -386,7 +386,7 @@ def described_surface(
     correlation, or no waves fit it.
     """
     try:
-        correlation = height_difference(measured.cleaned, **counted)
+        correlation = height_difference(measured.followed, **counted)
     except InputError as error:  # a wrong unit may leave no heights
         raise InputError(" ".join([*map(str, measured.doubts), str(error)])) from error
     try:

@@ -70,7 +70,7 @@ def test_the_closer_chain_of_the_documentation_is_a_case(tmp_path: Path) -> None
 def test_prepared_with_what_the_case_says(tmp_path: Path) -> None:
     line = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
     np.savetxt(tmp_path / "road.dat", np.column_stack([line.x, line.z]))
-    stated = '["road.dat"]\nx_unit = "m"\nz_unit = "m"\ndetrend = "none"\nremove_spikes = false'
+    stated = '["road.dat"]\nx_unit = "m"\nz_unit = "m"\ndetrend = "none"\nspikes = "none"'
     keys = 'scales = 4\ntop_height_fraction = 0.3\ncut_off = "1 mm"\nmax_lag = "30 mm"'
     text = GOOD.replace('["road.dat"]', stated).replace("scales = 8", keys)
     file = read_case_file(written(tmp_path, text))
@@ -170,8 +170,8 @@ WRONG = [
     ("scales = 8", 'scales = 8\nz_unit = "furlong"', "z_unit = 'furlong': expected one of m, cm,"),
     (
         "scales = 8",
-        'scales = 8\nremove_spikes = "no"',
-        "remove_spikes = 'no': expected true or fal",
+        'scales = 8\nspikes = "no"',
+        'spikes = \'no\': expected "isolated", "iso13473"',
     ),
     ('["road.dat"]', "[]", "[surface] files = []: expected at least 1 item"),
     ('["road.dat"]', '"road.dat"', "[surface] files = 'road.dat': expected a list"),

@@ -205,10 +205,10 @@ def _surface() -> Iterator[Door]:
     yield Door(gs.HeightMap, {"x": MAP.x, "y": MAP.y, "z": MAP.z, **words})
     yield Door(MAP.line, {"number": 1, "direction": "x"})
     yield Door(MAP.lines, {"direction": "x"})
-    cleaning = {"crop": (0.0, 1.0), "valid_range": (-1.0, 1.0), "remove_spikes": True}
+    cleaning = {"crop": (0.0, 1.0), "valid_range": (-1.0, 1.0), "spikes": "isolated"}
     more = {"spike_slope": 3.0, "across_gaps": False, "detrend": "linear"}
     yield Door(gs.clean, {"profile": LINE, **cleaning, **more})
-    across = {"crop": None, "valid_range": (-1.0, 1.0), "trim": 0.5, "remove_spikes": True}
+    across = {"crop": None, "valid_range": (-1.0, 1.0), "trim": 0.5, "spikes": "isolated"}
     yield Door(gs.clean_map, {"surface": MAP, **across, "spike_slope": 3.0, "form": 1})
     lags = {"top_height_fraction": 1.0, "max_lag": None, "lags_per_decade": 20, "band_blocks": 16}
     yield Door(gs.height_difference, {"profile": LINE, **lags})

@@ -57,19 +57,18 @@ def on_grid(rubber, surface, *, pressure, speed, shape, shortest):
     """Solve on one grid alone, from nothing; `speed` may be negative."""
     heights = periodic_heights(surface, smallest_wavelength=shortest, periodic=True)
     climb = GridSequence(HalfSpace(rubber, speed), heights, pressure, 1, 60)
-    return climb.solve(Level(Grid(shape, heights.grid.lengths), shortest))
+    return climb.solve(Level(Grid(shape, heights.grid.lengths), heights.smallest_wavelength))
 
 
 @dataclass(frozen=True)
 class RandomCase:
-    """A random rubber on a random surface, taken as one period."""
+    """A random rubber on a random surface, taken as one period with all its waves."""
 
     seed: int
     rubber: gs.Rubber
     surface: Profile | HeightMap
     pressure: float
     speed: float
-    smallest_wavelength: float
 
     def solve(self, **more):
         return gs.solve_rough_contact(
@@ -77,7 +76,6 @@ class RandomCase:
             self.surface,
             pressure=self.pressure,
             speed=self.speed,
-            smallest_wavelength=self.smallest_wavelength,
             periodic=True,
             workers=1,
             **more,
@@ -85,9 +83,7 @@ class RandomCase:
 
     def finer_than(self, contact, halvings: int):
         """Return the numbers of a grid with a spacing halved so often."""
-        heights = periodic_heights(
-            self.surface, smallest_wavelength=self.smallest_wavelength, periodic=True
-        )
+        heights = periodic_heights(self.surface, smallest_wavelength=None, periodic=True)
         climb = GridSequence(HalfSpace(self.rubber, self.speed), heights, self.pressure, 1, 60)
         points = contact.grid.points * 2 ** (halvings * len(contact.grid.shape))
         for level in levels(heights):
@@ -127,4 +123,4 @@ def random_case(seed: int, points_of_line=4096, points_of_map=64) -> RandomCase:
     pressure = float(modulus * slope * 10 ** random.uniform(-3, 0.3))
     x = np.arange(shape[0]) * 0.05 / shape[0]
     surface = Profile(x, z) if len(shape) == 1 else HeightMap(x, x, z)
-    return RandomCase(seed, rubber, surface, pressure, speed, shortest)
+    return RandomCase(seed, rubber, surface, pressure, speed)

@@ -95,7 +95,7 @@ WORDS = [None, True, "3", "", b"1", [], [1.0], (1.0, 2.0), {}, object(), abs, 1 
 NUMBERS = [0, -1.0, 1e-300, 5e-324, 1e300, NAN, INF, -INF, 10**400, -(10**400), 2.5, 1e-3, 1e-6]
 ARRAYS = [np.array(1.0), np.array([1.0, 2.0]), np.float32(1.0), np.int64(0), Z]
 VALUES = [*WORDS, *NUMBERS, *ARRAYS]
-CLEANING = ["crop", "valid_range", "trim", "remove_spikes", "spike_slope", "form"]
+CLEANING = ["crop", "valid_range", "trim", "spikes", "spike_slope", "form"]
 NAMES = [*LOAD, "smallest_wavelength", "periodic", "most_points", "most_iterations", "on_grid"]
 
 

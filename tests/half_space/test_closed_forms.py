@@ -143,7 +143,7 @@ def test_elastic_map_is_that_of_tamaas(row):
         pressure=row["pressure"],
         speed=0.0,
         shape=(128, 128),
-        shortest=4e-4,
+        shortest=None,
     ).contact
     assert found.settled
     assert found.active.sum() == row["points_in_contact"]

@@ -23,7 +23,7 @@ from gripscale.half_space.sensitivity import (
 from tests.half_space.rough_cases import AMPLITUDE, WAVELENGTH, isotropic_map, sine, solve
 from tests.samples import SHIFTED_RUBBER, THERMAL, ZENER
 
-STEP = 0.01
+STEP = 2.5e-3
 """Change of the logarithm of an input in a central difference. Its own error is of second order,
 1e-4 of a derivative near one. Points that come into contact add what it measures beyond that."""
 

@@ -41,17 +41,17 @@ def test_the_way_ends_are_joined_does_not_matter():
     assert plain.contact_fraction == pytest.approx(mirror.contact_fraction, rel=0.1)
 
 
-def test_waves_below_the_cut_off_are_gone_whatever_their_direction():
-    surface = isotropic_map(64, shortest=8e-4)
-    heights = periodic_heights(surface, smallest_wavelength=3.2e-3, periodic=True)
-    z = heights.on((96, 80))
-    number = heights.grid.wavenumber
-    kept = heights.spectrum[number <= 2 * np.pi / 3.2e-3 * (1 + 1e-9)]
-    assert 0 < kept.size < heights.spectrum.size
-    one = np.fft.rfft2(z) / z.size
-    across = np.hypot(*np.meshgrid(np.fft.fftfreq(96) * 96, np.arange(41), indexing="ij"))
-    assert np.abs(one[across > 0.0256 / 3.2e-3 + 1e-6]).max() < 1e-18
-    assert z.std() > 0.5 * surface.z.std()
+def test_the_cut_off_transmits_half_of_its_wave_whatever_the_direction():
+    """ISO 16610-61: exp(-ln 2 (cut-off / wavelength)^2) of each wave that the grid carries."""
+    surface, cut_off = isotropic_map(64, shortest=8e-4), 3.2e-3
+    heights = periodic_heights(surface, smallest_wavelength=cut_off, periodic=True)
+    there = np.fft.rfft2(heights.on((64, 64)))
+    before = np.fft.rfft2(surface.z)
+    inside = (heights.grid.wavenumber > 0.0) & (heights.grid.wavenumber < np.pi / 4e-4)
+    share = np.abs(there[inside]) / np.abs(before[inside])
+    expected = 2.0 ** -((heights.grid.wavenumber[inside] * cut_off / (2.0 * np.pi)) ** 2)
+    big = np.abs(before[inside]) > 1e-6 * np.abs(before).max()
+    np.testing.assert_allclose(share[big], expected[big], rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("points", [127, 128, 131])

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+
+import gripscale as gs
 
 from gripscale.core.status import Status
 from gripscale.half_space.model import DirectContact
@@ -27,9 +30,12 @@ def test_friction_of_the_wrong_sign_is_not_converged(seed: int) -> None:
 
 
 def test_an_answer_keeps_the_numbers_and_the_status_of_the_contact() -> None:
-    case = random_case(175, points_of_map=32)
-    alone = case.solve(tolerance=None)
-    model = DirectContact(case.smallest_wavelength, tolerance=None, periodic=True)
+    case = random_case(97, points_of_map=32)
+    cut_off = 2.0 * float(np.max(case.surface.step))
+    options = {"smallest_wavelength": cut_off, "tolerance": None, "periodic": True}
+    load = {"pressure": case.pressure, "speed": case.speed}
+    alone = gs.solve_rough_contact(case.rubber, case.surface, **load, **options)
+    model = DirectContact(**options)
     surface = Surface(None, "", measured=Measured.of([case.surface]))
     answer = model.predict(case.rubber, surface, Load(case.pressure, case.speed, footprint=0.1))
     assert float(answer.total_friction) == alone.friction

@@ -16,19 +16,20 @@ def test_one_period_is_what_the_direct_contact_sees():
     there = periodic_heights(LINE, smallest_wavelength=2e-3, periodic=False)
     here = periodic_heights(period, smallest_wavelength=None, periodic=True)
     assert here.grid.lengths == pytest.approx(there.grid.lengths, rel=1e-12)
-    np.testing.assert_allclose(here.on((800,)), there.on((800,)), atol=1e-12 * np.ptp(LINE.z))
+    # but for waves below half the cut-off, which the points of the period do not carry: 1/16 of them
+    np.testing.assert_allclose(here.on((800,)), there.on((800,)), atol=1e-2 * np.ptp(LINE.z))
 
 
 def test_windows_are_spread_over_all_profiles():
     other = Profile(LINE.x + 1.0, LINE.z)
-    found = spread_windows([LINE, other], 0.02, 5, 2e-3)
+    found = spread_windows([LINE, other], 0.02, 5)
     assert len(found) == 5
     assert found[0].x[0] < 0.02
     assert found[-1].x[0] > 1.15
-    assert len(spread_windows([LINE], 0.02, 1000, 2e-3)) == 10
+    assert len(spread_windows([LINE], 0.02, 1000)) == 10
 
 
 @pytest.mark.parametrize("most", [0, 2.5])
 def test_the_number_of_windows_is_a_whole_one(most):
     with pytest.raises(InputError, match="most"):
-        spread_windows([LINE], 0.02, most, 2e-3)
+        spread_windows([LINE], 0.02, most)

@@ -8,7 +8,13 @@ from hypothesis.extra.numpy import arrays
 
 from gripscale.core.errors import InputError
 from gripscale.surface import clean, read_profile
-from gripscale.surface.cleaning import crop_profile, mark_dropouts, mark_spikes, subtract_trend
+from gripscale.surface.cleaning import (
+    crop_profile,
+    mark_dropouts,
+    mark_spikes,
+    mark_steep_steps,
+    subtract_trend,
+)
 
 from .surface_cases import ROAD, ROAD_ONLY, profile_of
 
@@ -27,19 +33,53 @@ def missing(profile):
     return np.flatnonzero(np.isnan(profile.z)).tolist()
 
 
+@pytest.mark.parametrize("width", [1, 2, 3])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_run_that_goes_out_and_back_is_a_spike(width, sign):
+    z = np.zeros(30)
+    z[10 : 10 + width] = sign * 3.0 * STEP
+    marked, report = mark_spikes(profile_of(z, STEP))
+    assert missing(marked) == list(range(10, 10 + width))
+    assert (report.made_missing, report.missing) == (width, width)
+    assert mark_spikes(profile_of(0.999 * z, STEP))[1].made_missing == 0
+
+
+def test_edges_and_wide_stones_stay():
+    z = np.zeros(40)
+    z[10:14] = 8.0 * STEP
+    z[20:] = 30.0 * STEP
+    assert mark_spikes(profile_of(z, STEP))[1].made_missing == 0
+
+
+def test_a_spike_on_an_edge_is_held_to_both_sides():
+    """Beside an edge a spike stands off the higher side, too; one that does not is part of it."""
+    z = np.where(np.arange(30) < 15, 0.0, 10.0 * STEP)
+    z[14] = 14.0 * STEP
+    assert missing(mark_spikes(profile_of(z, STEP))[0]) == [14]
+    z[14] = 12.0 * STEP
+    assert mark_spikes(profile_of(z, STEP))[1].made_missing == 0
+
+
+def test_gaps_and_ends_are_bridged():
+    """Slopes run to the nearest height over a gap; at an end one side decides."""
+    assert missing(mark_spikes(flat(_9=np.nan, _10=7.0 * STEP, _11=np.nan))[0]) == [9, 10, 11]
+    assert missing(mark_spikes(flat(_9=np.nan, _10=5.9 * STEP, _11=np.nan))[0]) == [9, 11]
+    assert missing(mark_spikes(flat(_0=3.0 * STEP, _29=-4.0 * STEP))[0]) == [0, 29]
+
+
 def test_both_points_of_a_steep_pair_are_spikes():
-    marked, report = mark_spikes(flat(_10=3.0 * STEP))
+    marked, report = mark_steep_steps(flat(_10=3.0 * STEP))
     assert missing(marked) == [9, 10, 11]
     assert (report.made_missing, report.missing) == (3, 3)
-    marked, _ = mark_spikes(flat(_10=2.999 * STEP))
+    marked, _ = mark_steep_steps(flat(_10=2.999 * STEP))
     assert missing(marked) == []
 
 
 def test_a_gap_hides_a_spike_unless_gaps_count():
     profile = flat(_9=np.nan, _10=7.0 * STEP, _11=np.nan)
-    assert missing(mark_spikes(profile)[0]) == [9, 11]
+    assert missing(mark_steep_steps(profile)[0]) == [9, 11]
     # Slope to either side is 7/2 steps per step: too steep; then 0 over four steps is fine.
-    assert missing(mark_spikes(profile, across_gaps=True)[0]) == [8, 9, 10, 11, 12]
+    assert missing(mark_steep_steps(profile, across_gaps=True)[0]) == [8, 9, 10, 11, 12]
 
 
 @settings(max_examples=60, deadline=None)
@@ -49,14 +89,14 @@ def test_no_steep_neighbours_remain_and_the_rest_is_untouched(z):
     if (np.abs(np.diff(z)) >= 3.0 * profile.step).all():
         return
     try:
-        marked, report = mark_spikes(profile)
+        marked, report = mark_steep_steps(profile)
     except InputError:
         return  # all points were spikes
     assert not (np.abs(np.diff(marked.z)) >= 3.0 * profile.step).any()
     kept = np.isfinite(marked.z)
     assert np.array_equal(marked.z[kept], profile.z[kept])
     assert report.made_missing == (~kept).sum()
-    assert missing(mark_spikes(marked)[0]) == missing(marked)  # one pass is complete
+    assert missing(mark_steep_steps(marked)[0]) == missing(marked)  # one pass is complete
 
 
 @settings(max_examples=40, deadline=None)
@@ -111,11 +151,13 @@ def counted_in_the_file(path):
 )
 def test_measured_road_counts(path, expected):
     """SOURCE.txt: dropouts 5-6 %, spikes about 4 %."""
-    _, report = clean(read_profile(path), crop=ROAD_ONLY)
+    _, report = clean(read_profile(path), crop=ROAD_ONLY, spikes="iso13473")
     assert [step.step for step in report] == ["crop", "dropouts", "spikes", "trend"]
     counts = report["crop"].points, report["dropouts"].missing, report["spikes"].made_missing
     assert counts == expected == counted_in_the_file(path)
     assert report["trend"].points == 44280
+    isolated = clean(read_profile(path), crop=ROAD_ONLY)[1]["spikes"]
+    assert 0 < isolated.made_missing < 0.1 * expected[2]
     assert len(str(report).splitlines()) == 5
 
 

@@ -10,7 +10,6 @@ from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap
 from gripscale.surface.cleaning import (
     crop_map,
-    mark_map_spikes,
     mark_spikes,
     subtract_form,
     trim_map,
@@ -51,7 +50,7 @@ def test_the_steps_in_their_order():
     slope = report["form"].note.split("slopes ")[1].split()[0]
     assert float(slope) == pytest.approx(0.1, rel=0.01)  # of rough heights
     assert len(str(report).splitlines()) == 6
-    bare, report = gs.clean_map(map_of(rough()), trim=None, remove_spikes=False, form=None)
+    bare, report = gs.clean_map(map_of(rough()), trim=None, spikes=None, form=None)
     assert [step.step for step in report] == ["dropouts"]
     np.testing.assert_array_equal(bare.z, rough())
 
@@ -87,12 +86,12 @@ def test_gaps_inside_stay():
     assert (report.removed, cut.missing) == (0, 16)
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, 2), (2, 2)])
+@pytest.mark.parametrize("size", [(1, 1), (1, 2), (2, 2), (3, 3)])
 def test_spikes_of_few_points_are_found_and_nothing_else(size):
     z = rough()
     limit = 3.0 * ACROSS
     z[7 : 7 + size[0], 9 : 9 + size[1]] += limit + 1e-4
-    marked, report = mark_map_spikes(map_of(z))
+    marked, report = mark_spikes(map_of(z))
     expected = np.zeros(z.shape, dtype=bool)
     expected[7 : 7 + size[0], 9 : 9 + size[1]] = True
     np.testing.assert_array_equal(np.isnan(marked.z), expected)
@@ -103,7 +102,7 @@ def test_spikes_downwards_at_borders_and_by_gaps():
     z = rough()
     z[0, 0] = z[23, 8] = z[12, 12] = -3.1 * ACROSS
     z[11, 11:14] = np.nan
-    marked, _ = mark_map_spikes(map_of(z))
+    marked, _ = mark_spikes(map_of(z))
     assert np.isnan(marked.z[[0, 23, 12], [0, 8, 12]]).all()
     assert marked.missing == 6
 
@@ -112,8 +111,15 @@ def test_an_edge_of_a_stone_is_no_spike():
     """A step ten times too steep for a profile: a straight edge stays, point by point."""
     z = rough()
     z[12:] += 30.0 * ACROSS
-    assert mark_map_spikes(map_of(z))[1].made_missing == 0
-    assert mark_spikes(map_of(z).lines()[4])[1].made_missing == 2
+    assert mark_spikes(map_of(z))[1].made_missing == 0
+    assert mark_spikes(map_of(z).lines()[4])[1].made_missing == 0
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_crest_one_step_wide_is_no_spike(axis):
+    z = rough()
+    np.moveaxis(z, axis, 0)[12] += 30.0 * ACROSS
+    assert mark_spikes(map_of(z))[1].made_missing == 0
 
 
 @settings(max_examples=30, deadline=None)

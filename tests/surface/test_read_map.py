@@ -37,7 +37,7 @@ def test_an_instrument_map():
         assert (one.name, one.source) == (other.name, other.source)
         np.testing.assert_array_equal(one.x, other.x)
         np.testing.assert_array_equal(one.z, other.z)
-    levelled = [clean(line, remove_spikes=False)[0].z for line in surface.lines()]
+    levelled = [clean(line, spikes=None)[0].z for line in surface.lines()]
     assert 0.2e-6 < np.std(levelled) < 0.29e-6  # 0.29 um with one plane for all (SOURCE.txt)
 
 

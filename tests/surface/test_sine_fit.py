@@ -25,7 +25,8 @@ STACK = geometric_stack(FIRST, 2.5e-3, 3.5, 2.4, 6)
 
 @pytest.fixture(scope="module")
 def road():
-    return height_difference([clean(read_profile(path), crop=ROAD_ONLY)[0] for path in ROAD])
+    options = {"crop": ROAD_ONLY, "spikes": "iso13473"}
+    return height_difference([clean(read_profile(path), **options)[0] for path in ROAD])
 
 
 @pytest.mark.parametrize(

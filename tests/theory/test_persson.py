@@ -143,7 +143,15 @@ def test_faster_is_stiffer():
 
 
 def test_each_wavelength_so_far_is_a_result_of_its_own():
-    found = persson(ZENER, areal_points(), pressure=1e5, speed=0.1)
+    """Down to a cut-off in full, and with a Gaussian at it: each a surface of its own."""
+    spectrum = areal_points()
+    found = persson(ZENER, spectrum, pressure=1e5, speed=0.1)
+    for at in (10, 20):
+        ended = spectrum.wavenumber <= 2.0 * np.pi / found.wavelength[at] * (1.0 + 1e-9)
+        end = ArealSpectrum(spectrum.wavenumber[ended], spectrum.density[ended])
+        shorter = persson(ZENER, end, pressure=1e5, speed=0.1)
+        assert shorter.friction == pytest.approx(found.running_friction[at], rel=2 * QUADRATURE)
+    found = persson(ZENER, spectrum, pressure=1e5, speed=0.1, smallest_wavelength=2 * np.pi / Q1)
     for at in (10, 20):
         shorter = persson(
             ZENER, areal_points(), pressure=1e5, speed=0.1, smallest_wavelength=found.wavelength[at]
@@ -204,7 +212,7 @@ def test_the_quadrature_converges_at_second_order():
     q = np.geomspace(Q0, Q1, 16)
     bent = ArealSpectrum(q, 1e-13 / (1 + (q / 1e3) ** 2) ** 1.8)
     load = Load(1e5, 0.3, 0.1)
-    integrals = partial(module.integrals, styrene_butadiene(), bent, load, 0.5, q)
+    integrals = partial(module.integrals, styrene_butadiene(), bent, load, 0.5, q, None)
     fine = integrals(256)
     for which in (0, 1):
         errors = [abs(integrals(n)[which][-1] / fine[which][-1] - 1) for n in (4, 8, 16, 32)]

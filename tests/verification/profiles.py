@@ -40,11 +40,13 @@ class ProfileCase:
     @property
     def line(self) -> gs.Profile:
         """The periodic line of both models."""
-        return self.profile if self.periodic else one_period(self.profile, self.smallest_wavelength)
+        return self.profile if self.periodic else one_period(self.profile)
 
     @property
-    def _options(self) -> dict[str, float]:
-        return {"pressure": self.pressure, "speed": self.speed, "periodic": True}
+    def _options(self) -> dict[str, float | None]:
+        cut_off = self.smallest_wavelength
+        load = {"pressure": self.pressure, "speed": self.speed}
+        return {**load, "periodic": True, "smallest_wavelength": cut_off}
 
 
 @cache

@@ -207,6 +207,8 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
             raise InputError(f"a case file cannot state {name} of the surface")
         if value != SurfaceTable.model_fields[name].default:
             keys[name] = list(value) if isinstance(value, tuple) else value
+    if "spikes" in keys:
+        keys["spikes"] = keys["spikes"] or "none"
     return keys
 
 

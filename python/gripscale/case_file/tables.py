@@ -59,6 +59,16 @@ def _step(value: Any) -> Any:
     return numbers if isinstance(value, list | tuple) else numbers[0]
 
 
+_SPIKES = '"isolated", "iso13473" or "none"'
+
+
+def _spikes(value: Any) -> str | None:
+    """Accept a rule for spikes, or "none"."""
+    if value not in ("isolated", "iso13473", "none", None):
+        raise ValueError(f"expected {_SPIKES}")
+    return None if value == "none" else value
+
+
 class WaveTable(CaseTable):
     """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
 
@@ -123,12 +133,13 @@ class CleaningKeys(CaseTable):
     """Lowest and highest height to believe; others become missing."""
     trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     """Share of missing heights above which a border line of a map is cut off."""
-    remove_spikes: bool = True
-    """Spikes become missing heights."""
+    spikes: Annotated[str | None, Reading(_SPIKES, _spikes)] = "isolated"
+    """Rule by which spikes become missing: runs of up to three samples that go out and back, or
+    every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
-    """Change of height per step at which neighbours are a spike (ISO 13473-1: 3)."""
+    """Change of height per step at which a spike stands off, or a step is steep."""
     across_gaps: bool = False
-    """Hold the points on both sides of a gap of a profile to that slope, too."""
+    """Hold the points on both sides of a gap to that slope, too, with "iso13473"."""
     detrend: Literal["linear", "mean", "none"] = "linear"
     """Trend subtracted from a profile."""
     form: int = Field(default=1, ge=0, le=8)

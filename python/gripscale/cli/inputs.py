@@ -141,7 +141,9 @@ def fit_surface(
     step: Annotated[
         str | None, option('Distance between points, if not stated: "0.1 mm", or "1 um, 2 um".')
     ] = None,
-    keep_spikes: Annotated[bool, option("Leave spikes in.")] = False,
+    spikes: Annotated[
+        str, typer.Option(help="Rule for spikes: isolated, iso13473 or none.")
+    ] = "isolated",
     detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
@@ -152,7 +154,7 @@ def fit_surface(
     from gripscale.questions.inputs import page
     from gripscale.surface import HeightMap
 
-    values = keys_of(context, SurfaceTable) | {"remove_spikes": not keep_spikes}
+    values = keys_of(context, SurfaceTable)
     if crop is not None:
         values["crop"] = list(crop)
     if step is not None:

@@ -24,6 +24,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap, Profile
+from gripscale.surface.low_pass import STEEPEST, envelope, transmission
 from gripscale.surface.resampling import fill_gaps
 
 Single = NDArray[np.float32]
@@ -163,16 +164,20 @@ class PeriodicHeights:
     origin: tuple[float, ...]
     """Position of the first point [m]."""
     spectrum: ComplexArray = field(repr=False)
-    """`scipy.fft.rfftn` of the heights [m]."""
+    """`scipy.fft.rfftn` of the heights [m] that rubber follows."""
     measured: Mask = field(repr=False)
     smallest_wavelength: float
-    """Shorter waves are left out [m]."""
+    """Cut-off: waves of this length are transmitted by half [m]."""
+    whole: bool = False
+    """Whether nothing is cut off: the cut-off is four steps of a period taken as it stands."""
 
     def on(self, shape: tuple[int, ...], cut_off: float | None = None) -> Array:
-        """Return the heights [m] at the points of another grid, without waves below `cut_off`."""
+        """Return the heights [m] at the points of another grid, with a cut-off [m]."""
         shortest = max(cut_off or 0.0, self.smallest_wavelength)
-        kept = self.grid.wavenumber <= 2.0 * np.pi / shortest * (1.0 + 1e-9)
-        return resampled(np.where(kept, self.spectrum, 0.0), self.grid.shape, shape)
+        passed = self.spectrum
+        if not self.whole or shortest > self.smallest_wavelength:
+            passed = passed * transmission(self.grid.wavenumber, shortest)
+        return resampled(passed, self.grid.shape, shape)
 
     def measured_on(self, shape: tuple[int, ...]) -> Mask:
         """Return where the nearest height was measured."""
@@ -189,15 +194,21 @@ def surface_axes(surface: Profile | HeightMap) -> list[Array]:
 
 
 def periodic_heights(
-    surface: Profile | HeightMap, *, smallest_wavelength: float | None, periodic: bool
+    surface: Profile | HeightMap,
+    *,
+    smallest_wavelength: float | None,
+    periodic: bool,
+    steepest: float = STEEPEST,
 ) -> PeriodicHeights:
     """Return the periodic heights of a surface; arguments and errors as `solve_rough_contact`."""
+    slope = checks.positive("steepest", steepest, infinite=True)
     axes = surface_axes(surface)
     steps = [float((a[-1] - a[0]) / (a.size - 1)) for a in axes]
     grid = Grid(surface.z.shape, tuple(d * a.size for d, a in zip(steps, axes, strict=True)))
     z = fill_gaps(surface.z, tuple(steps), periodic=periodic)
     if not periodic:
         z = joined(z)
+    z = envelope(z, tuple(steps), slope)
     step, length = max(steps), min(grid.lengths)
     if FEWEST_STEPS * step > length:
         raise InputError(
@@ -219,4 +230,5 @@ def periodic_heights(
         spectrum=np.asarray(scipy.fft.rfftn(z - z.mean())),
         measured=~np.isnan(surface.z),
         smallest_wavelength=smallest,
+        whole=periodic and smallest_wavelength is None,
     )

@@ -107,7 +107,7 @@ _NUMBERS = {
     "friction_mismatch": ("1", "relative difference of the two friction coefficients"),
     "slope_in_contact": ("1", "rms slope of the surface in the contact"),
     "missing_share": ("1", "share of the contact on interpolated heights"),
-    "smallest_wavelength": ("m", "smallest wavelength of the surface as solved"),
+    "smallest_wavelength": ("m", "cut-off of the surface as solved"),
     "full_contact": ("1", "1 where the contact is full"),
 }
 

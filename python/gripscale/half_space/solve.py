@@ -41,6 +41,7 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import HeightMap, Profile
+from gripscale.surface.low_pass import STEEPEST
 from gripscale.theory.half_plane import GridContact
 
 FEWEST_IN_CONTACT = 8
@@ -69,6 +70,7 @@ def solve_rough_contact(
     speed: float,
     smallest_wavelength: float | None = None,
     periodic: bool = False,
+    steepest: float = STEEPEST,
     tolerance: float | None = 0.02,
     workers: int | None = None,
     most_points: int = 2**22,
@@ -97,11 +99,15 @@ def solve_rough_contact(
     speed : float
         Sliding speed [m/s]; zero is static contact of the relaxed rubber.
     smallest_wavelength : float, optional
-        Shorter waves of the surface are left out [m]: at least two steps of it; four by default.
+        Cut-off of the surface [m], at least two steps of it. A Gaussian (ISO 16610) transmits half
+        the amplitude of a wave of this length, less of shorter ones. By default four steps; a
+        `periodic` surface keeps all its waves then.
     periodic : bool
-        Take the surface as one period as it stands. Otherwise its ends are joined by subtracting
-        the smooth part that carries the jump between them; for a line, the straight line through
-        its ends.
+        Take the surface as one period. Otherwise its ends are joined by subtracting the smooth part
+        that carries the jump between them; for a line, the straight line through its ends.
+    steepest : float
+        Largest slope that rubber follows [-]: steeper flanks are filled by the `envelope` before
+        the cut-off. Infinity keeps all.
     tolerance : float, optional
         Estimated relative error to reach in contact fraction and friction, below 1 (friction below
         0.01 is held to the tolerance times 0.01). None: four points in the smallest wave, whatever
@@ -157,7 +163,10 @@ def solve_rough_contact(
     if body.speed == 0.0:
         require_load_bearing(rubber, load, math.inf)
     heights = periodic_heights(
-        surface, smallest_wavelength=smallest_wavelength, periodic=checks.flag("periodic", periodic)
+        surface,
+        smallest_wavelength=smallest_wavelength,
+        periodic=checks.flag("periodic", periodic),
+        steepest=steepest,
     )
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
         require_measured(solid, heights.smallest_wavelength, body.speed)

@@ -23,9 +23,9 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
+from gripscale.surface.low_pass import one_period as one_period
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import fill_gaps
-from gripscale.surface.resampling import one_period as one_period
 
 LEAST_VALID = 0.5
 """Share of heights that a window must have."""
@@ -136,20 +136,17 @@ def windows(
     return out
 
 
-def spread_windows(
-    profiles: Sequence[Profile], length: float, most: int, smallest_wavelength: float
-) -> list[Profile]:
+def spread_windows(profiles: Sequence[Profile], length: float, most: int) -> list[Profile]:
     """Return at most `most` windows of the profiles, each made `one_period`.
 
-    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly; waves
-    shorter than `smallest_wavelength` [m] are left out. Raises `InputError` as `windows` does, or
-    if `most` is not a whole number from 1.
+    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly. Raises
+    `InputError` as `windows` does, or if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
     lines = checks.instances("profiles", profiles, Profile)
     every = [window for line in lines for window in windows(line, length)]
     chosen = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
-    return [one_period(every[index], smallest_wavelength) for index in chosen]
+    return [one_period(every[index]) for index in chosen]
 
 
 def solve_windows(

@@ -1,6 +1,16 @@
 """Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
 Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
+
+A spike goes out and back within a few samples. It is a run of at most three samples that stands off
+the nearest height on both sides of it, to the same side and by a slope of 3 or more. An edge of a
+stone stands off on one side only, and stays. Of lines of synthetic surfaces with spikes of one to
+three samples this rule leaves area and friction within 8 % of the lines without them
+(`tests/half_space/test_spikes.py`).
+
+ISO 13473-1:2019, section 7.5, takes both neighbours of every steep step. That serves its mean
+profile depth (`gripscale.surface.texture`). For friction it takes the edges of stones, 4 % of the
+points of a coarse road, and leaves the middle of a spike three samples wide.
 """
 
 from __future__ import annotations
@@ -14,12 +24,18 @@ from typing import TypeVar
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
+
+SPIKE_RULES = ("isolated", "iso13473")
+"""Rules for spikes, the first by default; None keeps all."""
+
+_LONGEST_SPIKE = 3
+"""Samples of the longest run that is a spike: laser spots are one to three samples wide."""
 
 _HIGHEST_ORDER = 8
 """Highest order of a form: beyond it a polynomial follows the roughness."""
@@ -78,7 +94,7 @@ def clean(
     *,
     crop: tuple[float, float] | None = None,
     valid_range: tuple[float, float] | None = None,
-    remove_spikes: bool = True,
+    spikes: str | None = "isolated",
     spike_slope: float = 3.0,
     across_gaps: bool = False,
     detrend: str = "linear",
@@ -96,12 +112,13 @@ def clean(
         First and last distance to keep [m], both included.
     valid_range : (float, float), optional
         Lowest and highest valid height [m]; others become missing (sentinels, plates).
-    remove_spikes : bool, optional
-        Mark spikes as missing, see `mark_spikes`.
+    spikes : {"isolated", "iso13473"} or None, optional
+        Rule by which spikes become missing: runs of at most three samples that go out and back, or
+        `mark_steep_steps`; None keeps all.
     spike_slope : float, optional
-        Height change per step at which neighbours are a spike; 3 in ISO 13473-1.
+        Height change per step at which a run stands off, or a step is steep.
     across_gaps : bool, optional
-        Hold the points on both sides of a gap to the same slope as well, see `mark_spikes`.
+        Hold the points on both sides of a gap to the same slope as well, with "iso13473".
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
     """
@@ -110,8 +127,14 @@ def clean(
     if crop is not None:
         steps.append(partial(crop_profile, limits=crop))
     steps.append(partial(mark_dropouts, valid_range=valid_range))
-    if checks.flag("remove_spikes", remove_spikes):
-        steps.append(partial(mark_spikes, slope=spike_slope, across_gaps=across_gaps))
+    if spikes is not None:
+        checks.one_of("spikes", spikes, SPIKE_RULES)
+        if spikes == "iso13473":
+            steps.append(partial(mark_steep_steps, slope=spike_slope, across_gaps=across_gaps))
+        else:
+            steps.append(partial(mark_spikes, slope=spike_slope))
+    if across_gaps and spikes != "iso13473":
+        raise InputError(f'across_gaps belongs to spikes = "iso13473"; got {spikes!r}')
     steps.append(partial(subtract_trend, kind=detrend))
     return _in_turn(steps, profile)
 
@@ -129,10 +152,57 @@ def crop_profile(profile: Profile, limits: Limits) -> tuple[Profile, StepReport]
     return _report("crop", profile, cropped, f"kept {in_mm(first)} to {in_mm(last)}")
 
 
-def mark_spikes(
+def mark_spikes(surface: _Heights, *, slope: float = 3.0) -> tuple[_Heights, StepReport]:
+    """Mark spikes as missing: runs of at most three samples that go out and back.
+
+    A run is a spike if all its heights stand off the nearest height before and after it, to the
+    same side, by `slope` or more over the distance. On a map a run must do so along x and along y:
+    a spike stands off all round, a crest one step wide does not.
+    """
+    limit = checks.positive("spike_slope", slope)
+    steps = (surface.step,) if isinstance(surface, Profile) else surface.step
+    along = (
+        np.moveaxis(_isolated(np.moveaxis(surface.z, axis, -1), limit * step), -1, axis)
+        for axis, step in enumerate(steps)
+    )
+    z = np.where(np.logical_and.reduce(tuple(along)), np.nan, surface.z)
+    return _without_spikes(surface, z, slope, f"out and back, {slope:g} a step")
+
+
+def _isolated(z: Array, rise: float) -> Mask:
+    """Return where `z` belongs to a run along its last axis that stands off by `rise` a step."""
+    points = z.shape[-1]
+    padded = np.pad(z, [(0, 0)] * (z.ndim - 1) + [(1, 1)], constant_values=np.nan)
+    index = np.broadcast_to(np.arange(points + 2), padded.shape)
+    finite = np.isfinite(padded)
+    # the last height at or before each point, the first at or after it; the ends where none is
+    before = np.maximum.accumulate(np.where(finite, index, 0), axis=-1)
+    after = np.where(finite, index, points + 1)
+    after = np.minimum.accumulate(after[..., ::-1], axis=-1)[..., ::-1]
+    spikes = np.zeros(padded.shape, dtype=bool)
+    for width in range(1, min(_LONGEST_SPIKE, points) + 1):
+        left, right = before[..., : points + 1 - width], after[..., width + 1 :]
+        runs = [padded[..., 1 + k : points + 2 - width + k] for k in range(width)]
+        lowest, highest = np.minimum.reduce(runs), np.maximum.reduce(runs)
+        first = index[..., 1 : points + 2 - width]
+        off = [np.ones(first.shape, dtype=bool), np.ones(first.shape, dtype=bool)]
+        for beside, distance in ((left, first - left), (right, right - first - (width - 1))):
+            level = np.take_along_axis(padded, beside, axis=-1)
+            alone = np.isnan(level)  # at an end of the line one side decides
+            with np.errstate(invalid="ignore"):
+                off[0] &= alone | (lowest - level >= rise * distance)
+                off[1] &= alone | (level - highest >= rise * distance)
+        bounded = (left > 0) | (right < points + 1)
+        spike = (off[0] | off[1]) & bounded & np.isfinite(lowest)
+        for k in range(width):
+            spikes[..., 1 + k : points + 2 - width + k] |= spike
+    return spikes[..., 1:-1]
+
+
+def mark_steep_steps(
     profile: Profile, *, slope: float = 3.0, across_gaps: bool = False
 ) -> tuple[Profile, StepReport]:
-    """Mark spikes as missing, by the rule of ISO 13473-1:2019, section 7.5.
+    """Mark both sides of steep steps as missing, by the rule of ISO 13473-1:2019, section 7.5.
 
     Neighbours whose heights differ by |z[i+1] - z[i]| >= slope * step are a spike, and both become
     missing: the rule runs forwards and backwards along the profile, because the two heights alone
@@ -186,7 +256,7 @@ def clean_map(
     crop: tuple[Limits | None, Limits | None] | None = None,
     valid_range: Limits | None = None,
     trim: float | None = 0.5,
-    remove_spikes: bool = True,
+    spikes: str | None = "isolated",
     spike_slope: float = 3.0,
     form: int | None = 1,
 ) -> tuple[HeightMap, CleaningReport]:
@@ -205,10 +275,10 @@ def clean_map(
         Lowest and highest valid height [m]; others become missing (sentinels, fixtures).
     trim : float, optional
         Share of missing heights above which a line at a border is cut off; None keeps all.
-    remove_spikes : bool, optional
-        Mark spikes as missing, see `mark_map_spikes`.
+    spikes : {"isolated"} or None, optional
+        Rule by which spikes become missing, see `mark_spikes`; None keeps all.
     spike_slope : float, optional
-        Height over the neighbours, per step, at which a point is a spike.
+        Height change per step at which a run stands off.
     form : int, optional
         Order of the polynomial to subtract: 0 the mean, 1 a plane, 2 a paraboloid (as a shallow
         sphere or cylinder is) and so on to 8; None keeps the form.
@@ -220,8 +290,10 @@ def clean_map(
     steps.append(partial(mark_dropouts, valid_range=valid_range))
     if trim is not None:
         steps.append(partial(trim_map, share=trim))
-    if checks.flag("remove_spikes", remove_spikes):
-        steps.append(partial(mark_map_spikes, slope=spike_slope))
+    if spikes is not None:
+        if checks.one_of("spikes", spikes, SPIKE_RULES) == "iso13473":
+            raise InputError('spikes = "iso13473" is a rule for profiles; expected "isolated"')
+        steps.append(partial(mark_spikes, slope=spike_slope))
     if form is not None:
         steps.append(partial(subtract_form, order=form))
     return _in_turn(steps, surface)
@@ -270,33 +342,6 @@ def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepRep
                 f"{most:g} missing leave {stop - start} x {high - low}"
             )
     return _part(surface, "trim", slice(start, stop), slice(low, high))
-
-
-def mark_map_spikes(surface: HeightMap, *, slope: float = 3.0) -> tuple[HeightMap, StepReport]:
-    """Mark spikes as missing: heights far from the median of the valid heights around them.
-
-    A point is a spike if |z - median of its up to eight neighbours| >= slope * step, the larger
-    step of both ways. It is the median test of J. Westerweel, Exp. Fluids 16 (1994) 236,
-    doi:10.1007/BF00206543, with the limit of ISO 13473-1 for profiles. The rule for profiles marks
-    both sides of a steep step; on a map most neighbours of a point at a straight edge are on its
-    own side, so that stones keep their edges, and a spike of up to two by two points is marked.
-    """
-    limit = checks.positive("spike_slope", slope) * max(surface.step)
-    nx, ny = surface.z.shape
-    padded = np.pad(surface.z, 1, constant_values=np.nan)
-    around = np.stack(
-        [padded[i : i + nx, j : j + ny] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
-    )
-    # sorted with NaN last: the median is the mean of the two in the middle of the valid ones
-    around.sort(axis=0)
-    count = np.isfinite(around).sum(axis=0)[None]
-    low, high = (
-        np.take_along_axis(around, at, axis=0)[0]
-        for at in (np.maximum(count - 1, 0) // 2, np.minimum(count // 2, 7))
-    )
-    spikes = np.abs(surface.z - 0.5 * (low + high)) >= limit  # false where a height is missing
-    z = np.where(spikes, np.nan, surface.z)
-    return _without_spikes(surface, z, slope, f"{slope:g} steps off the median around")
 
 
 def subtract_form(surface: HeightMap, order: int = 1) -> tuple[HeightMap, StepReport]:

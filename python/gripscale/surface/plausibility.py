@@ -23,10 +23,10 @@ from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineSt
 from gripscale.surface.supports import road_between, support_plates
 
 _SPIKE_SLOPE = 3.0
-"""Height change per step of a spike (ISO 13473-1:2019, section 7.5)."""
+"""Height change per step that is steep (ISO 13473-1:2019, section 7.5)."""
 
-_MOST_SPIKES = 0.5
-"""Share of spikes beyond which the unit is probably wrong; 4 % are usual on roads."""
+_MOST_STEEP = 0.5
+"""Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %."""
 
 _TALLEST = 0.1
 """Rms height over length beyond which one of the two probably has a wrong unit."""
@@ -65,12 +65,10 @@ _FLAT = 0.02
 """Roughness of a part, over the usual one, below which it is flat."""
 
 
-def profile_warnings(
-    profile: Profile, cleaned: Profile | None = None, *, steep: bool = True
-) -> tuple[Finding, ...]:
+def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[Finding, ...]:
     """Return findings about an implausible profile; empty if there are none.
 
-    They concern steep slopes, many spikes, plates and jumps, flat stretches, sentinels, and
+    They concern many steep steps, plates and jumps, flat stretches, sentinels, and
     heights or lengths that suggest another unit. Sentinels, plates and units are doubts: the answer
     may be that of another road. Raises `InputError` if `cleaned` is no part of `profile`.
 
@@ -79,11 +77,9 @@ def profile_warnings(
     profile : Profile
         The profile as measured.
     cleaned : Profile, optional
-        The cleaned profile: only the heights it kept count, as they were measured.
-    steep : bool, optional
-        Whether to warn of remaining steep steps; on maps, true edges remain on purpose.
+        The cleaned profile: only the heights it kept count, as they were measured, and none beside
+        a step of slope 3 or more.
     """
-    checks.flag("steep", steep)
     doubts = _doubts(profile, cleaned)
     of_doubts = tuple(doubt(text, topic=Topic.SURFACE) for text in doubts.texts)
     if doubts.heights is None:
@@ -92,19 +88,6 @@ def profile_warnings(
     if not doubts.plates:
         level = _levelled(doubts.heights)
         warnings += [*_jump_warnings(level), *_flat_warnings(level)]
-    if steep:
-        slopes = _between_neighbours(doubts.heights) / profile.step
-        rms, count = _rms(slopes), int((slopes >= _SPIKE_SLOPE * (1 + 1e-6)).sum())
-        if rms > _SPIKE_SLOPE:
-            warnings.append(
-                f"the rms slope is {rms:.3g}, above {_SPIKE_SLOPE:g}: spikes, or another unit?"
-            )
-        elif count:
-            warnings.append(
-                f"{count} of {slopes.size} remaining slopes are {_SPIKE_SLOPE:g} or steeper, up to "
-                f"{slopes.max():.3g}: remove_spikes with spike_slope = {_SPIKE_SLOPE:g} takes them "
-                "out."
-            )
     return (*of_doubts, *map(_warning, warnings))
 
 
@@ -131,18 +114,22 @@ class _Doubts(NamedTuple):
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
     """Return reasons to doubt a profile; raise `InputError` as `profile_warnings` does."""
     part = _kept_part(profile, cleaned)
-    measured, kept = part.z, np.isfinite(part.z if cleaned is None else cleaned.z)
+    measured = part.z
     valid = measured[np.isfinite(measured)]
     if valid.size == 0 or np.ptp(valid) == 0.0:
         return _Doubts(("all heights are equal: is this the column of heights?",))
-    spikes = float((np.isfinite(measured) & ~kept).sum() / valid.size)
-    if spikes > _MOST_SPIKES:  # the remaining heights mean nothing
+    steps = np.abs(np.diff(measured)) >= _SPIKE_SLOPE * profile.step
+    steep = np.append(steps, False) | np.append(False, steps)
+    share = float(steep.sum() / valid.size)
+    if share > _MOST_STEEP:  # the heights mean nothing
         text = (
-            f"{100.0 * spikes:.0f} % of the heights are spikes, steeper than {_SPIKE_SLOPE:g}: "
+            f"{100.0 * share:.0f} % of the heights stand at steps steeper than {_SPIKE_SLOPE:g}: "
             "is the unit of heights or of distances right?"
         )
         return _Doubts((text, *_unit_warnings(_levelled(measured), profile)), units=True)
-    part = replace(part, z=np.where(kept, measured, np.nan))
+    if cleaned is not None:
+        kept = np.isfinite(cleaned.z) & ~steep
+        part = replace(part, z=np.where(kept, measured, np.nan))
     sentinels = tuple(_sentinel_warnings(part.z[np.isfinite(part.z)]))
     if sentinels:  # a sentinel is far off, steep, flat and high, too
         return _Doubts(sentinels)

@@ -1,4 +1,4 @@
-"""Heights where none were measured: equal steps, filled gaps, and one period of a line.
+"""Heights where none were measured: equal steps and filled gaps.
 
 Between unequal steps by straight lines between neighbours,
 
@@ -17,22 +17,9 @@ for Ordinary and Partial Differential Equations (2007), ch. 3, doi:10.1137/1.978
 line that is linear interpolation, with the nearest height at the ends. By the maximum principle no
 filled height lies above the highest or below the lowest around its gap: a gap makes no asperity of
 its own.
-
-One period of a line has its gaps filled, its ends joined, and flanks made no steeper than rubber
-follows. The profile of a contact is the smallest one above the heights z without slopes above s
-(E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837, doi:10.1090/S0002-9904-1934-05978-0),
-
-    e(x) = max_y (z(y) - s |x - y|),
-
-the upper envelope of cones on all points. A surface of rubber that follows a flank of slope s is
-stretched by up to sqrt(1 + s^2). The envelope keeps every summit, and every face below that slope;
-waves that are then cut off do not ring beside a step, by 9 % of its height (J. W. Gibbs, Nature 59
-(1899) 606).
 """
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -251,63 +238,3 @@ def fill_gaps_smoothly(z: Array) -> Array:
         return fill_gaps(z)
     at = np.clip(np.arange(z.size), valid[0], valid[-1])
     return np.where(np.isnan(z), PchipInterpolator(valid, z[valid])(at), z)
-
-
-_STEEPEST = 4.0
-"""Slope that rubber is taken to follow: stretched to 4.1, near the elongation at break of tread."""
-
-
-def one_period(
-    line: Profile, smallest_wavelength: float | None = None, *, steepest: float = _STEEPEST
-) -> Profile:
-    """Return a periodic line, for any model with `periodic=True`.
-
-    Missing heights are filled, the line through the end points subtracted, and flanks above a slope
-    of `steepest` [-] replaced by the smallest heights above the line without them; infinity keeps
-    all. Then waves shorter than `smallest_wavelength` [m], by default four steps, are left out.
-    The smallest wave has four points.
-
-    Raises `InputError` if `steepest` is not above zero, or `smallest_wavelength` is not from two
-    steps of the line to its length.
-    """
-    checks.instance("line", line, Profile)
-    slope = checks.positive("steepest", steepest, infinite=True)
-    step, period = line.step, len(line) * line.step
-    z = fill_gaps(line.z)
-    z = z - np.linspace(0.0, z[-1] - z[0], z.size, endpoint=False)
-    z -= z.mean()
-    if smallest_wavelength is None:
-        smallest = min(RESOLVED_STEPS * step, period)
-    else:
-        smallest = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
-    if smallest < 2.0 * step * (1.0 - 1e-9):
-        raise InputError(
-            f"smallest_wavelength must be at least two steps of the line, {2.0 * step:.4g} m; "
-            f"got {smallest:.4g} m"
-        )
-    if not math.isinf(slope):
-        # the envelope over three periods, of which the middle one has both neighbours
-        periods = np.tile(z, 3)
-        ramp = slope * step * np.arange(periods.size)
-        behind = np.maximum.accumulate(periods + ramp) - ramp
-        before = (np.maximum.accumulate(periods[::-1] + ramp) - ramp)[::-1]
-        z = np.maximum(behind, before)[z.size : 2 * z.size]
-    whole = Profile(line.x, z, line.name, line.source)
-    return without_short_waves(whole, smallest)
-
-
-def without_short_waves(line: Profile, smallest_wavelength: float) -> Profile:
-    """Return a periodic line without shorter waves [m], with four points in the smallest left."""
-    cut = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
-    period = len(line) * line.step
-    # round-off must not drop a wave that is exactly the smallest
-    waves = math.floor(min(period / cut * (1.0 + 1e-9), len(line)))
-    if waves < 1:
-        raise InputError(
-            f"smallest_wavelength must be at most the period {period:g} m; got {cut:g} m"
-        )
-    spectrum = np.fft.rfft(line.z)[: waves + 1]
-    points = max(FEWEST_POINTS, 4 * (spectrum.size - 1))
-    z = np.fft.irfft(spectrum, points) * (points / len(line))
-    x = line.x[0] + np.linspace(0.0, period, points, endpoint=False)
-    return Profile(x, z, line.name, source=line.source)

@@ -20,6 +20,7 @@ from gripscale.surface.cut_off import (
     slope_by_wavelength,
 )
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
+from gripscale.surface.low_pass import followed
 from gripscale.surface.plausibility import (
     extrapolation_notes,
     profile_warnings,
@@ -92,6 +93,13 @@ class Measured:
         """The profiles as cleaned, or the map."""
         return self.cleaned if self.map is None else self.map
 
+    @cached_property
+    def followed(self) -> list[Profile]:
+        """The cleaned lines without the flanks that rubber cannot follow."""
+        if self.map is not None:
+            return followed(self.map).lines()
+        return [followed(line) for line in self.cleaned]
+
     @property
     def surfaces(self) -> list[Profile] | list[HeightMap]:
         """Surfaces for the contact solver: the cleaned profiles, or the map."""
@@ -100,7 +108,7 @@ class Measured:
     @cached_property
     def slopes(self) -> SlopeByWavelength:
         """Rms slope of the measurement down to each wavelength."""
-        return slope_by_wavelength(self.heights)
+        return slope_by_wavelength(self.followed if self.map is None else followed(self.map))
 
     @cached_property
     def texture(self) -> xr.Dataset:
@@ -120,7 +128,7 @@ class Measured:
         findings = []
         for raw, cleaned in self.profiles:
             changes = [Finding(Severity.WARNING, f"{n}.", topic=Topic.SURFACE) for n in raw.notes]
-            implausible = profile_warnings(raw, cleaned, steep=self.map is None)
+            implausible = profile_warnings(raw, cleaned)
             if self.map is not None:  # its lines are no profiles between plates
                 implausible = tuple(replace(f, severity=Severity.WARNING) for f in implausible)
             of_line = (*changes, *raw.doubts, *implausible)
@@ -293,7 +301,7 @@ class Surface:
         if self.measured is None or not self.fit:
             raise InputError(f"top_height_fraction varies a measured surface; got {self.source}")
         counted = {**self.counted, "top_height_fraction": share}
-        correlation = height_difference(self.measured.cleaned, **counted)
+        correlation = height_difference(self.measured.followed, **counted)
         sines = fit_sines(correlation, **self.fit)
         return replace(self, waves=sines, correlation=correlation, counted=counted)
 

@@ -21,8 +21,8 @@ The mean profile depth is that of ISO 13473-1:2019. Missing heights are interpol
 averaged over 0.5 mm, waves below 2.4 mm taken out (second-order Butterworth filter, forwards and
 backwards, annex D), segments of 100 mm cut and the least-squares line of each subtracted. The
 segment depth is the mean of the highest points of its two halves over its mean height; the mean
-profile depth is the mean of the segment depths. Spikes must have been removed, as
-`gripscale.clean` does by the rule of the standard.
+profile depth is the mean of the segment depths. Steep steps are
+taken out first by the rule of the standard, whatever rule cleaned the profile.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ import numpy as np
 
 from gripscale.core.arrays import Array
 from gripscale.core.units import in_mm
-from gripscale.surface.cleaning import subtract_form, subtract_trend
+from gripscale.surface.cleaning import mark_steep_steps, subtract_form, subtract_trend
 from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.resampling import fill_gaps, without_line
 
@@ -162,9 +162,10 @@ def segment_depths(profile: Profile) -> Array:
     samples = int(_SEGMENT / step + 1e-6)
     whole = (sample[-1] + 1) // samples
     counts = np.bincount(sample)
-    heights = np.bincount(sample, fill_gaps(profile.z)) / counts
+    steady, _ = mark_steep_steps(profile)
+    heights = np.bincount(sample, fill_gaps(steady.z)) / counts
     smooth = _without_short_waves(heights, step / _SHORTEST_WAVE)
-    missing = np.bincount(sample, np.isnan(profile.z)) / counts
+    missing = np.bincount(sample, np.isnan(steady.z)) / counts
     segments, gaps = (part[: whole * samples].reshape(whole, -1) for part in (smooth, missing))
     halves = np.array_split(without_line(segments), 2, axis=1)
     depths = np.mean([half.max(axis=1) for half in halves], axis=0)

@@ -18,7 +18,8 @@ which fixes S_0. Another reference length changes mu by a factor that does not d
 speed and is part of b. The theory's own rules for z_p (Greenwood & Williamson) and for lambda_min
 (the energy criterion of A. Le Gal & M. Klueppel, J. Phys.: Condens. Matter 20 (2008) 015007,
 doi:10.1088/0953-8984/20/01/015007) have constants that could not be confirmed: the caller gives
-both lengths. The theory has no contact area.
+both lengths. lambda_min is the end of the integral, not a filter of the heights: what it leaves out
+is part of b. The theory has no contact area.
 """
 
 from __future__ import annotations
@@ -41,8 +42,8 @@ from gripscale.surface.surface import Surface, SurfacePart
 from gripscale.theory.persson import (
     TheoryResult,
     answer_of,
-    cleaned_profiles,
     divided,
+    followed_profiles,
     refine_intervals,
     running_integral,
 )
@@ -185,7 +186,7 @@ class KlueppelHeinrich(Checked, Model):
         """
         result = klueppel_heinrich(
             rubber,
-            cleaned_profiles(surface, self.name),
+            followed_profiles(surface, self.name),
             pressure=load.pressure,
             speed=load.speed,
             layer_ratio=self.layer_ratio,

@@ -10,6 +10,11 @@ J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; the factor S, for the sma
 inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015)
 105102, doi:10.1088/0953-8984/27/10/105102, which finds gamma about 1/2.
 
+A cut-off multiplies C by the square of what its Gaussian transmits
+(`gripscale.surface.low_pass.transmission`); results along the wavelength are those of cut-offs
+there. Without one the surface ends with its spectrum, and the waves down to each wavelength count
+in full.
+
 Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
 contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from G = (M
 h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi). The running integrals use the trapezoidal rule on grids
@@ -38,6 +43,7 @@ from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import by_wavelength
 from gripscale.surface import Profile, areal_spectrum, profile_spectrum
+from gripscale.surface.low_pass import transmission
 from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
 from gripscale.surface.surface import Surface, SurfacePart
 
@@ -64,9 +70,9 @@ class TheoryResult:
     status: Status
     """`converged` if doubling the resolution changed every integral by less than the tolerance."""
     wavelength: Array = field(repr=False)
-    """Falling, from the largest wave of the surface to the smallest one asked for [m]."""
+    """Cut-offs, from the largest wave of the surface falling to the smallest one asked for [m]."""
     running_friction: Array = field(repr=False)
-    """Friction coefficient of the waves down to each wavelength [-]."""
+    """Friction coefficient with each cut-off [-]."""
     friction_error: float
     """Change of the friction coefficient when the resolution was doubled last [-]."""
 
@@ -131,9 +137,9 @@ def filled_in(nodes: Array, widest: float) -> Array:
 
 
 def running_integral(values: Array, x: Array) -> Array:
-    """Return the integral of `values` from the first to each entry of `x`."""
-    steps = 0.5 * (values[1:] + values[:-1]) * np.diff(x)
-    return np.concatenate(([0.0], np.cumsum(steps)))
+    """Return the integral of `values` along their last axis from the first to each `x`."""
+    steps = 0.5 * (values[..., 1:] + values[..., :-1]) * np.diff(x)
+    return np.concatenate((np.zeros_like(values[..., :1]), np.cumsum(steps, axis=-1)), axis=-1)
 
 
 def refine_intervals(
@@ -227,7 +233,8 @@ def persson(
         Nominal pressure [Pa], above zero, and sliding speed [m/s]; zero is static contact of the
         relaxed rubber, without friction.
     smallest_wavelength : float, optional
-        Smallest wave that counts [m]; that of the spectrum by default.
+        Cut-off of the surface [m], see `gripscale.solve_rough_contact`; by default all waves of the
+        spectrum count in full.
     gamma : float
         Share of the deformation that is left where contact is small, 0 to 1.
     footprint : float, optional
@@ -243,42 +250,77 @@ def persson(
         )
     share = checks.at_most_one("gamma", checks.not_negative("gamma", gamma))
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
-    points = np.append(spectrum.wavenumber[spectrum.wavenumber < last], last)
+    end = last
+    if smallest_wavelength is not None:
+        end = min(LAST_OVER_CUT_OFF * last, float(spectrum.wavenumber[-1]))
+    inside = spectrum.wavenumber[spectrum.wavenumber < end]
+    points = np.unique(np.concatenate((inside, (last, end))))
     nodes = np.exp(filled_in(np.log(points), _WIDEST))
+    ends, kept = None, spectrum
+    if smallest_wavelength is not None:
+        ends = nodes[nodes <= last * (1.0 + 1e-9)]
+        passed = gaussian_power(nodes, ends[-1:])[0]
+        kept = ArealSpectrum(nodes, spectrum.at(nodes) * passed)
     load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
     (area, friction), (area_error, friction_error), status = refine_intervals(
-        partial(integrals, rubber, spectrum, load, share, nodes), _COARSEST, _FINEST, _TOLERANCE
+        partial(integrals, rubber, spectrum, load, share, nodes, ends),
+        _COARSEST,
+        _FINEST,
+        _TOLERANCE,
     )
     return PerssonResult(
         rubber=rubber,
         load=load,
         status=status,
-        wavelength=2.0 * np.pi / nodes,
+        wavelength=2.0 * np.pi / (nodes if ends is None else ends),
         running_friction=friction,
         friction_error=friction_error,
         running_contact_fraction=area,
         contact_fraction_error=area_error,
         gamma=share,
-        rms_gradient=spectrum.rms_gradient(smallest_wavelength),
-        profile_rms_slope=spectrum.profile_rms_slope(smallest_wavelength),
+        rms_gradient=kept.rms_gradient(),
+        profile_rms_slope=kept.profile_rms_slope(),
     )
 
 
+LAST_OVER_CUT_OFF = 3.0
+"""Largest wavenumber that counts over that of a cut-off: the Gaussian transmits 1/500 there."""
+
+
+def gaussian_power(q: Array, ends: Array) -> Array:
+    """Return the share of the power of waves `q` that cut-offs at `ends` [rad/m] transmit."""
+    lengths = 2.0 * np.pi / ends[:, None]
+    return transmission(q, lengths) ** 2
+
+
 def integrals(
-    rubber: Rubber, spectrum: ArealSpectrum, load: Load, gamma: float, nodes: Array, intervals: int
+    rubber: Rubber,
+    spectrum: ArealSpectrum,
+    load: Load,
+    gamma: float,
+    nodes: Array,
+    ends: Array | None,
+    intervals: int,
 ) -> tuple[Array, Array]:
-    """Return P and mu at the nodes [rad/m], by the trapezoidal rule in log q."""
+    """Return P and mu with cut-offs at `ends` [rad/m], by the trapezoidal rule in log q.
+
+    Without `ends` they are those of the waves down to each of the nodes [rad/m], in full.
+    """
     from scipy.special import erf
 
     log_q = divided(np.log(nodes), intervals)
     q = np.exp(log_q)
     stiff, lossy = over_angles(rubber, load, q, intervals)
     weight = q**4 * spectrum.at(q)  # q^3 C dq with dq = q d(log q)
+    if ends is not None:
+        weight = weight * gaussian_power(q, ends)
     with np.errstate(divide="ignore"):
         area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
     factor = gamma + (1.0 - gamma) * area**2
     friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
-    return area[::intervals], friction[::intervals]
+    if ends is None:
+        return area[::intervals], friction[::intervals]
+    return area[:, -1], friction[:, -1]
 
 
 def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[Array, Array]:
@@ -320,7 +362,7 @@ class Persson(Checked, Model):
         """
         result = persson(
             rubber,
-            profile_spectrum(cleaned_profiles(surface, self.name), window=self.window),
+            profile_spectrum(followed_profiles(surface, self.name), window=self.window),
             pressure=load.pressure,
             speed=load.speed,
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
@@ -336,10 +378,10 @@ def answer_of(result: TheoryResult, on_progress: OnProgress) -> xr.Dataset:
     return result.to_dataset()
 
 
-def cleaned_profiles(surface: Surface, name: str) -> list[Profile]:
-    """Return the cleaned profiles for a theory; `InputError` without any."""
+def followed_profiles(surface: Surface, name: str) -> list[Profile]:
+    """Return the profiles that rubber follows for a theory; `InputError` without any."""
     if surface.measured is None:
         raise InputError(
             f"{name} needs measured profiles; got a surface of sine waves only ({surface.source})"
         )
-    return surface.measured.cleaned
+    return surface.measured.followed

@@ -5,7 +5,7 @@ temporary network per Maxwell element (Lubliner, Mech. Res. Commun. 12 (1985) 93
 kernel solves the static or steady state in the frame of the wave; this module is the only one that
 builds a `ScaleResult` from its solution.
 
-A measured profile is made `gripscale.surface.resampling.one_period` and pressed into one block, all
+A measured profile is made `gripscale.surface.low_pass.one_period` and pressed into one block, all
 its waves in one solution: no separation of scales, no random phases, and no small strain.
 """
 
@@ -26,7 +26,9 @@ from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import Profile
-from gripscale.surface.resampling import fill_gaps, one_period, without_short_waves
+from gripscale.surface.low_pass import low_pass, one_period
+from gripscale.surface.profile import RESOLVED_STEPS
+from gripscale.surface.resampling import fill_gaps
 from gripscale.wave import kernel
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
@@ -293,8 +295,8 @@ def solve_profile(
     pressure, speed, load_time, workers
         As in `gripscale.solve_scale`.
     smallest_wavelength : float, optional
-        Shorter waves are left out [m]; by default none of a periodic profile, else those shorter
-        than four steps.
+        Cut-off [m], see `gripscale.solve_rough_contact`; by default four steps, none of a periodic
+        profile.
     periodic : bool
         Whether the profile is one period as it stands, its last point one step before the first of
         the next period.
@@ -324,16 +326,20 @@ def solve_profile(
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
     checks.flag("periodic", periodic)
+    if smallest_wavelength is None and not periodic:
+        smallest_wavelength = min(RESOLVED_STEPS * profile.step, len(profile) * profile.step)
     heights = _heights(profile, smallest_wavelength, periodic)
+    smallest = smallest_wavelength or heights.wavelength / heights.waves
+    waves = round(heights.wavelength / smallest)
     if columns is None:
-        if FEWEST_PER_WAVE * heights.waves > _COLUMNS[-1]:
+        if FEWEST_PER_WAVE * waves > _COLUMNS[-1]:
             least = FEWEST_PER_WAVE * heights.wavelength / _COLUMNS[-1]
             raise InputError(
                 f"smallest_wavelength must be at least {least:.4g} m, {FEWEST_PER_WAVE} of "
                 f"{_COLUMNS[-1]} columns; got waves down to "
-                f"{heights.wavelength / heights.waves:.4g} m"
+                f"{smallest:.4g} m"
             )
-        wanted = COLUMNS_PER_WAVE * heights.waves
+        wanted = COLUMNS_PER_WAVE * waves
         columns = next((count for count in _COLUMNS if count >= wanted), _COLUMNS[-1])
     if rows is None:
         count = checks.positive("columns", columns)
@@ -351,18 +357,21 @@ def solve_profile(
     in_contact = result.x[result.pressure > 0.0]
     further = {
         "missing_share": profile.missing / len(profile),
-        "smallest_wavelength": heights.wavelength / heights.waves,
+        "smallest_wavelength": smallest,
         "contact_slope": float(np.abs(heights.slope(in_contact)).max(initial=0.0)),
     }
     return replace(result, details={**result.details, **further})
 
 
 def _heights(profile: Profile, smallest: float | None, periodic: bool) -> SampledProfile:
-    """Return the heights of one period without waves below the smallest."""
-    line = profile if periodic else one_period(profile, smallest)
-    period, z = len(line) * line.step, fill_gaps(line.z, periodic=True)
+    """Return the heights of one period, with a cut-off [m] or all their waves."""
+    if periodic:
+        line = Profile(profile.x, fill_gaps(profile.z, periodic=True))
+    else:
+        line = one_period(profile)
     if smallest is not None:
-        z = without_short_waves(Profile(line.x, z), smallest).z
+        line = low_pass(line, smallest)
+    period, z = len(line) * line.step, line.z
     after, before = np.ptp(z), float(np.nanmax(profile.z) - np.nanmin(profile.z))
     if after <= _ROUND_OFF * before:
         raise InputError(

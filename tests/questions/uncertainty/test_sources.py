@@ -204,7 +204,7 @@ def spiky(known):
         # between its neighbours, but for the jump
         z[at + 1 :] += slope * line.step - (z[at + 1] - z[at])
     raw = replace(line, z=z)
-    options = {"remove_spikes": True, "spike_slope": 3.0, "across_gaps": False, "detrend": "none"}
+    options = {"spikes": "isolated", "spike_slope": 3.0, "across_gaps": False, "detrend": "none"}
     measured = Measured([(raw, clean(raw, **options)[0])], [], None, "")
     correlation = height_difference(measured.cleaned)
     surface = replace(known.surface, measured=measured, correlation=correlation)
@@ -256,7 +256,7 @@ def test_cleaning_reaches_correlation_blocks_and_contact(spiky):
 
 
 def test_cleaning_has_nothing_to_draw_where_nothing_is_cleaned(spiky, known):
-    left = replace(spiky, cleaning={**spiky.cleaning, "remove_spikes": False})
+    left = replace(spiky, cleaning={**spiky.cleaning, "spikes": None})
     with pytest.raises(InputError, match="no source of uncertainty is left"):
         alone("cleaning", left)
     assert alone("cleaning", left, cleaning="2:4"), "a stated range asks for it"

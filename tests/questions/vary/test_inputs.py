@@ -28,7 +28,7 @@ def measured(tmp_path: Path) -> Path:
         write_road(tmp_path / name, profile)
     path = tmp_path / "case.toml"
     path.write_text(
-        '[surface]\nfiles = ["road.txt"]\nremove_spikes = false\nscales = 5\n'
+        '[surface]\nfiles = ["road.txt"]\nspikes = "none"\nscales = 5\n'
         'smallest_wavelength = "0.25 mm"\n'
         '[rubber]\nname = "styrene_butadiene"\nbulk_modulus = "1.5 GPa"\n'
         '[load]\npressure = "3 bar"\nspeed = 0.3\nfootprint = 0.1\n'

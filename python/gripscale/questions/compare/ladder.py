@@ -8,7 +8,7 @@ the same surfaces say of an assumption may become a factor of the best estimate
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -269,7 +269,7 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return each profile down to where the sine waves end, or its spectrum before them."""
     specs = []
     for name, part in each_measured(setup.surface):
-        spectra = [_spectrum(line) for line in part.measured.cleaned] if part.measured else []
+        spectra = [_spectrum(line) for line in part.measured.followed] if part.measured else []
         ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
         smallest = max(part.cutoff_wavelength, *ends)
         specs.append(SampleSpec(Persson(smallest_wavelength=smallest), part, name))
@@ -289,31 +289,34 @@ WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
 (those of the roughness that the measurement has), and how many windows at most."""
 
 
-def _on_windows(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
-    """Return the windows of the profiles, the same for both models."""
+def _on_windows(
+    setup: ComparisonSetup, model: DirectContact | BlockOnProfile
+) -> Sequence[SampleSpec]:
+    """Return the windows of the profiles, the same for both models, with one cut-off."""
     sines = setup.surface.sines
     length = WINDOW * float(sines.wavelength[0])
+    enough = tuple(line for line in setup.lines if line.length > length)
+    if not enough:
+        return []
+    steps = 2.0 * max(line.step for line in enough)
+    smallest = max(length / MOST_WAVES, float(sines.cutoff_wavelength), steps)
     return [
         SampleSpec(
-            model,
+            replace(model, smallest_wavelength=smallest),
             with_single_measurement(setup.surface, line),
             f"{line.name} from {line.x[0]:.4g} m",
         )
-        for line in _windows(setup.lines, length, float(sines.cutoff_wavelength))[: setup.windows]
+        for line in _windows(enough, length)[: setup.windows]
     ]
 
 
 @lru_cache(maxsize=4)
-def _windows(lines: tuple[Profile, ...], length: float, end: float) -> list[Profile]:
-    """Return windows of the profiles that are long enough for one, with waves down to `end`.
+def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
+    """Return windows of the profiles.
 
     The first, the middle, the quarters, ...: the first few are spread over the profiles as all are.
     """
-    enough = [line for line in lines if line.length > length]
-    if not enough:
-        return []
-    smallest = max(length / MOST_WAVES, end, 2.0 * max(line.step for line in enough))
-    spread = spread_windows(enough, length, MOST_WINDOWS, smallest)
+    spread = spread_windows(lines, length, MOST_WINDOWS)
     bits = max(len(spread) - 1, 1).bit_length()
     halving = [int(f"{number:0{bits}b}"[::-1], 2) for number in range(len(spread))]
     return [spread[at] for at in np.argsort(halving, kind="stable")]

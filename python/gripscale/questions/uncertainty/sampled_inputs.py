@@ -103,8 +103,8 @@ class Measurement:
 
     @property
     def profiles(self) -> list[Profile]:
-        """The cleaned profiles or the lines of a map; none of waves stated by hand."""
-        return [] if self.surface.measured is None else self.surface.measured.cleaned
+        """The profiles or lines of a map that rubber follows; none of waves stated by hand."""
+        return [] if self.surface.measured is None else self.surface.measured.followed
 
     @property
     def is_map(self) -> bool:

@@ -22,6 +22,7 @@ from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inpu
 from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
+from gripscale.surface.low_pass import followed
 from gripscale.surface.sines import FACTOR_RANGE
 
 STATED = ("height_noise", "temperature", "pressure")
@@ -172,7 +173,7 @@ def _number(value_at: Callable[[float], float], applied: Callable[[Inputs, float
 def _cleaned(lines: Sequence[Profile], measurement: Measurement, **changed: Any) -> CleanedProfiles:
     """Return profiles cleaned as in the case but for what is changed."""
     options = {**measurement.cleaning, **changed}
-    after = tuple(clean(line, **options)[0] for line in lines)
+    after = tuple(followed(clean(line, **options)[0]) for line in lines)
     return CleanedProfiles(after, measurement.surface.counted)
 
 
@@ -216,8 +217,8 @@ def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
 
 USUAL_SPIKE = 3.0
 SPIKE_RANGE = (1.5, 10.0)
-"""Change of height per step at which neighbours are a spike: ISO 13473-1 says 3; half of it marks
-many true flanks, three times of it leaves most spikes of a laser standing."""
+"""Change of height per step at which a spike stands off: half of the usual marks narrow crests,
+three times of it leaves many spikes of a laser standing."""
 SPIKE_LEVELS = 8
 """Limits a range is drawn at: the profiles are cleaned once for each."""
 
@@ -239,14 +240,15 @@ def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
     if measurement.is_map:
         raise SourceNotApplicable("a map is cleaned as the case states")
     scale = usual["spike_slope"] / USUAL_SPIKE
-    if options.values is None and not usual["remove_spikes"]:
+    if options.values is None and usual["spikes"] is None:
         raise SourceNotApplicable("the case leaves spikes in")
     usual_range = quantities.Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
     levels = options.range_of("cleaning", quantities.factor, usual_range).levels(SPIKE_LEVELS)
     raw = [line for line, _ in measured.profiles]
 
     def cleaned(lines: Sequence[Profile], slope: float) -> CleanedProfiles:
-        return _cleaned(lines, measurement, remove_spikes=True, spike_slope=slope)
+        rule = usual["spikes"] or "isolated"
+        return _cleaned(lines, measurement, spikes=rule, spike_slope=slope)
 
     as_measured = cache(partial(cleaned, raw))
 

@@ -206,7 +206,7 @@ def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
         if surface.correlation is not None:
             curves["correlation"][name] = (surface.correlation.lag, surface.correlation.value)
         if surface.measured is not None:
-            spectrum = profile_spectrum(surface.measured.cleaned).averaged()
+            spectrum = profile_spectrum(surface.measured.followed).averaged()
             curves["spectrum"][name] = (spectrum.wavenumber, spectrum.density)
     out: dict[str, Any] = {}
     for name, axis, unit, units, text in (
