@@ -23,6 +23,7 @@ from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
@@ -274,9 +275,8 @@ class Case:
         FileError
             If a file cannot be written, or one of the case has changed since it was read.
         """
-        from gripscale.case_file.save import write_case  # a face: nothing here knows a file
-
-        return write_case(self, Path(path))
+        written: Path = face(CASE_WRITER)(self, Path(path))
+        return written
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
