@@ -215,6 +215,15 @@ OF_A_POINT = {
     "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
 }
 """What is kept of the best estimate of a prediction: end of its name, and meaning."""
+POINT_ESTIMATES = frozenset(
+    ["factor_label", *(f"best_{name}{end}" for name in ESTIMATED for end in OF_A_POINT)]
+)
+"""Names that `with_best_estimate` adds for the rubber that slides."""
+BEST_ESTIMATES = POINT_ESTIMATES - {"factor_label"} | {
+    *(f"best_{name}{end}" for name in ESTIMATED for end in ("_uncertainty", "_grid_error")),
+    *(f"best_{share}" for share in (*BASIS_SHARES, *SHARES_BY_SLOPE)),
+}
+"""Names of all numbers of a best estimate."""
 
 
 def with_best_estimate(data: xr.Dataset) -> xr.Dataset:

@@ -201,10 +201,9 @@ def _card_detail(data: xr.Dataset, name: str) -> str:
     """Return over what a range of answers is, and its widest interval."""
     axes = dimensions(data)
     over = " × ".join(_reach(data, axis) for axis in axes)
-    column = believed(data, name)
-    if column.startswith("total"):
+    if not is_estimated(data, name):
         return f"{_model(data)}; {over}"
-    width = float(data[f"{column}_half_width"].max())
+    width = float(data[f"best_{name}_half_width"].max())
     interval = f"; ± {percent_text(width)} (90 %)" if math.isfinite(width) else ""
     return f"best estimate{interval}; {over}"
 

@@ -37,7 +37,7 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
 from gripscale.model import input_doubts
-from gripscale.questions.answer.best_estimate import with_best_estimate
+from gripscale.questions.answer.best_estimate import POINT_ESTIMATES, with_best_estimate
 from gripscale.questions.vary.inputs import TEMPERATURE, measured_rubber_of, reading_notes
 from gripscale.questions.vary.side_by_side import Compounds
 from gripscale.questions.vary.study import Study
@@ -302,7 +302,7 @@ def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:
 
 def _believed(best: xr.Dataset, data: xr.Dataset) -> dict[str, xr.DataArray]:
     """Return the best estimates of the compounds, and the ratios to the first that are believed."""
-    names = [str(name) for name in best if str(name).startswith(("best_", "factor_"))]
+    names = [str(name) for name in best if name in POINT_ESTIMATES]
     widths = None
     if f"{_TOTALS[0]}_low" in data:
         widths = {name: _widths(best, data, name) for name in COMPARED_QUANTITIES}
