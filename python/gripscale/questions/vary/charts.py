@@ -292,7 +292,7 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
     the rubber are hatched, and dashed.
     """
     abscissa, x = varied_axis(result, axis)
-    beyond = _waves_beyond(result, axis)
+    beyond = style.waves_beyond(result.transpose("scale", axis, ...))
     friction = result.friction.transpose("scale", axis).values
     running = result.running_contact_fraction.transpose("scale", axis).values
     looks = zip(running, style.shades(len(running)), beyond, strict=True)
@@ -312,11 +312,6 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
         ),
     ]
     return Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength").on_paper()
-
-
-def _waves_beyond(result: xr.Dataset, axis: str) -> RowFlags:
-    """Return for each wave and point whether it excites the rubber beyond the measured band."""
-    return style.waves_beyond(result.transpose("scale", axis, ...))
 
 
 def _stack(rows: Array) -> tuple[Array, Array]:

@@ -45,7 +45,8 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
         yield "Answer: none; no prediction has a result."
         return
     estimated = is_estimated(data, "contact_fraction")
-    level = " (90 % intervals)" if estimated and _has_intervals(data) else ""
+    has_intervals = estimated and bool(data["best_contact_fraction_low"].notnull().any())
+    level = " (90 % intervals)" if has_intervals else ""
     by = "" if estimated else f" by the {_model(data)}, without an interval"
     yield f"Answer{by}: {'; '.join(texts)}{level}."
     yield from (f"  {line}" for line in study_basis(data))
@@ -139,10 +140,6 @@ def _at(data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
         for axis, i in zip(dimensions(data), index, strict=True)
     )
     return f"{_number(data, name, index)} at {', '.join(places)}"
-
-
-def _has_intervals(data: xr.Dataset) -> bool:
-    return bool(data["best_contact_fraction_low"].notnull().any())
 
 
 def _model(data: xr.Dataset) -> str:
