@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from gripscale.case_file import tables
 from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
-from gripscale.case_file.schema import CaseTable, expected, table_of
+from gripscale.case_file.schema import CaseTable, KeyQuantity, expected, quantity_of, table_of
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
@@ -66,6 +66,8 @@ class Key:
     default: str
     meaning: str
     chapter: str
+    quantity: KeyQuantity | None = None
+    """The quantity with a unit that it takes; None for anything else."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,8 @@ def _keys(law: type, page: str) -> Iterator[Key]:
                 default = f"{value:g}"
             case value:
                 default = json.dumps(value)
-        yield Key(name, expected(item), default, meanings.get(name, ""), CHAPTERS.get(name, page))
+        meaning, chapter = meanings.get(name, ""), CHAPTERS.get(name, page)
+        yield Key(name, expected(item), default, meaning, chapter, quantity_of(item))
 
 
 def _field_texts(law: type) -> dict[str, str]:

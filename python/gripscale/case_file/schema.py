@@ -7,7 +7,18 @@ import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import Annotated, Any, Literal, cast, get_args, get_origin, get_type_hints
+from types import UnionType
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    Union,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, create_model
 from pydantic import Field as PydanticField
@@ -40,6 +51,8 @@ class Reading:
     """Returns what the type asks for; raises `ValueError` with one sentence."""
     laws: Mapping[str, type] = field(default_factory=dict, hash=False)
     """The laws whose tables it reads, by kind."""
+    quantity: str = ""
+    """Kind of the quantity that it reads, such as length; empty for anything else."""
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
@@ -53,15 +66,43 @@ def expected(field: FieldInfo) -> str:
     return _of_type(field.annotation, field.metadata)
 
 
-def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+class KeyQuantity(NamedTuple):
+    """A quantity with a unit that a key takes."""
+
+    kind: str
+    pair: bool
+    """Whether it takes a list of two, such as both ends of a range."""
+
+
+def quantity_of(field: FieldInfo) -> KeyQuantity | None:
+    """Return the quantity that a key takes, or None of a key that takes anything else."""
+    annotation, marks = _type_and_marks(field.annotation, field.metadata)
+    pair = get_origin(annotation) is list
+    if pair:
+        if not any(getattr(mark, "max_length", None) == 2 for mark in marks):
+            return None
+        _, marks = _type_and_marks(get_args(annotation)[0])
+    kind = next((mark.quantity for mark in marks if isinstance(mark, Reading)), "")
+    return KeyQuantity(kind, pair) if kind else None
+
+
+def _type_and_marks(annotation: Any, metadata: Iterable[Any] = ()) -> tuple[Any, list[Any]]:
+    """Return a type without None and `Annotated` around it, and the marks of both."""
     marks = list(metadata)
-    for mark in marks:
-        if isinstance(mark, Reading):
-            return mark.words
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
         inside = [part for mark in more if isinstance(mark, FieldInfo) for part in mark.metadata]
-        return _of_type(inner, [*more, *inside, *marks])
+        return _type_and_marks(inner, [*more, *inside, *marks])
+    parts = [part for part in get_args(annotation) if part is not type(None)]
+    optional = len(parts) == 1 and get_origin(annotation) in (Union, UnionType)
+    return _type_and_marks(parts[0], marks) if optional else (annotation, marks)
+
+
+def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+    annotation, marks = _type_and_marks(annotation, metadata)
+    for mark in marks:
+        if isinstance(mark, Reading):
+            return mark.words
     limits = [
         words.format(value)
         for mark in marks
@@ -186,7 +227,11 @@ def _not_negative(value: float) -> float:
 
 def _quantity(kind: str, check: Callable[[float], float] = float) -> Reading:
     """Return what reads a quantity with its unit, "3 bar", or a plain SI number, and checks it."""
-    return Reading(f"a {kind} {such_as(kind)}", lambda value: check(parse_quantity(value, kind)))
+    return Reading(
+        f"a {kind} {such_as(kind)}",
+        lambda value: check(parse_quantity(value, kind)),
+        quantity=kind,
+    )
 
 
 def unit_of_file(kind: str) -> Reading:

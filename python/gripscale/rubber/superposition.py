@@ -24,7 +24,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber.joint_shift import SHIFTED_MODULI, Joint, Rows, align, sweep_rows
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
@@ -221,7 +221,7 @@ def superposition_warnings(overlaps: Sequence[Overlap], shift: Shift) -> Iterato
         at = int(np.nanargmax(shift.horizontal_error))
         yield (
             f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
-            f"{shift.temperature[at] - ZERO_CELSIUS:.1f} °C"
+            f"{celsius(shift.temperature[at], '.1f')}"
         )
 
 

@@ -222,7 +222,7 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
     ).data
     assert np.isfinite(data.compound_gain).all()
     assert np.isnan(data.compound_rolling_ratio).all()
-    assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
+    assert "rolling resistance of short must lie within 10 to 30 °C" in data.attrs["notes"]
 
 
 @pytest.mark.parametrize("which", [0, 1, 2], ids=["factor", "per decade", "E'"])

@@ -114,8 +114,7 @@ def inputs(
     excitation = excited(case.load.speed, surface.sines)
     rubber = case.measured_rubber
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
-    left_out = [finding.about("Surface") for finding in surface.extrapolated]
-    findings = [*further, *(f for f in case.findings(surfaces, loads) if f not in left_out)]
+    findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
     data = _files(case.origin.files) | series
     attrs = _waves(surface) | about_series
