@@ -100,7 +100,15 @@ def _keys(law: type, page: str) -> Iterator[Key]:
     table = table_of(law)
     meanings = {"kind": _about(law)}
     for source in [base for base in law.__mro__[:0:-1] if issubclass(base, CaseTable)] + [law]:
-        meanings |= _field_texts(source)
+        body = ast.parse(inspect.getsource(source)).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for field, below in pairwise(body.body):
+            match field, below:
+                case (
+                    ast.AnnAssign(target=ast.Name(id=name)),
+                    ast.Expr(value=ast.Constant(value=text)),
+                ):  # without units: a case states them as it likes
+                    meanings[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
         match item.default:
@@ -116,18 +124,6 @@ def _keys(law: type, page: str) -> Iterator[Key]:
                 default = json.dumps(value)
         meaning, chapter = meanings.get(name, ""), CHAPTERS.get(name, page)
         yield Key(name, expected(item), default, meaning, chapter, quantity_of(item))
-
-
-def _field_texts(law: type) -> dict[str, str]:
-    """Return the text below each field of a law, without units: a case states them as it likes."""
-    texts = {}
-    body = ast.parse(inspect.getsource(law)).body[0]
-    assert isinstance(body, ast.ClassDef)
-    for field, below in pairwise(body.body):
-        match field, below:
-            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=text)):
-                texts[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
-    return texts
 
 
 def _about(law: type) -> str:

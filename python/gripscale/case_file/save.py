@@ -54,7 +54,13 @@ from gripscale.wave.problem import Mesh
 def write_case(case: Case, path: Path) -> Path:
     """Write a case to `path`, its measurements to the folder `inputs` beside it; return `path`."""
     if case.origin.text:
-        write_saved(_copied(case, path), path.parent, path.name)
+        origin = case.origin
+        read = validate(CaseTables, tomllib.loads(origin.text), origin.name)
+        file = CaseFile(read, Path(origin.name), origin.text, origin.units)
+        for before, now in zip(origin.files, named_files(file), strict=True):
+            if before != now:
+                raise FileError(f"{file.resolve(now.name)} has changed since the case was read")
+        write_saved(saved_case(file, path.parent, path.name), path.parent, path.name)
         return path
     inputs = _Inputs(path.parent, saved_inputs(path.parent, path.name))
     tables = _tables(case, inputs)
@@ -69,17 +75,6 @@ def write_case(case: Case, path: Path) -> Path:
     saved = SavedCase("\n".join([*lines, ""]), inputs.contents)
     write_saved(saved, path.parent, path.name)
     return path
-
-
-def _copied(case: Case, path: Path) -> SavedCase:
-    """Return a case that came from a file with its files, which must be as they were."""
-    origin = case.origin
-    tables = validate(CaseTables, tomllib.loads(origin.text), origin.name)
-    file = CaseFile(tables, Path(origin.name), origin.text, origin.units)
-    for before, now in zip(origin.files, named_files(file), strict=True):
-        if before != now:
-            raise FileError(f"{file.resolve(now.name)} has changed since the case was read")
-    return saved_case(file, path.parent, path.name)
 
 
 @dataclass

@@ -273,7 +273,13 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
     sizes = {**line.sizes, "sample": len(profiles)}
     subjects = {"subject": ("sample", [name for name, _ in profiles])}
     samples = solve_design(Design(sizes, points, subjects), bench, sample_numbers)
-    curves = _continued_at(measured, case, bench)
+    curves: list[xr.Dataset | None] = [None] * len(line.points)
+    if case.below_measurement.down_to is not None:
+        continued = measured_design(
+            measured, case.continuation(), case.rubber, case.surface, case.load, "continued: "
+        )
+        solved = bench.solve(continued.tasks, contact_curves)
+        curves = [solved[point.task.key] for point in continued.points]
     rows = []
     for at, (point, curve) in enumerate(zip(line.points, curves, strict=True)):
         of_point = samples.isel(measurement=at)
@@ -298,20 +304,6 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
         }
     )
     return predicted_of(data.assign_coords(line.coords))
-
-
-def _continued_at(
-    measured: MeasuredFriction, case: Case, bench: Bench
-) -> Sequence[xr.Dataset | None]:
-    """Return the contact against the cut-off at each measured point, where the case asks for it."""
-    if case.below_measurement.down_to is None:
-        return [None] * measured.speed.size
-    continued = case.continuation()
-    design = measured_design(
-        measured, continued, case.rubber, case.surface, case.load, "continued: "
-    )
-    answers = bench.solve(design.tasks, contact_curves)
-    return [answers[point.task.key] for point in design.points]
 
 
 _SOURCE = "gripscale residuals"
