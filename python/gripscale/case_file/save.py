@@ -272,28 +272,24 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
         keys["temperature"] = kelvin_text(conditions.temperature)
     if conditions.softening is not None:
         law = conditions.softening
-        keys["softening"] = (
-            _softening_table(law, inputs) if isinstance(law, SofteningTable) else law_keys(law)
-        )
+        if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
+            letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
+            files = []
+            for at, strain in enumerate(law.strain):
+                columns: dict[str, ArrayLike] = {
+                    "strain [1]": strain,
+                    f"{letter}' [Pa]": np.array(law.storage[at]) / divisor,
+                    f"{letter}'' [Pa]": np.array(law.loss[at]) / divisor,
+                }
+                if law.temperature is not None:
+                    columns["temperature [K]"] = np.full(len(strain), law.temperature[at])
+                files.append(inputs.add_table("strain_sweep", columns))
+            sweeps = {"files": files, "measured_at": law.measured_at, "amplitude": "single"}
+            keys["softening"] = {"kind": "table", **sweeps}
+        else:
+            keys["softening"] = law_keys(law)
         keys["strain_norm"] = conditions.strain_norm
     for name in ("heat", "shear_stress"):
         effect = getattr(conditions, name)
         keys[name] = None if effect is None else law_keys(effect)
     return keys
-
-
-def _softening_table(table: SofteningTable, inputs: _Inputs) -> dict[str, Any]:
-    """Return the keys of strain sweeps; shear moduli are read as thirds of Young's."""
-    letter, divisor = ("G", 3.0) if table.deformation == "shear" else ("E", 1.0)
-    files = []
-    for at, strain in enumerate(table.strain):
-        columns: dict[str, ArrayLike] = {
-            "strain [1]": strain,
-            f"{letter}' [Pa]": np.array(table.storage[at]) / divisor,
-            f"{letter}'' [Pa]": np.array(table.loss[at]) / divisor,
-        }
-        if table.temperature is not None:
-            columns["temperature [K]"] = np.full(len(strain), table.temperature[at])
-        files.append(inputs.add_table("strain_sweep", columns))
-    options = {"measured_at": table.measured_at, "amplitude": "single"}
-    return {"kind": "table", "files": files, **options}

@@ -6,7 +6,7 @@ import difflib
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields
 from types import UnionType
 from typing import (
     Annotated,
@@ -283,31 +283,23 @@ def table_of(law: Any) -> type[CaseTable]:
     hints = get_type_hints(law)
     keys: dict[str, Any] = {"kind": (Literal[law.kind], ...)} if hasattr(law, "kind") else {}
     for item in fields(law):
-        default = ... if item.default is MISSING else item.default
-        keys[item.name] = (_type_of_key(item, hints[item.name]), default)
-    return create_model(law.__name__, __base__=CaseTable, **keys)
-
-
-def _type_of_key(item: Field[Any], hint: Any) -> Any:
-    """Return what a case takes for a field of a law."""
-    check = item.metadata["check"]
-    rule = check.keywords.get("rule", check.func)
-    parts = [part for part in get_args(hint) if part is not type(None)]
-    optional = len(parts) < len(get_args(hint))
-    value = parts[0] if optional else hint
-    if value is float or get_origin(value) in (tuple, Sequence):
-        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
-        number: Any = (
-            Annotated[float, _quantity(kind, _QUANTITIES.get(rule, float))]
-            if kind
-            else Annotated[float, PydanticField(allow_inf_nan=False, **_NUMBERS.get(rule, {}))]
-        )
-        if value is float:
-            value = number
-        else:
+        check, hint = item.metadata["check"], hints[item.name]
+        rule = check.keywords.get("rule", check.func)
+        parts = [part for part in get_args(hint) if part is not type(None)]
+        optional = len(parts) < len(get_args(hint))
+        value = parts[0] if optional else hint
+        several = get_origin(value) in (tuple, Sequence)
+        if value is float or several:
+            kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
+            limits = {"allow_inf_nan": False} | _NUMBERS.get(rule, {})
+            reading = _quantity(kind, _QUANTITIES.get(rule, float)) if kind else None
+            number: Any = Annotated[float, reading or PydanticField(**limits)]
             most = 2 if get_origin(value) is tuple else None
-            value = Annotated[list[number], PydanticField(min_length=2, max_length=most)]
-    return value | None if optional else value
+            pair = PydanticField(min_length=2, max_length=most)
+            value = Annotated[list[number], pair] if several else number
+        default = ... if item.default is MISSING else item.default
+        keys[item.name] = (value | None if optional else value, default)
+    return create_model(law.__name__, __base__=CaseTable, **keys)
 
 
 def law_from_table(law: type, value: Any) -> Any:

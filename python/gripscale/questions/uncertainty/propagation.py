@@ -339,6 +339,13 @@ def propagate(
     number = defaults.samples if samples is None else samples
     start = defaults.seed if seed is None else seed
     accuracy = defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    named = stated_models(case, choice) if models is None else models
+    named = [named] if isinstance(named, str) else list(named)
+    for name in named:
+        checks.one_of("model", name, _MODELS)
+    if not named or len(set(named)) < len(named):
+        short = checks.short_repr(models)
+        raise InputError(f"models must be one or both of chain, direct; got {short}")
     axis: Axis | None = None
     if vary:
         axis, *further = axes_of(vary)
@@ -350,7 +357,7 @@ def propagate(
         choice,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
         checks.whole("seed", start, least=0, most=MOST_SEED),
-        _models(stated_models(case, choice) if models is None else models),
+        tuple(name for name in _MODELS if name in named),
         axis,
         accuracy,
     )
@@ -378,16 +385,6 @@ def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
         of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
         word = "both" if of_chain else "direct"
     return BOTH[word]
-
-
-def _models(names: Sequence[str]) -> tuple[str, ...]:
-    chosen = [names] if isinstance(names, str) else list(names)
-    for name in chosen:
-        checks.one_of("model", name, _MODELS)
-    if not chosen or len(set(chosen)) < len(chosen):
-        short = checks.short_repr(names)
-        raise InputError(f"models must be one or both of chain, direct; got {short}")
-    return tuple(name for name in _MODELS if name in chosen)
 
 
 def _answered(plan: Plan, chosen: sampling.Chosen, bench: Bench) -> xr.Dataset:
