@@ -303,18 +303,24 @@ class Case:
         )
 
     def findings(
-        self, surfaces: Iterable[Surface] | None = None, loads: Iterable[Load] | None = None
+        self,
+        surfaces: Iterable[Surface] | None = None,
+        loads: Iterable[Load] | None = None,
+        *,
+        extrapolated: bool = True,
     ) -> list[Finding]:
         """Return what is doubtful about load, rubber, conditions and surface.
 
-        Those of `surfaces` and `loads` count for an answer on others than those of the case.
+        Those of `surfaces` and `loads` count for an answer on others than those of the case;
+        without `extrapolated` nothing of roughness that the measurement does not carry.
         """
         surface = self.surface
+        others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
         findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
         fit = self.measured_rubber.fit
         texts = [] if fit is None else [f"Rubber: {text}." for text in fit.findings]
         findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER) for text in texts]
-        findings += [f.about("Surface") for f in surface.findings if f not in surface.doubts]
+        findings += [f.about("Surface") for f in surface.findings if f not in others]
         if surface.measured is not None and surface.measured.no_self_affine:
             why = surface.measured.no_self_affine
             text = f"The surface was not described as self-affine: {why}"

@@ -25,7 +25,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import Job, in_threads
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import celsius
 from gripscale.half_space.model import smallest_wavelength
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import FrictionAdjoint
@@ -63,7 +63,7 @@ class CompoundGoal(Checked):
     def __str__(self) -> str:
         parts = [f"{self.speed:g} m/s", f"{self.pressure / 1e5:g} bar"]
         if self.temperature is not None:
-            parts.append(f"{self.temperature - ZERO_CELSIUS:.3g} °C")
+            parts.append(celsius(self.temperature))
         if self.road != "case":
             parts.append(self.road)
         return ", ".join(parts)

@@ -23,7 +23,6 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED, surface_numbers, variable_attributes
@@ -172,7 +171,12 @@ def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
 
 def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     """Return the Dataset with the master curve of its rubber, and the rules of thumb on it."""
-    kelvin, at = _rules(rubber)
+    shift, reference = rubber.shift, rubber.reference_temperature
+    kelvin = at = np.empty(0)
+    if shift is not None and reference is not None:  # the rules within the shift
+        low, high = shift.limits
+        kelvin = np.array([each for each in _RULES.values() if low <= each <= high])
+        at = 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)
     drawn = np.array([*data.frequency.values, *at])
     omega = np.geomspace(drawn.min() / _MARGIN, drawn.max() * _MARGIN, MASTER_POINTS)
     modulus = rubber.complex_modulus(omega)
@@ -194,16 +198,3 @@ def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
             variable_attributes("share of the effect of E'' within half a decade")
         ),
     )
-
-
-def _rules(rubber: Rubber) -> tuple[Array, Array]:
-    """Return the temperatures of the rules [K], and where on the master curve they are [rad/s].
-
-    Those within the shift of the rubber; none without a shift.
-    """
-    shift, reference = rubber.shift, rubber.reference_temperature
-    if shift is None or reference is None:
-        return np.empty(0), np.empty(0)
-    low, high = shift.limits
-    kelvin = np.array([each for each in _RULES.values() if low <= each <= high])
-    return kelvin, 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)

@@ -43,32 +43,27 @@ def study_command(
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
-    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file import folder
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.questions.vary.axis import parse_axes
     from gripscale.questions.vary.question import Variation
     from gripscale.questions.vary.study import Study
 
     axes = parse_axes(vary)
-    file = read_case_file(case)
-    varied = read_named_inputs(axes, file)
-    planned = Study(read_case(file), varied, static=static, model=model, tolerance=tolerance)
-    console, target = terminal.open_folder(file, output, "study")
-    stored = planned.stored(target)
+    work = terminal.CaseCommand(case)
+    varied = read_named_inputs(axes, work.file)
+    planned = Study(work.case, varied, static=static, model=model, tolerance=tolerance)
+    work.open_results(output, "study")
+    stored = planned.stored(work.target)
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
-        terminal.print_wrapped(console, line)
-    folder.save_case(file, target)
-    progress = terminal.progress_printer(console)
-    data = planned.run(target, workers=workers, client=cluster, on_task=progress)
-    terminal.finish(
-        console,
-        target,
+        terminal.print_wrapped(work.console, line)
+    folder.save_case(work.file, work.target)
+    data = planned.run(client=cluster, **work.solving(workers))
+    work.finish(
         Variation(data),
-        file,
-        "study.txt",
         "table and figures",
         opening=opening,
         keep_figures=stored is not None,

@@ -55,7 +55,7 @@ def study_table(data: xr.Dataset) -> Table:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
     if ADHESIVE_FRICTION in data:
-        term = np.array(each(ADHESIVE_FRICTION))
+        term = np.array(each(believed(data, "adhesive_friction")))
         total = term + np.array(each(friction))
         columns += [
             Column("area_term", term, "μ", "area term"),

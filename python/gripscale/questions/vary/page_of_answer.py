@@ -12,8 +12,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
-from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
-from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.model import STATUS, STEEP_SHARE, input_doubts_of
+from gripscale.questions.answer.best_estimate import AREA_TERM, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
@@ -186,8 +186,8 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield "a road without direction is assumed"
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"
-    if ADHESIVE_FRICTION in data:
-        term = data[ADHESIVE_FRICTION]
+    if AREA_TERM in data:
+        term = data[AREA_TERM]
         low, high = float(term.min()), float(term.max())
         yield f"an area term of {significant(low)} to {significant(high)} comes on top"
     if has_intervals:

@@ -30,7 +30,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import celsius
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task
@@ -83,7 +83,9 @@ def at_one_temperature(
     if wanted is None:
         fixed = {name: t for name, t in temperatures.items() if rubbers[name].shift is None}
         if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
-            each = ", ".join(f"{name} for {_celsius(kelvin)}" for name, kelvin in fixed.items())
+            each = ", ".join(
+                f"{name} for {celsius(kelvin, '.1f')}" for name, kelvin in fixed.items()
+            )
             raise InputError(
                 "compounds must hold for one temperature, or have a shift to it; got "
                 f"{each} without one"
@@ -99,16 +101,13 @@ def at_one_temperature(
             continue
         if rubber.shift is None:
             raise InputError(
-                f"{name} holds for {_celsius(before)} and cannot be brought to {_celsius(wanted)}: "
+                f"{name} holds for {celsius(before, '.1f')} and cannot be brought to "
+                f"{celsius(wanted, '.1f')}: "
                 "give it a shift, or leave it out"
             )
         together[name] = rubber.at(wanted)
-        shifted.append(f"{name} shifted from {_celsius(before)} to {_celsius(wanted)}")
+        shifted.append(f"{name} shifted from {celsius(before, '.1f')} to {celsius(wanted, '.1f')}")
     return together, (*shifted, *temperature_doubts(together))
-
-
-def _celsius(kelvin: float) -> str:
-    return f"{kelvin - ZERO_CELSIUS:.1f} °C"
 
 
 FEWEST, _MOST = 2, 6
