@@ -102,11 +102,9 @@ class HalfSpace:
     def _thickness_factor(self, grid: Grid) -> tuple[ComplexArray, ComplexArray]:
         """Return K over that of the half-space [-], and the derivative of its logarithm by nu."""
         assert self.thickness is not None
-        shear, compression = layer_theory.shear_and_compression(
-            self.young_modulus(grid), self.rubber.bulk_modulus
-        )
-        depth = _without_mean(grid) * self.thickness
-        return layer_theory.thickness_factor(depth, shear, compression)
+        young, bulk = self.young_modulus(grid), self.rubber.bulk_modulus
+        compression = layer_theory.shear_and_compression(young, bulk)[1]
+        return layer_theory.thickness_factor(_without_mean(grid) * self.thickness, compression)
 
     @cached_property
     def _of_layers(self) -> list[HalfSpace]:

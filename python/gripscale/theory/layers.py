@@ -136,9 +136,7 @@ def _sinh_less(x: Array) -> Array:
     return np.where(x < 1.0, np.exp(-small) * series, whole)
 
 
-def thickness_factor(
-    depth: Array, shear: ComplexArray, compression: ComplexArray
-) -> tuple[ComplexArray, ComplexArray]:
+def thickness_factor(depth: Array, compression: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
     """Return F [-] of one layer and d ln F / d nu [-].
 
     `depth` is |q| d [-], above zero; `compression` is 1 - 2 nu [-]; broadcast together.
