@@ -209,7 +209,7 @@ def _stack_losses(
         power = (displacement.conj().swapaxes(1, 2) @ (below @ displacement))[:, 0, 0]
         work.append(-power.imag / number)
     work.append(np.zeros(number.size))
-    return compliance, -np.diff(np.array(work), axis=0)
+    return np.asarray(compliance), np.asarray(-np.diff(np.array(work), axis=0))
 
 
 def stack_compliance(
