@@ -56,6 +56,7 @@ from .surface import fit_sines as fit_sines
 from .surface import height_difference as height_difference
 from .surface import read_map as read_map
 from .surface import read_profile as read_profile
+from .theory.layers import Layers as Layers
 from .wave.block import solve_profile as solve_profile
 from .wave.block import solve_scale as solve_scale
 from .wave.result import ScaleResult as ScaleResult

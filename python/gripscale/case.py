@@ -125,6 +125,8 @@ class Case:
         Sliding speed [m/s]; zero is the relaxed rubber at rest.
     footprint : float or str
         Length of the nominal contact [m].
+    thickness : float or str, optional
+        Thickness of the rubber on a rigid base [m]; without it the rubber has no end.
     smallest_wavelength : float or str, optional
         Shortest wave of the roughness that counts [m]; by default the shortest one measured.
     waves : int
@@ -167,6 +169,7 @@ class Case:
         pressure: float | str,
         speed: float | str,
         footprint: float | str = 0.1,
+        thickness: float | str | None = None,
         smallest_wavelength: float | str | None = None,
         waves: int = _WAVES,
         conditions: Conditions | None = None,
@@ -186,6 +189,7 @@ class Case:
             in_si("speed", speed, "speed"),
             in_si("footprint", footprint, "length"),
             load_time,
+            None if thickness is None else in_si("thickness", thickness, "length"),
         )
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
@@ -321,6 +325,13 @@ class Case:
         texts = [] if fit is None else [f"Rubber: {text}." for text in fit.findings]
         findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER) for text in texts]
         findings += [f.about("Surface") for f in surface.findings if f not in others]
+        if self.load.thickness is not None:
+            text = (
+                "The thickness of the rubber does not count in the theory of Klüppel and Heinrich, "
+                "in heat and in softening, and the step from lines to a surface is that of rubber "
+                "without end."
+            )
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         if surface.measured is not None and surface.measured.no_self_affine:
             why = surface.measured.no_self_affine
             text = f"The surface was not described as self-affine: {why}"

@@ -222,6 +222,7 @@ KEYS = {
     "pressure": ("load", "pressure"),
     "speed": ("load", "speed"),
     "footprint": ("load", "length"),
+    "thickness": ("rubber", "length"),
     "smallest_wavelength": ("surface", "length"),
     "cut_off": ("surface", "length"),
 }

@@ -65,7 +65,11 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     )
     motion = f"and {speed}" if reliance.is_moving(data) else "at rest, where there is no friction"
     end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
-    yield f"for {pressure} {motion}, roughness down to {end}"
+    thick = ""
+    if "thickness" in data:
+        thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
+        thick = f", rubber {thickness} thick on a rigid base"
+    yield f"for {pressure} {motion}, roughness down to {end}{thick}"
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:

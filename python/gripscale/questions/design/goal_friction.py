@@ -92,6 +92,8 @@ class GoalFriction:
     goals: Sequence[CompoundGoal]
     parts: Sequence[MeasuredPart] = field(repr=False)
     workers: int = 1
+    thickness: float | None = None
+    """Of the rubber [m]; None: a half-space."""
     _before: dict[int, RoughContact] = field(default_factory=dict, repr=False)
 
     @classmethod
@@ -101,6 +103,7 @@ class GoalFriction:
         goals: Sequence[CompoundGoal],
         roads: Mapping[str, Surface],
         workers: int = 1,
+        thickness: float | None = None,
     ) -> GoalFriction:
         """Return the friction of a compound at `goals` on `roads` by their names.
 
@@ -123,7 +126,7 @@ class GoalFriction:
             for surface, length in zip(surfaces, lengths, strict=True):
                 shortest = smallest_wavelength(road, surface)
                 parts.append(MeasuredPart(index, surface, shortest, longest, length / sum(lengths)))
-        return cls(rubber, goals, parts, workers)
+        return cls(rubber, goals, parts, workers, thickness)
 
     @property
     def weights(self) -> Array:
@@ -148,6 +151,7 @@ class GoalFriction:
                 part.surface,
                 pressure=goal.pressure,
                 speed=goal.speed,
+                thickness=self.thickness,
                 smallest_wavelength=part.smallest_wavelength,
                 tolerance=tolerance,
                 start=self._before.get(index) if warm else None,
