@@ -8,6 +8,9 @@ from typing import Any
 
 import lazy_loader
 
+from gripscale.core import faces
+
+faces.enter(faces.CASE_WRITER, "gripscale.case_file.save:write_case")
 _lazy, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 

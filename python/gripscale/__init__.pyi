@@ -32,9 +32,9 @@ from .questions.cut_off.question import cut_off as cut_off
 from .questions.design.question import CompoundDesign as CompoundDesign
 from .questions.design.question import design as design
 from .questions.result import Result as Result
-from .questions.result import load as load
 from .questions.sensitivity.question import Sensitivity as Sensitivity
 from .questions.sensitivity.question import sensitivity as sensitivity
+from .questions.stored import load as load
 from .questions.uncertainty.question import uncertainty as uncertainty
 from .questions.vary.question import Variation as Variation
 from .questions.vary.question import vary as vary
@@ -56,6 +56,7 @@ from .surface import fit_sines as fit_sines
 from .surface import height_difference as height_difference
 from .surface import read_map as read_map
 from .surface import read_profile as read_profile
+from .theory.layers import Layers as Layers
 from .wave.block import solve_profile as solve_profile
 from .wave.block import solve_scale as solve_scale
 from .wave.result import ScaleResult as ScaleResult

@@ -23,6 +23,7 @@ from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
@@ -124,6 +125,8 @@ class Case:
         Sliding speed [m/s]; zero is the relaxed rubber at rest.
     footprint : float or str
         Length of the nominal contact [m].
+    thickness : float or str, optional
+        Thickness of the rubber on a rigid base [m]; without it the rubber has no end.
     smallest_wavelength : float or str, optional
         Shortest wave of the roughness that counts [m]; by default the shortest one measured.
     waves : int
@@ -166,6 +169,7 @@ class Case:
         pressure: float | str,
         speed: float | str,
         footprint: float | str = 0.1,
+        thickness: float | str | None = None,
         smallest_wavelength: float | str | None = None,
         waves: int = _WAVES,
         conditions: Conditions | None = None,
@@ -185,6 +189,7 @@ class Case:
             in_si("speed", speed, "speed"),
             in_si("footprint", footprint, "length"),
             load_time,
+            None if thickness is None else in_si("thickness", thickness, "length"),
         )
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
@@ -274,9 +279,8 @@ class Case:
         FileError
             If a file cannot be written, or one of the case has changed since it was read.
         """
-        from gripscale.case_file.save import write_case  # a face: nothing here knows a file
-
-        return write_case(self, Path(path))
+        written: Path = face(CASE_WRITER)(self, Path(path))
+        return written
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""
@@ -303,18 +307,31 @@ class Case:
         )
 
     def findings(
-        self, surfaces: Iterable[Surface] | None = None, loads: Iterable[Load] | None = None
+        self,
+        surfaces: Iterable[Surface] | None = None,
+        loads: Iterable[Load] | None = None,
+        *,
+        extrapolated: bool = True,
     ) -> list[Finding]:
         """Return what is doubtful about load, rubber, conditions and surface.
 
-        Those of `surfaces` and `loads` count for an answer on others than those of the case.
+        Those of `surfaces` and `loads` count for an answer on others than those of the case;
+        without `extrapolated` nothing of roughness that the measurement does not carry.
         """
         surface = self.surface
+        others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
         findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
         fit = self.measured_rubber.fit
         texts = [] if fit is None else [f"Rubber: {text}." for text in fit.findings]
         findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER) for text in texts]
-        findings += [f.about("Surface") for f in surface.findings if f not in surface.doubts]
+        findings += [f.about("Surface") for f in surface.findings if f not in others]
+        if self.load.thickness is not None:
+            text = (
+                "The thickness of the rubber does not count in the theory of Klüppel and Heinrich, "
+                "in heat and in softening, and the step from lines to a surface is that of rubber "
+                "without end."
+            )
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         if surface.measured is not None and surface.measured.no_self_affine:
             why = surface.measured.no_self_affine
             text = f"The surface was not described as self-affine: {why}"

@@ -111,12 +111,16 @@ class Load(Checked):
     load_time : float or "passage"
         How long a place of the rubber is loaded: while the contact above it passes, or a time [s],
         which may be infinite.
+    thickness : float, optional
+        Thickness [m] of the rubber on a rigid base; without it the rubber has no end. Chain, direct
+        contact and Persson's theory count it.
     """
 
     pressure: float = checked(checks.positive, unit="Pa")
     speed: float = checked(checks.not_negative, unit="m/s")
     footprint: float = checked(checks.positive, unit="m")
     load_time: LoadTime = checked(_load_time, default="passage")
+    thickness: float | None = checked(checks.positive, unit="m", default=None)
 
     def time_under(self, contact_length: float) -> float:
         """Return for how long what slides under a contact so long [m] is loaded [s]."""
@@ -125,6 +129,10 @@ class Load(Checked):
         if isinstance(self.load_time, str):
             return contact_length / self.speed
         return self.load_time
+
+    def depth_of_block(self, depth: float, wavelength: float) -> float:
+        """Return the depth of a block of this wavelength [m] in wavelengths: `depth` at most."""
+        return depth if self.thickness is None else min(depth, self.thickness / wavelength)
 
 
 OnProgress = Callable[[Any], None] | None
@@ -336,6 +344,8 @@ def predicted_answer(
     variables["nominal_pressure"] = number(load.pressure, "Pa", "nominal pressure")
     variables["nominal_speed"] = number(load.speed, "m/s", "sliding speed")
     variables["footprint"] = number(load.footprint, "m", "length of the nominal contact")
+    if load.thickness is not None:
+        variables["thickness"] = number(load.thickness, "m", "thickness of the rubber")
     return data.assign(variables).assign_attrs(model=model, load_time=str(load.load_time))
 
 

@@ -159,57 +159,6 @@ def conclude(
         raise typer.Exit(_NOT_CONVERGED)
 
 
-def finish(
-    console: Console,
-    target: Path,
-    result: Result,
-    file: CaseFile,
-    text: str,
-    contents: str,
-    *,
-    opening: Sequence[str | Table] = (),
-    drawings: str = "figures",
-    files: Mapping[str, str] | None = None,
-    keep_figures: bool = False,
-    page: bool = False,
-) -> None:
-    """End a command with the result of its question: save, print and draw it.
-
-    `text` is the file of what is printed, `contents` what the folder holds beside the result, and
-    `drawings` the folder of its figures in it; `files` are further texts by name. With
-    `keep_figures` figures of an earlier run stay as they are. With `page` the page of the result
-    is written, too.
-    """
-    from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.io.folders import make_folder
-
-    result.save(target / result.file)
-    figures = FigureFolder(target / drawings, file.case.output.figures)
-    make_folder(figures.path)
-
-    def draw() -> None:
-        if keep_figures and any(figures.path.iterdir()):
-            return
-        for name, figure in result.figures():
-            figures.save(figure, name)
-
-    conclude(
-        console,
-        target,
-        list(result.parts()),
-        results=[result.data],
-        lead=result.lines,
-        warnings=result.findings,
-        text=text,
-        closing=f"Result ({result.file}), {contents} are in",
-        opening=opening,
-        files=files,
-        draw=draw,
-        page=partial(result.page, target / "report.html") if page else None,
-        failure=result.failure,
-    )
-
-
 def command(body: Callable[P, None]) -> Callable[P, None]:
     """Return `body` with gripscale's own errors turned into a sentence and an exit code."""
 
@@ -355,3 +304,75 @@ def open_folder(
         print_wrapped(console, line)
     make_folder(target)
     return console, target
+
+
+class CaseCommand:
+    """A command that asks a question of a case: the case, where it prints, and its folder.
+
+    `open_results` comes after all that may be refused: before it, nothing is printed or written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        from gripscale.case_file import read_case, read_case_file
+
+        self.file = read_case_file(path)
+        self.case = read_case(self.file)
+
+    def open_results(self, output: Path | None, name: str, *opening: str) -> None:
+        """Print what the command begins with; its folder and its text are called `name`."""
+        self._text = f"{name}.txt"
+        self.console, self.target = open_folder(self.file, output, name, *opening)
+
+    def solving(self, workers: int | None) -> dict[str, Any]:
+        """Return where a question keeps what it solves, on how many cores, and what tells of it."""
+        progress = progress_printer(self.console)
+        return {"folder": self.target, "workers": workers, "on_task": progress}
+
+    def finish(
+        self,
+        result: Result,
+        contents: str,
+        *,
+        text: str = "",
+        opening: Sequence[str | Table] = (),
+        drawings: str = "figures",
+        files: Mapping[str, str] | None = None,
+        keep_figures: bool = False,
+        page: bool = False,
+    ) -> None:
+        """End the command with the result of its question: save, print and draw it.
+
+        `contents` is what the folder holds beside the result, `text` the file of what is printed
+        where it has another name, and `drawings` the folder of the figures; `files` are further
+        texts by name. With `keep_figures` figures of an earlier run stay as they are. With `page`
+        the page of the result is written, too.
+        """
+        from gripscale.charts.figure_folder import FigureFolder
+        from gripscale.io.folders import make_folder
+
+        target = self.target
+        result.save(target / result.file)
+        figures = FigureFolder(target / drawings, self.file.case.output.figures)
+        make_folder(figures.path)
+
+        def draw() -> None:
+            if keep_figures and any(figures.path.iterdir()):
+                return
+            for name, figure in result.figures():
+                figures.save(figure, name)
+
+        conclude(
+            self.console,
+            target,
+            list(result.parts()),
+            results=[result.data],
+            lead=result.lines,
+            warnings=result.findings,
+            text=text or self._text,
+            closing=f"Result ({result.file}), {contents} are in",
+            opening=opening,
+            files=files,
+            draw=draw,
+            page=partial(result.page, target / "report.html") if page else None,
+            failure=result.failure,
+        )

@@ -158,6 +158,20 @@ def test_numbers_stand_apart_from_their_unit(
     assert state.get(("surface", "crop")) is None
 
 
+def test_a_list_of_any_length_is_one_field(state: CaseState) -> None:
+    """A table of stresses has two speeds at least, not two at most."""
+    section = next(
+        s for s in sections() if s.name == "conditions.shear_stress" and s.kind == "table"
+    )
+    speed = next(key for key in section.keys if key.name == "speed")
+    path = ("conditions", "shear_stress")
+    state.set(path, {"kind": "table", "speed": [0.01, 0.1, 1.0], "stress_at": [1e6, 2e6, 1e6]})
+    widget = field(state, section, speed)
+    assert field_value(widget.value) == [0.01, 0.1, 1.0]
+    widget.value = "[0.01, 0.1, 2.0]"
+    assert state.get((*path, "speed")) == [0.01, 0.1, 2.0]
+
+
 def test_a_refusal_is_the_one_problem_of_the_case_until_it_is_cured(state: CaseState) -> None:
     shown = [problem_pane(state), problem_pane(state, "surface"), problem_pane(state, "rubber")]
 

@@ -76,7 +76,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     files = {"comparison.nc", "comparison.txt", "at_measured.nc", "predictions", "summary.xlsx"}
     assert written == files | figures
     beside = netcdf.load_dataset(target / "at_measured.nc")
-    asked = ["chain_half_plane", "chain_upper", "direct", "persson"]
+    asked = ["chain_half_plane", "chain_upper", "direct", "persson", "answer"]
     assert beside.model.values.tolist() == asked
     assert np.isfinite(beside.difference).all()
     data = netcdf.load_dataset(target / "comparison.nc")

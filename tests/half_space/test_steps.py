@@ -64,8 +64,8 @@ def test_a_map_of_tiles_has_no_false_crests(turn):
     way = along if turn == 0.0 else along + across  # both repeat after 20 mm: four tiles
     z = grooves(way)
     surface = gs.HeightMap(x, x, z)
-    number = 2.0 * np.pi * np.hypot(
-        np.fft.fftfreq(points, step)[:, None], np.fft.rfftfreq(points, step)
+    number = (
+        2.0 * np.pi * np.hypot(np.fft.fftfreq(points, step)[:, None], np.fft.rfftfreq(points, step))
     )
     rounded = np.fft.irfft2(np.fft.rfft2(z) * np.exp(-0.5 * (number * 50e-6) ** 2), s=z.shape)
     truth = gs.solve_rough_contact(

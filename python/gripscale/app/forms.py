@@ -15,8 +15,8 @@ from gripscale.app.case import CaseState, field_text, field_value
 from gripscale.app.elements import CUT_TEXT, PageElements, column, in_worker, panes, work_button
 from gripscale.case_file import CaseFile
 from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, KeySection, sections
-from gripscale.case_file.schema import table_of
-from gripscale.core.units import UNITS, number_and_unit
+from gripscale.case_file.schema import KeyQuantity, table_of
+from gripscale.core.units import UNITS, example_unit, number_and_unit
 
 BY_DEFAULT = "by default"
 LOOK: dict[str, Any] = {
@@ -103,9 +103,8 @@ def law_form(state: CaseState, name: str) -> pn.Column:
 def field(state: CaseState, section: KeySection, key: Key) -> Any:
     """Return what shows and changes one key of a table; numbers stand apart from their unit."""
     path = (*section.name.split("."), key.name)
-    quantity = QUANTITY.match(key.takes)
-    if quantity is not None:
-        return quantity_field(state, path, key, *quantity.groups())
+    if key.quantity is not None:
+        return quantity_field(state, path, key, key.quantity)
     law = next(table for name, table, _ in TABLES if name == section.name)
     table = table_of(law[section.kind] if isinstance(law, Mapping) else law)
     annotation = table.model_fields[key.name].annotation
@@ -148,17 +147,14 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     return widget
 
 
-QUANTITY = re.compile(r'(a list of 2, each )?an? ([\w ]+) such as "[-\d.]+ ([^"]+)"')
-"""How `gripscale.case_file.keys` says that a key takes a quantity, or two, with an example."""
-
-
 def quantity_field(
-    state: CaseState, path: Sequence[str], key: Key, pair: str | None, kind: str, usual: str
+    state: CaseState, path: Sequence[str], key: Key, quantity: KeyQuantity
 ) -> pn.Row:
     """Return the number of a quantity, or two, and the choice of their unit.
 
     What is typed as a number may be anything else the key takes, such as a quantity with its unit.
     """
+    kind, pair = quantity
     needed = " *" if key.default == NEEDED else ""
     labels = [key.name.replace("_", " ") + needed, *(["to"] if pair else [])]
     numbers = [
@@ -172,7 +168,11 @@ def quantity_field(
         for label in labels
     ]
     unit = pn.widgets.Select(
-        label="unit", options=list(UNITS[kind]), value=usual, width=90, margin=(2, 8, 2, 4)
+        label="unit",
+        options=list(UNITS[kind]),
+        value=example_unit(kind),
+        width=90,
+        margin=(2, 8, 2, 4),
     )
 
     def edit() -> None:

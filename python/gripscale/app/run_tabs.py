@@ -332,7 +332,21 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
     columns = [
         Column("run", [view.name for _, view, _ in compared]),
         Column("speed", speeds, words=False),
-        *_best_columns([direct for _, _, direct in compared]),
+    ]
+    answers = [direct for _, _, direct in compared]
+    for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
+        estimates = [
+            (math.nan,) * 3
+            if answer is None
+            else (float(answer[f"best_{name}"]), *map(float, _interval(answer, name)))
+            for answer in answers
+        ]
+        value, *ends = zip(*estimates, strict=True)
+        columns.append(Column(f"best_{name}", value, SYMBOLS[name], group="best estimate"))
+        if np.isfinite(ends).any():
+            both = np.stack(ends, axis=1)
+            columns.append(Column(f"best_{name}_interval", both, "90 %", group="best estimate"))
+    columns += [
         Column("friction", friction, "μ", group=_CHAIN),
         Column("contact_fraction", area, "A_r/A_0", group=_CHAIN),
     ]
@@ -346,21 +360,6 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
 
 
 _CHAIN = "chain of waves"
-
-
-def _best_columns(answers: Sequence[xr.Dataset | None]) -> Iterator[Column]:
-    for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
-        numbers = [
-            (math.nan,) * 3
-            if answer is None
-            else (float(answer[f"best_{name}"]), *map(float, _interval(answer, name)))
-            for answer in answers
-        ]
-        value, low, high = zip(*numbers, strict=True)
-        yield Column(f"best_{name}", value, SYMBOLS[name], group="best estimate")
-        ends = np.stack([low, high], axis=1)
-        if np.isfinite(ends).any():
-            yield Column(f"best_{name}_interval", ends, "90 %", group="best estimate")
 
 
 def _interval(answer: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:

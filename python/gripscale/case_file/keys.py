@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from gripscale.case_file import tables
 from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
-from gripscale.case_file.schema import CaseTable, expected, table_of
+from gripscale.case_file.schema import CaseTable, KeyQuantity, expected, quantity_of, table_of
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
@@ -66,6 +66,8 @@ class Key:
     default: str
     meaning: str
     chapter: str
+    quantity: KeyQuantity | None = None
+    """The quantity with a unit that it takes; None for anything else."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,15 @@ def _keys(law: type, page: str) -> Iterator[Key]:
     table = table_of(law)
     meanings = {"kind": _about(law)}
     for source in [base for base in law.__mro__[:0:-1] if issubclass(base, CaseTable)] + [law]:
-        meanings |= _field_texts(source)
+        body = ast.parse(inspect.getsource(source)).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for field, below in pairwise(body.body):
+            match field, below:
+                case (
+                    ast.AnnAssign(target=ast.Name(id=name)),
+                    ast.Expr(value=ast.Constant(value=text)),
+                ):  # without units: a case states them as it likes
+                    meanings[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
     for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
         item = table.model_fields[name]
         match item.default:
@@ -112,19 +122,8 @@ def _keys(law: type, page: str) -> Iterator[Key]:
                 default = f"{value:g}"
             case value:
                 default = json.dumps(value)
-        yield Key(name, expected(item), default, meanings.get(name, ""), CHAPTERS.get(name, page))
-
-
-def _field_texts(law: type) -> dict[str, str]:
-    """Return the text below each field of a law, without units: a case states them as it likes."""
-    texts = {}
-    body = ast.parse(inspect.getsource(law)).body[0]
-    assert isinstance(body, ast.ClassDef)
-    for field, below in pairwise(body.body):
-        match field, below:
-            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=text)):
-                texts[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
-    return texts
+        meaning, chapter = meanings.get(name, ""), CHAPTERS.get(name, page)
+        yield Key(name, expected(item), default, meaning, chapter, quantity_of(item))
 
 
 def _about(law: type) -> str:

@@ -125,6 +125,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
         down_to=max(line.resolution_limit for line in lines),
         conditions=prepare_conditions(file.case.conditions, file.resolve),
         footprint=load.footprint,
+        thickness=file.case.rubber.thickness,
     )
     slopes = curve.values("slope_in_contact")
     wavelength = cut_off_at(rule.contact_slope, curve.wavelength, slopes)
@@ -444,6 +445,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 speed=load.speed,
                 footprint=load.footprint,
                 load_time=load.nominal.load_time,
+                thickness=file.case.rubber.thickness,
                 static=load.static,
                 chain=chain,
                 conditions=chain.conditions,

@@ -14,6 +14,7 @@ from gripscale.case_file.schema import (
     CaseTable,
     ColumnKey,
     Columns,
+    Length,
     Pressure,
     Reading,
     Strain,
@@ -35,7 +36,9 @@ NAMED_RUBBERS = ("styrene_butadiene",)
 SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
 """Shifts a case states with their numbers; a table of factors is a file."""
 
-OF_ANY_RUBBER = {"file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift"}
+OF_ANY_RUBBER = {
+    *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness")
+}
 """Keys of [rubber] that a named rubber may have."""
 
 
@@ -105,6 +108,8 @@ class RubberSource(LayoutKeys):
     """Times the typical scatter beyond which a measured row is left out of the fit."""
     bulk_modulus: Pressure | None = None
     """Bulk modulus, which a DMA measurement does not give."""
+    thickness: Length | None = None
+    """Thickness of the rubber on a rigid base; without it the rubber has no end."""
     extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
     """Waves beyond the measured frequencies: solved with a warning, or refused."""
     strain_energy: Annotated[InstanceOf[StrainEnergy], by_kind(STRAIN_ENERGIES)] = NeoHookean()

@@ -54,7 +54,13 @@ from gripscale.wave.problem import Mesh
 def write_case(case: Case, path: Path) -> Path:
     """Write a case to `path`, its measurements to the folder `inputs` beside it; return `path`."""
     if case.origin.text:
-        write_saved(_copied(case, path), path.parent, path.name)
+        origin = case.origin
+        read = validate(CaseTables, tomllib.loads(origin.text), origin.name)
+        file = CaseFile(read, Path(origin.name), origin.text, origin.units)
+        for before, now in zip(origin.files, named_files(file), strict=True):
+            if before != now:
+                raise FileError(f"{file.resolve(now.name)} has changed since the case was read")
+        write_saved(saved_case(file, path.parent, path.name), path.parent, path.name)
         return path
     inputs = _Inputs(path.parent, saved_inputs(path.parent, path.name))
     tables = _tables(case, inputs)
@@ -69,17 +75,6 @@ def write_case(case: Case, path: Path) -> Path:
     saved = SavedCase("\n".join([*lines, ""]), inputs.contents)
     write_saved(saved, path.parent, path.name)
     return path
-
-
-def _copied(case: Case, path: Path) -> SavedCase:
-    """Return a case that came from a file with its files, which must be as they were."""
-    origin = case.origin
-    tables = validate(CaseTables, tomllib.loads(origin.text), origin.name)
-    file = CaseFile(tables, Path(origin.name), origin.text, origin.units)
-    for before, now in zip(origin.files, named_files(file), strict=True):
-        if before != now:
-            raise FileError(f"{file.resolve(now.name)} has changed since the case was read")
-    return saved_case(file, path.parent, path.name)
 
 
 @dataclass
@@ -160,6 +155,7 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
         "uncertainty": asdict(options) | {"without": list(options.without)},
     }
+    tables["rubber"]["thickness"] = load.thickness
     tables["rubber"]["extrapolate"] = case.chain.extrapolate
     tables["load"] |= {"static": case.static, "load_time": load.load_time}
     return {
@@ -279,28 +275,24 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
         keys["temperature"] = kelvin_text(conditions.temperature)
     if conditions.softening is not None:
         law = conditions.softening
-        keys["softening"] = (
-            _softening_table(law, inputs) if isinstance(law, SofteningTable) else law_keys(law)
-        )
+        if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
+            letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
+            files = []
+            for at, strain in enumerate(law.strain):
+                columns: dict[str, ArrayLike] = {
+                    "strain [1]": strain,
+                    f"{letter}' [Pa]": np.array(law.storage[at]) / divisor,
+                    f"{letter}'' [Pa]": np.array(law.loss[at]) / divisor,
+                }
+                if law.temperature is not None:
+                    columns["temperature [K]"] = np.full(len(strain), law.temperature[at])
+                files.append(inputs.add_table("strain_sweep", columns))
+            sweeps = {"files": files, "measured_at": law.measured_at, "amplitude": "single"}
+            keys["softening"] = {"kind": "table", **sweeps}
+        else:
+            keys["softening"] = law_keys(law)
         keys["strain_norm"] = conditions.strain_norm
     for name in ("heat", "shear_stress"):
         effect = getattr(conditions, name)
         keys[name] = None if effect is None else law_keys(effect)
     return keys
-
-
-def _softening_table(table: SofteningTable, inputs: _Inputs) -> dict[str, Any]:
-    """Return the keys of strain sweeps; shear moduli are read as thirds of Young's."""
-    letter, divisor = ("G", 3.0) if table.deformation == "shear" else ("E", 1.0)
-    files = []
-    for at, strain in enumerate(table.strain):
-        columns: dict[str, ArrayLike] = {
-            "strain [1]": strain,
-            f"{letter}' [Pa]": np.array(table.storage[at]) / divisor,
-            f"{letter}'' [Pa]": np.array(table.loss[at]) / divisor,
-        }
-        if table.temperature is not None:
-            columns["temperature [K]"] = np.full(len(strain), table.temperature[at])
-        files.append(inputs.add_table("strain_sweep", columns))
-    options = {"measured_at": table.measured_at, "amplitude": "single"}
-    return {"kind": "table", "files": files, **options}

@@ -6,8 +6,19 @@ import difflib
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import Annotated, Any, Literal, cast, get_args, get_origin, get_type_hints
+from dataclasses import MISSING, dataclass, field, fields
+from types import UnionType
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    Union,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, create_model
 from pydantic import Field as PydanticField
@@ -40,6 +51,8 @@ class Reading:
     """Returns what the type asks for; raises `ValueError` with one sentence."""
     laws: Mapping[str, type] = field(default_factory=dict, hash=False)
     """The laws whose tables it reads, by kind."""
+    quantity: str = ""
+    """Kind of the quantity that it reads, such as length; empty for anything else."""
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
@@ -53,15 +66,43 @@ def expected(field: FieldInfo) -> str:
     return _of_type(field.annotation, field.metadata)
 
 
-def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+class KeyQuantity(NamedTuple):
+    """A quantity with a unit that a key takes."""
+
+    kind: str
+    pair: bool
+    """Whether it takes a list of two, such as both ends of a range."""
+
+
+def quantity_of(field: FieldInfo) -> KeyQuantity | None:
+    """Return the quantity that a key takes, or None of a key that takes anything else."""
+    annotation, marks = _type_and_marks(field.annotation, field.metadata)
+    pair = get_origin(annotation) is list
+    if pair:
+        if not any(getattr(mark, "max_length", None) == 2 for mark in marks):
+            return None
+        _, marks = _type_and_marks(get_args(annotation)[0])
+    kind = next((mark.quantity for mark in marks if isinstance(mark, Reading)), "")
+    return KeyQuantity(kind, pair) if kind else None
+
+
+def _type_and_marks(annotation: Any, metadata: Iterable[Any] = ()) -> tuple[Any, list[Any]]:
+    """Return a type without None and `Annotated` around it, and the marks of both."""
     marks = list(metadata)
-    for mark in marks:
-        if isinstance(mark, Reading):
-            return mark.words
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
         inside = [part for mark in more if isinstance(mark, FieldInfo) for part in mark.metadata]
-        return _of_type(inner, [*more, *inside, *marks])
+        return _type_and_marks(inner, [*more, *inside, *marks])
+    parts = [part for part in get_args(annotation) if part is not type(None)]
+    optional = len(parts) == 1 and get_origin(annotation) in (Union, UnionType)
+    return _type_and_marks(parts[0], marks) if optional else (annotation, marks)
+
+
+def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+    annotation, marks = _type_and_marks(annotation, metadata)
+    for mark in marks:
+        if isinstance(mark, Reading):
+            return mark.words
     limits = [
         words.format(value)
         for mark in marks
@@ -186,7 +227,11 @@ def _not_negative(value: float) -> float:
 
 def _quantity(kind: str, check: Callable[[float], float] = float) -> Reading:
     """Return what reads a quantity with its unit, "3 bar", or a plain SI number, and checks it."""
-    return Reading(f"a {kind} {such_as(kind)}", lambda value: check(parse_quantity(value, kind)))
+    return Reading(
+        f"a {kind} {such_as(kind)}",
+        lambda value: check(parse_quantity(value, kind)),
+        quantity=kind,
+    )
 
 
 def unit_of_file(kind: str) -> Reading:
@@ -238,31 +283,23 @@ def table_of(law: Any) -> type[CaseTable]:
     hints = get_type_hints(law)
     keys: dict[str, Any] = {"kind": (Literal[law.kind], ...)} if hasattr(law, "kind") else {}
     for item in fields(law):
-        default = ... if item.default is MISSING else item.default
-        keys[item.name] = (_type_of_key(item, hints[item.name]), default)
-    return create_model(law.__name__, __base__=CaseTable, **keys)
-
-
-def _type_of_key(item: Field[Any], hint: Any) -> Any:
-    """Return what a case takes for a field of a law."""
-    check = item.metadata["check"]
-    rule = check.keywords.get("rule", check.func)
-    parts = [part for part in get_args(hint) if part is not type(None)]
-    optional = len(parts) < len(get_args(hint))
-    value = parts[0] if optional else hint
-    if value is float or get_origin(value) in (tuple, Sequence):
-        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
-        number: Any = (
-            Annotated[float, _quantity(kind, _QUANTITIES.get(rule, float))]
-            if kind
-            else Annotated[float, PydanticField(allow_inf_nan=False, **_NUMBERS.get(rule, {}))]
-        )
-        if value is float:
-            value = number
-        else:
+        check, hint = item.metadata["check"], hints[item.name]
+        rule = check.keywords.get("rule", check.func)
+        parts = [part for part in get_args(hint) if part is not type(None)]
+        optional = len(parts) < len(get_args(hint))
+        value = parts[0] if optional else hint
+        several = get_origin(value) in (tuple, Sequence)
+        if value is float or several:
+            kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
+            limits = {"allow_inf_nan": False} | _NUMBERS.get(rule, {})
+            reading = _quantity(kind, _QUANTITIES.get(rule, float)) if kind else None
+            number: Any = Annotated[float, reading or PydanticField(**limits)]
             most = 2 if get_origin(value) is tuple else None
-            value = Annotated[list[number], PydanticField(min_length=2, max_length=most)]
-    return value | None if optional else value
+            pair = PydanticField(min_length=2, max_length=most)
+            value = Annotated[list[number], pair] if several else number
+        default = ... if item.default is MISSING else item.default
+        keys[item.name] = (value | None if optional else value, default)
+    return create_model(law.__name__, __base__=CaseTable, **keys)
 
 
 def law_from_table(law: type, value: Any) -> Any:

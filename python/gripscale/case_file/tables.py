@@ -114,7 +114,7 @@ class ReadingKeys(CaseTable):
     """Channel of an instrument's file that has several of heights."""
     sheet: ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
-    step: Annotated[Any, Reading(_STEP, _step)] = None
+    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
     reliable: Length | None = None
     """Shortest wavelength the instrument measures reliably, where the file does not tell."""
@@ -450,7 +450,7 @@ class FinerTable(CaseTable):
     """Unit of heights where the file does not name it."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
-    step: Annotated[Any, Reading(_STEP, _step)] = None
+    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
 
     @model_validator(mode="after")

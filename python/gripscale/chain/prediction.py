@@ -352,6 +352,7 @@ class ChainResult:
                     speed=float(data["nominal_speed"]),
                     footprint=float(data["footprint"]),
                     load_time="passage" if time == "passage" else float(time),
+                    thickness=float(data["thickness"]) if "thickness" in data else None,
                 ),
                 scales=scales,
                 planned=int(data.attrs["planned_waves"]),
@@ -413,7 +414,10 @@ class ChainSolve:
             time = load.time_under(length)
             solved = [
                 self.solver.solve(
-                    WaveProblem(solid, wave, WaveLoad(float(pressure), load.speed, time)), first
+                    WaveProblem(
+                        solid, wave, WaveLoad(float(pressure), load.speed, time), load.thickness
+                    ),
+                    first,
                 )
                 for pressure in classes.pressure
             ]

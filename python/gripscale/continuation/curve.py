@@ -491,6 +491,7 @@ class ContinuedContact(DirectContact):
             on_contact=on_progress,
             conditions=self.conditions,
             footprint=load.footprint,
+            thickness=load.thickness,
         )
         answer = self._answer(curve.steps[-1].contacts, surface, load)
         if answer[STATUS].item() != "converged":

@@ -199,6 +199,16 @@ def such_as(kind: str) -> str:
     return f'such as "{_EXAMPLES[kind]}", or {plain}'
 
 
+def celsius(kelvin: float, form: str = "z.3g") -> str:
+    """Return a temperature [K] in degrees Celsius, its number as the format `form`."""
+    return f"{kelvin - ZERO_CELSIUS:{form}} °C"
+
+
+def example_unit(kind: str) -> str:
+    """Return the unit of the example of `such_as`, one that people use."""
+    return _EXAMPLES[kind].partition(" ")[2]
+
+
 DISPLAY_UNITS = "display_units"
 """Attribute of a result: the units its case states, by key, as JSON."""
 
@@ -212,6 +222,7 @@ KEYS = {
     "pressure": ("load", "pressure"),
     "speed": ("load", "speed"),
     "footprint": ("load", "length"),
+    "thickness": ("rubber", "length"),
     "smallest_wavelength": ("surface", "length"),
     "cut_off": ("surface", "length"),
 }

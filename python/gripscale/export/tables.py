@@ -83,7 +83,14 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
     used = {dim for dims in by_dimensions for dim in dims}
     by_dimensions |= {(str(index),): [] for index in data.indexes if str(index) not in used}
     for dims in sorted(by_dimensions, key=len):
-        places = [_place_column(data, dims, dim) for dim in dims]
+        places = []  # of each row along each dimension: its coordinate, or a number from 0
+        shape = [data.sizes[dim] for dim in dims]
+        for axis, dim in enumerate(dims):
+            along = data.variables.get(dim)
+            values = np.arange(data.sizes[dim]) if along is None else along.values
+            ones = np.delete(np.arange(len(dims)), axis).tolist()
+            full = np.broadcast_to(np.expand_dims(values, ones), shape)
+            places.append(Column(dim, full.ravel(), unit="1" if along is None else _unit(along)))
         columns = []
         for name in by_dimensions[dims]:
             variable = data.variables[name]
@@ -97,15 +104,6 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
             )
         name = re.sub(r"\W", "_", "_".join(filter(None, [group, *(dims or [SINGLE])])))
         yield Table(name, (*places, *columns))
-
-
-def _place_column(data: xr.Dataset, dims: tuple[str, ...], dim: str) -> Column:
-    """Return where each row stands along one dimension: its coordinate, or a number from 0."""
-    along = data.variables.get(dim)
-    values = np.arange(data.sizes[dim]) if along is None else along.values
-    shape = [data.sizes[other] if other == dim else 1 for other in dims]
-    full = np.broadcast_to(values.reshape(shape), [data.sizes[other] for other in dims])
-    return Column(dim, full.ravel(), unit="1" if along is None else _unit(along))
 
 
 def _unit(variable: xr.Variable) -> str:

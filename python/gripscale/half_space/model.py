@@ -28,6 +28,7 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import of_sum
 from gripscale.surface import HeightMap, Measured, Profile, Surface, SurfacePart
 from gripscale.wave.block import solve_profile
+from gripscale.wave.problem import Mesh
 from gripscale.wave.result import waves_to_dataset
 
 JUDGED_TO = 0.05
@@ -194,6 +195,7 @@ class DirectContact(Checked, model.Model):
                 tolerance=self.tolerance,
                 most_points=self.most_points,
                 periodic=self.periodic,
+                thickness=load.thickness,
                 time_limit=self.time_limit,
                 conditions=self.conditions,
                 footprint=load.footprint,
@@ -264,6 +266,7 @@ class BlockOnProfile(Checked, model.Model):
                 pressure=load.pressure,
                 speed=load.speed,
                 load_time=load.time_under(load.footprint),
+                depth=load.depth_of_block(Mesh.depth, profile.length),
                 smallest_wavelength=self.smallest_wavelength,
                 periodic=self.periodic,
                 tolerance=self.tolerance,

@@ -10,6 +10,10 @@ with u positive where the pressure lifts the rubber: K. L. Johnson, Contact Mech
 13.2, doi:10.1017/CBO9781139171731, with the complex modulus in place of the elastic one. A line is
 plane strain, a map three-dimensional: the same equation. The mean displacement is undetermined (it
 is the rigid approach). A wavenumber along x that is its own opposite on the grid has a real M.
+
+Rubber of finite thickness on a rigid base has the K of `gripscale.theory.layers`, and M is what a
+half-space of this K would have, 2 / (|q| K). Its mean displacement stays undetermined too: it adds
+to the approach and changes no contact.
 """
 
 from __future__ import annotations
@@ -31,6 +35,8 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of
+from gripscale.theory import layers as layer_theory
+from gripscale.theory.layers import Layers
 
 AnyArray = NDArray[np.floating]
 AnyComplexArray = NDArray[np.complexfloating]
@@ -47,11 +53,20 @@ class HalfSpace:
     """Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself."""
     by_scale: RubberByScale | None = None
     """The rubber at each scale under conditions."""
+    thickness: float | None = None
+    """Of the rubber on a rigid base [m]; None: a half-space."""
+    layers: Layers | None = None
+    """A stack in place of one rubber; `rubber` is the layer in contact."""
     _of_lines: dict[tuple[float, ...], ComplexArray] = field(
         default_factory=dict, repr=False, compare=False
     )
     """E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
     of them."""
+
+    @property
+    def rubbers(self) -> list[Rubber]:
+        """The rubber, or that of each layer."""
+        return [self.rubber] if self.layers is None else self.layers.rubbers
 
     def young_modulus(self, grid: Grid) -> ComplexArray:
         """Return E* [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
@@ -68,18 +83,81 @@ class HalfSpace:
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
-        value = plane_strain_modulus_of(self.young_modulus(grid), self.rubber.bulk_modulus)
+        value = self._modulus_of_waves(grid)
         if self.loss != 1.0:
             value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
         return np.where(grid.own_opposite, np.abs(value), value)
 
+    def _modulus_of_waves(self, grid: Grid) -> ComplexArray:
+        """Return M [Pa] of every wave as if none were its own opposite."""
+        if self.layers is not None:
+            number = _without_mean(grid)
+            return np.asarray(2.0 / (number * self._stack(grid)[0]))
+        modulus = self.young_modulus(grid)
+        value = plane_strain_modulus_of(modulus, self.rubber.bulk_modulus)
+        if self.thickness is None:
+            return value
+        return np.asarray(value / self._thickness_factor(grid)[0])
+
+    def _thickness_factor(self, grid: Grid) -> tuple[ComplexArray, ComplexArray]:
+        """Return K over that of the half-space [-], and the derivative of its logarithm by nu."""
+        assert self.thickness is not None
+        young, bulk = self.young_modulus(grid), self.rubber.bulk_modulus
+        compression = layer_theory.shear_and_compression(young, bulk)[1]
+        return layer_theory.thickness_factor(_without_mean(grid) * self.thickness, compression)
+
+    @cached_property
+    def _of_layers(self) -> list[HalfSpace]:
+        """Each layer as a half-space, which keeps its moduli on lines."""
+        assert self.layers is not None
+        return [HalfSpace(rubber, self.speed) for rubber in self.layers.rubbers]
+
+    def _stack(self, grid: Grid) -> tuple[ComplexArray, Array]:
+        """Return K(q) [m/Pa] of a stack, and what of Im K each layer loses."""
+        assert self.layers is not None
+        return layer_theory.stack_compliance(
+            _without_mean(grid),
+            [layer.young_modulus(grid) for layer in self._of_layers],
+            [rubber.bulk_modulus for rubber in self.layers.rubbers],
+            self.layers.thicknesses,
+        )
+
+    def losses_by_layer(self, grid: Grid) -> Array:
+        """Return what of Im K [m/Pa] each layer of a stack loses, shape (layers, *spectrum)."""
+        losses = np.where(grid.own_opposite, 0.0, self._stack(grid)[1])
+        return np.asarray(losses)
+
+    def log_modulus_by(self, grid: Grid) -> tuple[ComplexArray, ComplexArray]:
+        """Return d ln M / d ln E* and d ln M / d ln B [-], B being the bulk modulus, of each wave.
+
+        Raises `InputError` for a stack, whose M depends on the moduli of all layers.
+        """
+        if self.layers is not None:
+            raise InputError(
+                "derivatives by moduli must be those of one rubber, a half-space or one layer; got "
+                f"{len(self.layers)} layers: solve the contact again with a changed layer"
+            )
+        shear, bulk = self.young_modulus(grid) / 3.0, 3.0 * self.rubber.bulk_modulus
+        by_modulus = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
+        by_bulk = bulk / (bulk + shear) - bulk / (bulk + 4.0 * shear)
+        if self.thickness is not None:
+            # d nu / d ln B = -d nu / d ln G: a layer is softer where nu is smaller
+            slope = self._thickness_factor(grid)[1] * 1.5 * shear * bulk / (bulk + shear) ** 2
+            by_modulus, by_bulk = by_modulus + slope, by_bulk - slope
+        return np.asarray(by_modulus), np.asarray(by_bulk)
+
     def compliance(self, grid: Grid) -> ComplexArray:
         """Return K(q) [m/Pa] over the spectrum of `grid`, zero for the mean."""
-        number = grid.wavenumber.copy()
-        number.flat[0] = 1.0
-        compliance = np.asarray(2.0 / (number * self.modulus(grid)))
+        compliance = np.asarray(2.0 / (_without_mean(grid) * self.modulus(grid)))
         compliance.flat[0] = 0.0
         return compliance
+
+
+def _without_mean(grid: Grid) -> Array:
+    """Return |q| [rad/m], and 1 for the mean, whose compliance is not defined."""
+    number = grid.wavenumber.copy()
+    number.flat[0] = 1.0
+    return number
 
 
 class OutOfTime(Exception):
@@ -187,11 +265,19 @@ _LEAST, _MOST = 1e-12, 1e15
 precision, where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit."""
 
 
-def half_space(rubber: Rubber, speed: float) -> HalfSpace:
-    """Return the rubber at a speed [m/s], or raise `InputError`."""
+def half_space(rubber: Rubber | Layers, speed: float, thickness: float | None = None) -> HalfSpace:
+    """Return rubber or layers at a speed [m/s], or raise `InputError`."""
+    if isinstance(rubber, Layers):
+        if thickness is not None:
+            raise InputError(
+                f"thickness must be None with Layers, which state their own; got {thickness!r}"
+            )
+        sliding = checks.not_negative("speed", speed, unit="m/s")
+        return HalfSpace(rubber.rubbers[0], sliding, layers=rubber)
     if not isinstance(rubber, Rubber):
         raise InputError(f"rubber must be a Rubber; got {type(rubber).__name__}")
-    return HalfSpace(rubber, checks.not_negative("speed", speed, unit="m/s"))
+    height = None if thickness is None else checks.positive("thickness", thickness, unit="m")
+    return HalfSpace(rubber, checks.not_negative("speed", speed, unit="m/s"), thickness=height)
 
 
 def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float) -> None:

@@ -44,6 +44,7 @@ from gripscale.half_space.response import HalfSpace
 from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import NOTHING_BEYOND, Extrapolation, of_spectrum
+from gripscale.theory.layers import Layers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -204,6 +205,10 @@ class RoughContact:
     heat."""
     conditions: Conditions | None = None
     """Conditions of the rubber, and the area term."""
+    thickness: float | None = None
+    """Of the rubber on a rigid base [m]; None: a half-space, or `layers`."""
+    layers: Layers | None = None
+    """The stack, that in contact first and also `rubber`; None: one rubber."""
 
     @property
     def adhesive_friction(self) -> float:
@@ -225,7 +230,13 @@ class RoughContact:
     @cached_property
     def body(self) -> HalfSpace:
         """The rubber as it slides; it keeps its moduli on lines."""
-        return HalfSpace(self.rubber, self.speed, by_scale=self.by_scale)
+        return HalfSpace(
+            self.rubber,
+            self.speed,
+            by_scale=self.by_scale,
+            thickness=self.thickness,
+            layers=self.layers,
+        )
 
     @property
     def converged(self) -> bool:
@@ -344,6 +355,18 @@ class RoughContact:
         """Return the friction each harmonic adds [-], over the half spectrum of the grid."""
         return self._lost
 
+    @property
+    def friction_by_layer(self) -> Array:
+        """Friction from the energy lost in each layer [-], that in contact first.
+
+        The layers sum to `friction_from_dissipation`; one rubber is one layer.
+        """
+        if self.layers is None:
+            return np.array([self._lost.sum()])
+        losses = self.body.losses_by_layer(self.grid)
+        parts = [lost_by_harmonic(1j * loss, self.grid, self.pressure).sum() for loss in losses]
+        return np.array(parts)
+
     @cached_property
     def _lost(self) -> Array:
         lost = lost_by_harmonic(self.body.compliance(self.grid), self.grid, self.pressure)
@@ -405,6 +428,12 @@ class RoughContact:
             values = [float(getattr(grid, name)) for grid in self.grids]
             add(f"grid_{name}", "grid", values, "1", f"{name} on each grid")
         data |= {name: self.shares_by_slope[name].variable for name in SHARES_BY_SLOPE}
+        if self.thickness is not None:
+            add("thickness", (), self.thickness, "m", "thickness of the rubber on a rigid base")
+        if self.layers is not None:
+            text = "friction from the energy lost in the layer"
+            add("friction_by_layer", "layer", self.friction_by_layer, "1", text)
+            add("layer_thickness", "layer", self.layers.thicknesses, "m", "thickness of the layer")
         pressures = self.pressure_quantiles(_SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]

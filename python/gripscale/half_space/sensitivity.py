@@ -29,8 +29,10 @@ The modulus M = E*/(1 - nu^2) of a wave depends on E*(q_x v) = E' + i E'', and s
 
     dM/M = g (E' dln E' + i E'' dln E'') / E*,   g = dln M/dln E* = 1 + G/(B + G) - 4G/(B + 4G),
 
-with G = E*/3 and B three times the bulk modulus. Summed over the waves of a band of frequencies,
-these are the effects of E' and E'' in the band. Speed and temperature change E* of every wave.
+with G = E*/3 and B three times the bulk modulus. For a layer of finite thickness, M = 2/(|q| K) has
+in addition g <- g - (d ln F/d nu) d nu/d ln G, see `gripscale.theory.layers`. Summed over the waves
+of a band of frequencies, these are the effects of E' and E'' in the band. Speed and temperature
+change E* of every wave.
 
 The contact fraction has no such derivative, because the borders decide it: with the square of the
 pressure near the border in place of the step, the adjoint is off by 10 to 50 % of differences on
@@ -216,7 +218,8 @@ def half_space_of(
                 warming=contact.scales.warming,
                 strain=contact.scales.strain,
             ).rubber
-    return HalfSpace(rubber, contact.speed if speed is None else speed, by_scale=scales)
+    sliding = contact.speed if speed is None else speed
+    return HalfSpace(rubber, sliding, by_scale=scales, thickness=contact.thickness)
 
 
 def modulus_changes(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
@@ -229,9 +232,7 @@ def relative_change(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
     """Return E* [Pa] and dln M / dE* [1/Pa] of each wave, over the half spectrum."""
     grid = contact.grid
     modulus = np.broadcast_to(contact.body.young_modulus(grid), grid.spectrum_shape)
-    bulk, shear = 3.0 * contact.rubber.bulk_modulus, modulus / 3.0
-    together = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
-    return modulus, together / modulus
+    return modulus, contact.body.log_modulus_by(grid)[0] / modulus
 
 
 def scalar_changes(contact: RoughContact) -> dict[str, ComplexArray]:
@@ -250,8 +251,7 @@ def scalar_changes(contact: RoughContact) -> dict[str, ComplexArray]:
         half_space_of(contact, speed=contact.speed * math.exp(by))
         for by in (-SPEED_STEP, SPEED_STEP)
     )
-    shear, bulk = contact.body.young_modulus(grid) / 3.0, 3.0 * rubber.bulk_modulus
-    stiffening = bulk / (bulk + shear) - bulk / (bulk + 4.0 * shear)
+    stiffening = contact.body.log_modulus_by(grid)[1]
     changes = {
         "ln_speed": difference(slow, fast, SPEED_STEP),
         "ln_bulk_modulus": np.broadcast_to(stiffening, grid.spectrum_shape),
@@ -404,10 +404,15 @@ def contact_sensitivity(
     Raises
     ------
     InputError
-        If the contact is at rest, has no friction, or is something else; if the rubber has no
-        shift to the reference temperature.
+        If the contact is at rest, has no friction, is of several layers, or is something else; if
+        the rubber has no shift to the reference temperature.
     """
     checks.instance("contact", contact, RoughContact)
+    if contact.layers is not None:
+        raise InputError(
+            "contact must be of one rubber, a half-space or one layer, for derivatives by its "
+            f"moduli; got {len(contact.layers)} layers: solve it again with a changed layer"
+        )
     if contact.speed == 0.0 or not contact.friction_from_dissipation > 0.0:
         raise InputError(
             "contact must slide with friction above zero for the derivatives of its logarithm; got "

@@ -35,7 +35,7 @@ from gripscale.half_space.grid_sequence import (
     finer,
     levels,
 )
-from gripscale.half_space.response import OutOfTime, check_magnitudes, half_space
+from gripscale.half_space.response import HalfSpace, OutOfTime, check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
@@ -43,6 +43,7 @@ from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST
 from gripscale.theory.half_plane import GridContact
+from gripscale.theory.layers import Layers
 
 FEWEST_IN_CONTACT = 8
 LEAST_FRICTION = 0.01
@@ -63,13 +64,14 @@ NEGLIGIBLE_FRICTION = 1e-3
 
 
 def solve_rough_contact(
-    rubber: Rubber,
+    rubber: Rubber | Layers,
     surface: Profile | HeightMap,
     *,
     pressure: float,
     speed: float,
     smallest_wavelength: float | None = None,
     periodic: bool = False,
+    thickness: float | None = None,
     steepest: float = STEEPEST,
     tolerance: float | None = 0.02,
     workers: int | None = None,
@@ -89,8 +91,8 @@ def solve_rough_contact(
 
     Parameters
     ----------
-    rubber : Rubber
-        The half-space; only shear relaxes.
+    rubber : Rubber or Layers
+        The half-space, or layers of rubber on a rigid base; only shear relaxes.
     surface : Profile or HeightMap
         A line (plane strain) or a map (sliding along its x). Missing heights are filled, linearly
         along a line, as a membrane over the gaps of a map.
@@ -108,6 +110,9 @@ def solve_rough_contact(
     steepest : float
         Largest slope that rubber follows [-]: steeper flanks are filled by the `envelope` before
         the cut-off. Infinity keeps all.
+    thickness : float, optional
+        Thickness [m] of the rubber, bonded to a rigid base; None: a half-space. `Layers` state
+        their own.
     tolerance : float, optional
         Estimated relative error to reach in contact fraction and friction, below 1 (friction below
         0.01 is held to the tolerance times 0.01). None: four points in the smallest wave, whatever
@@ -157,11 +162,11 @@ def solve_rough_contact(
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions
-    solid = effects.before(rubber)
-    body = half_space(solid, speed)
+    body = _rubber_before(half_space(rubber, speed, thickness), effects)
     goal = relative_tolerance("tolerance", tolerance) or math.inf
     if body.speed == 0.0:
-        require_load_bearing(rubber, load, math.inf)
+        for solid in body.rubbers:
+            require_load_bearing(solid, load, math.inf)
     heights = periodic_heights(
         surface,
         smallest_wavelength=smallest_wavelength,
@@ -169,7 +174,8 @@ def solve_rough_contact(
         steepest=steepest,
     )
     if checks.one_of("extrapolate", extrapolate, CHOICES) == "refuse":
-        require_measured(solid, heights.smallest_wavelength, body.speed)
+        for solid in body.rubbers:
+            require_measured(solid, heights.smallest_wavelength, body.speed)
     check_magnitudes(body, heights, load)
     points = levels(heights)[-1].grid.points
     most = checks.whole("most_points", most_points, least=1, most=2**40)
@@ -215,8 +221,22 @@ def solve_rough_contact(
             )
         heated = checks.positive("footprint", footprint, unit="m") / body.speed
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
+    assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
     contact = solve_coupled_contact(whole, quick, rubber, effects, heated)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
+
+
+def _rubber_before(body: HalfSpace, conditions: Conditions) -> HalfSpace:
+    """Return the rubber before the contact; `InputError` for conditions that layers do not have."""
+    if body.layers is None:
+        return replace(body, rubber=conditions.before(body.rubber))
+    if conditions.iterated:
+        raise InputError(
+            "conditions with softening or heat must have one rubber, a half-space or one layer; "
+            f"got {len(body.layers)} layers: leave softening and heat out"
+        )
+    layers = Layers([(conditions.before(rubber), height) for rubber, height in body.layers])
+    return replace(body, rubber=layers.rubbers[0], layers=layers)
 
 
 LEAST_TOLERANCE = 1e-5
@@ -321,6 +341,8 @@ def _solve_sequence(
         measured=heights.measured_on(solved.level.grid.shape),
         grids=grids,
         by_scale=body.by_scale,
+        thickness=body.thickness,
+        layers=body.layers,
     )
     return GridSequenceResult(result, {**sequence.start, **sequence.solved})
 

@@ -265,7 +265,15 @@ class Table:
         share = min(free / max(sum(lacking), 1), 1.0)
         widths = [wide + int(share * lack) for wide, lack in zip(widths, lacking, strict=True)]
         if len({column.group for column in self.columns} - {""}) > 1:
-            yield (_group_line(columns, widths, gap),)
+            above, start = "", 0
+            by_group = itertools.groupby(range(len(columns)), lambda at: columns[at].group)
+            for group, members in by_group:
+                places = list(members)
+                span = sum(widths[at] for at in places) + len(gap) * (len(places) - 1)
+                heading = group if len(group) <= span else group[: span - 1] + "…"
+                above = above.ljust(start) + heading.center(span)
+                start += span + len(gap)
+            yield (above.rstrip(),)
         heads = [_heading(column) for column in columns]
         deepest = max(map(len, heads))
         for line in range(deepest, 0, -1):
@@ -377,17 +385,6 @@ def _width(columns: Sequence[Column], gap: int) -> int:
 
 def _placed(text: str, column: Column, width: int) -> str:
     return text.ljust(width) if column.as_words else text.rjust(width)
-
-
-def _group_line(columns: Sequence[Column], widths: Sequence[int], gap: str) -> str:
-    line, start = "", 0
-    for group, members in itertools.groupby(range(len(columns)), lambda at: columns[at].group):
-        places = list(members)
-        span = sum(widths[at] for at in places) + len(gap) * (len(places) - 1)
-        heading = group if len(group) <= span else group[: span - 1] + "…"
-        line = line.ljust(start) + heading.center(span)
-        start += span + len(gap)
-    return line.rstrip()
 
 
 def spaced(parts: Iterable[str | Table]) -> Iterator[str | Table]:

@@ -33,7 +33,13 @@ def write_workbook(tables: Sequence[Table], path: Path) -> Path:
     """
     import xlsxwriter  # 50 ms, only for what writes a workbook
 
-    titles = _sheet_titles([table.name for table in tables])
+    titles: list[str] = []  # no two alike, also where large and small letters are
+    for table in tables:
+        title, number = table.name[:MOST_TITLE], 2
+        while title.lower() in map(str.lower, titles):
+            end = f"_{number}"
+            title, number = table.name[: MOST_TITLE - len(end)] + end, number + 1
+        titles.append(title)
     sheets = [[table.titles, *table.rows()] for table in tables]
     for title, rows in zip(titles, sheets, strict=True):
         if len(rows) > _MOST_ROWS:
@@ -67,15 +73,3 @@ def _write_cell(sheet: Worksheet, row: int, column: int, value: Any) -> None:
         if len(text) > MOST_LETTERS:
             text = text[: MOST_LETTERS - len(CUT)] + CUT
         sheet.write_string(row, column, text)
-
-
-def _sheet_titles(names: Sequence[str]) -> list[str]:
-    """Return titles of sheets, no two alike, also where large and small letters are."""
-    titles: list[str] = []
-    for name in names:
-        title, number = name[:MOST_TITLE], 2
-        while title.lower() in map(str.lower, titles):
-            end = f"_{number}"
-            title, number = name[: MOST_TITLE - len(end)] + end, number + 1
-        titles.append(title)
-    return titles

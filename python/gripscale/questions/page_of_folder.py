@@ -10,7 +10,8 @@ from gripscale.io import netcdf
 from gripscale.questions.chain.run_folder import RunSource, read_run, run_of
 from gripscale.questions.chain.run_page import run_page
 from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
-from gripscale.questions.result import KINDS_OF_REPORTS, Result, require_totals, result_of
+from gripscale.questions.result import Result
+from gripscale.questions.stored import KINDS_OF_REPORTS, require_totals, result_of
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.report import write_page
 from gripscale.report.elements import Page

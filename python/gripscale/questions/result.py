@@ -4,8 +4,8 @@
     result.save("answer.nc")
     gs.load("answer.nc").page("answer.html")
 
-A file knows its question by the attribute `kind`; `gripscale.questions.registry` leads from there
-to its class.
+A file knows its question by the attribute `kind`, from which `gripscale.questions.stored` finds its
+class.
 """
 
 from __future__ import annotations
@@ -14,14 +14,15 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import xarray as xr
 
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
-from gripscale.questions import registry
+from gripscale.questions.inputs.findings import input_findings
+from gripscale.questions.inputs.page_record import InputRecord
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 KIND = "kind"
 """Attribute of a saved result: the question it answers."""
-_INPUTS = "inputs"
+INPUT_GROUP = "inputs"
 """Group of a saved result: the record of the inputs of its case."""
 _WIDTH = 100
 """Characters of a line of a printed result."""
@@ -75,10 +76,7 @@ class Result(ABC):
     @property
     def findings(self) -> Sequence[Finding]:
         """What may change the result, the most important first; at least what its inputs tell."""
-        from gripscale.questions.answer.findings import case_notices
-        from gripscale.questions.inputs.page_record import InputRecord
-
-        return tuple(case_notices(None, InputRecord(self.inputs)))
+        return tuple(input_findings(InputRecord(self.inputs)))
 
     def parts(self) -> Iterator[str | Table]:
         """Yield tables and sentences that stand below the answer."""
@@ -125,7 +123,7 @@ class Result(ABC):
 
         Raises `FileError` if it cannot be written.
         """
-        groups = {_INPUTS: self.inputs} if self.inputs.variables or self.inputs.attrs else {}
+        groups = {INPUT_GROUP: self.inputs} if self.inputs.variables or self.inputs.attrs else {}
         return netcdf.save(self.data, path, groups)
 
     def to_dataset(self) -> xr.Dataset:
@@ -174,56 +172,3 @@ def warning_lines(findings: Sequence[Finding], rest: str = "") -> Iterator[str]:
     yield from (f"  {finding.sentence}" for finding in findings[:count])
     if len(findings) > count:
         yield f"  ... and {len(findings) - count} more in {rest}"
-
-
-def load(path: str | Path) -> Any:
-    """Return a saved result as it was.
-
-    Parameters
-    ----------
-    path : path
-        A file that `Result.save` or a command wrote.
-
-    Raises
-    ------
-    FileError
-        If it does not exist, is damaged, or is no result of a question.
-    """
-    result = result_of(netcdf.load_tree(path))
-    if result is None:
-        expected = ", ".join(registry.kinds())
-        raise FileError(f"{path} holds no result of a question ({expected})")
-    return result
-
-
-def result_of(tree: xr.DataTree) -> Any:
-    """Return the result that a file holds; None where it is of no question."""
-    room = registry.result_class(str(tree.attrs.get(KIND, "")))
-    if room is None:
-        return None
-    inputs = tree.children.get(_INPUTS, xr.DataTree()).to_dataset(inherit=False)
-    return room(tree.to_dataset(), inputs)
-
-
-KINDS_OF_REPORTS = (
-    "run, comparison, study, sensitivity, cut-off, design, calibration or uncertainty, or of "
-    "surfaces or rubbers side by side"
-)
-
-
-def predicted_tree(path: Path) -> xr.DataTree:
-    """Return the file of a prediction; raise `FileError` for one that no model answered."""
-    tree = netcdf.load_tree(path)
-    require_totals(tree, path)
-    return tree
-
-
-def require_totals(tree: xr.DataTree, path: Path) -> None:
-    """Raise `FileError` if a file holds no answer of a model."""
-    names = set(tree.variables)
-    if not ({"total_contact_fraction", "total_friction"} <= names) or not (
-        {"prediction_status", "status"} & names
-    ):
-        raise FileError(
-            f"{path} has no report: it holds no totals or quantiles of a {KINDS_OF_REPORTS}"
-        )

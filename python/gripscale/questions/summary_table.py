@@ -18,7 +18,7 @@ from gripscale.core.finding import sentences
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import STATUS, input_doubts_of
-from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.best_estimate import BEST_ESTIMATES, DIRECT
 from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
@@ -110,7 +110,7 @@ def _in_rows(number: xr.DataArray, rows: xr.DataArray, data: xr.Dataset) -> Colu
     A best estimate is made of the direct contact: it stands in its row, not in that of each model.
     """
     name, full = str(number.name), number.broadcast_like(rows)
-    if name.startswith("best_"):
+    if name in BEST_ESTIMATES:
         for dim in {*OF_MODELS} & {*rows.dims} - {*number.dims}:
             full = full.where(data[dim] == DIRECT)
     unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""

@@ -18,11 +18,11 @@ ANSWER = "answer (90 %)"
 
 
 def believed(data: xr.Dataset, name: str) -> str:
-    """Return the name of the best there is of `contact_fraction` or `friction` in a study."""
+    """Return the name of the best there is in a study of a number such as `friction`."""
     return f"best_{name}" if is_estimated(data, name) else f"total_{name}"
 
 
 def is_estimated(data: xr.Dataset, name: str) -> bool:
-    """Return whether a study has a best estimate of `contact_fraction` or `friction`."""
+    """Return whether a study has a best estimate of a number such as `friction`."""
     best = f"best_{name}"
     return best in data and bool(data[best].notnull().any())

@@ -38,7 +38,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, RubberWarning
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 
@@ -516,7 +516,7 @@ def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:
     }
     sentences = []
     if kelvins and max(kelvins.values()) - min(kelvins.values()) > _SAME:
-        each = ", ".join(f"{name} {k - ZERO_CELSIUS:.1f} °C" for name, k in kelvins.items())
+        each = ", ".join(f"{name} {celsius(k, '.1f')}" for name, k in kelvins.items())
         sentences.append(f"the rubbers hold for different temperatures: {each}")
     if kelvins and len(kelvins) < len(rubbers):
         others = ", ".join(name for name in rubbers if name not in kelvins)

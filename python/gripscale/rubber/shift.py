@@ -140,13 +140,16 @@ class Shift(Checked, ABC, eq=False):
         low, high = self.limits
         bad = ~((kelvin >= low - EDGE) & (kelvin <= high + EDGE))
         if bad.any():
-            got = float(kelvin[bad].flat[0])
-            raise InputError(
-                f"temperature must lie within {low - ZERO_CELSIUS:z.4g} to "
-                f"{high - ZERO_CELSIUS:z.4g} °C, where {self.ends}; got "
-                f"{got - ZERO_CELSIUS:z.4g} °C ({got:g} K){self.cure}"
-            )
+            raise InputError(self.beyond_limits("temperature", float(kelvin[bad].flat[0])))
         return np.asarray(np.clip(kelvin, low, high))
+
+    def beyond_limits(self, what: str, kelvin: float) -> str:
+        """Return the sentence that refuses a temperature [K] of `what` beyond `limits`."""
+        low, high, got = (t - ZERO_CELSIUS for t in (*self.limits, kelvin))
+        return (
+            f"{what} must lie within {low:z.4g} to {high:z.4g} °C, where {self.ends}; got "
+            f"{got:z.4g} °C ({kelvin:g} K){self.cure}"
+        )
 
     @property
     def _reference(self) -> float:

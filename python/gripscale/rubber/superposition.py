@@ -24,8 +24,8 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
-from gripscale.rubber.joint_shift import SHIFTED_MODULI, Joint, Rows, align, sweep_rows
+from gripscale.core.units import ZERO_CELSIUS, celsius
+from gripscale.rubber.joint_shift import SHIFTED_MODULI, Rows, align, sweep_rows
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.sweeps import Sweeps
@@ -221,7 +221,7 @@ def superposition_warnings(overlaps: Sequence[Overlap], shift: Shift) -> Iterato
         at = int(np.nanargmax(shift.horizontal_error))
         yield (
             f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
-            f"{shift.temperature[at] - ZERO_CELSIUS:.1f} °C"
+            f"{celsius(shift.temperature[at], '.1f')}"
         )
 
 
@@ -332,11 +332,6 @@ def _fitted_shift(
     first = "storage" if "storage" in SHIFTED_MODULI[moduli] and not lifted else moduli
     joint = align(rows, *start(sweep_rows(sweeps, first), lifted), lifted)
     scatter = dict(zip(SHIFTED_MODULI[moduli], joint.scatter.tolist(), strict=True))
-    return _table(kelvin, reference, joint, lifted), scatter
-
-
-def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> ShiftTable:
-    """Return the shifts against the reference temperature, with their errors."""
     count = len(kelvin)
     share = np.array([np.interp(reference, kelvin, unit) for unit in np.eye(count)])
     against = np.eye(count) - share
@@ -346,6 +341,6 @@ def _table(kelvin: Array, reference: float, joint: Joint, lifted: bool) -> Shift
     ]
     held = ShiftTable(kelvin, joint.log_a, vertical=joint.log_b)
     log_a, log_b = held.log_a(kelvin, reference), held.log_b(kelvin, reference)
-    if not lifted:
-        return ShiftTable(kelvin, log_a, error[0], reference_temperature=reference)
-    return ShiftTable(kelvin, log_a, error[0], log_b, error[1], reference)
+    vertical, vertical_error = (log_b, error[1]) if lifted else (None, None)
+    table = ShiftTable(kelvin, log_a, error[0], vertical, vertical_error, reference)
+    return table, scatter

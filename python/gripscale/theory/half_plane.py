@@ -45,8 +45,8 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import require_load_bearing
-from gripscale.theory import elastic
+from gripscale.rubber.material import plane_strain_modulus_of, require_load_bearing
+from gripscale.theory import elastic, layers
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
@@ -232,11 +232,18 @@ class HalfPlane(Checked):
 
         def modulus(number: Array) -> ComplexArray:
             """Return M [Pa] of the harmonics."""
-            omega = number * frequency
+            rubber, omega = problem.rubber, number * frequency
+            young = rubber.complex_modulus(omega)
             if self.poisson_ratio is None:
-                return problem.rubber.plane_strain_modulus(omega)
-            confined = elastic.plane_strain_modulus(1.0, self.poisson_ratio)
-            return problem.rubber.complex_modulus(omega) * confined
+                value = plane_strain_modulus_of(young, rubber.bulk_modulus)
+                compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
+            else:
+                value = young * elastic.plane_strain_modulus(1.0, self.poisson_ratio)
+                compression = np.full(young.shape, 1.0 - 2.0 * self.poisson_ratio, dtype=complex)
+            if problem.thickness is None:
+                return value
+            depth = k * number * problem.thickness
+            return np.asarray(value / layers.thickness_factor(depth, compression)[0])
 
         first = complex(modulus(np.ones(1))[0])
         sizes = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}

@@ -5,7 +5,8 @@
     S(q) = gamma + (1 - gamma) P(q)^2
     mu   = 1/2 int_q0^q1 dq q^3 C(q) S(q) P(q) int_0^2pi dphi cos phi Im M(q v cos phi) / p_0
 
-with the areal spectrum C, M = E*/(1 - nu^2) and sliding along phi = 0. Source: B. N. J. Persson,
+with the areal spectrum C, M = E*/(1 - nu^2), of rubber of finite thickness 2 / (q K(q)) as in
+`gripscale.theory.layers`, and sliding along phi = 0. Source: B. N. J. Persson,
 J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; the factor S, for the smaller deformation
 inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015)
 105102, doi:10.1088/0953-8984/27/10/105102, which finds gamma about 1/2.
@@ -46,6 +47,7 @@ from gripscale.surface import Profile, areal_spectrum, profile_spectrum
 from gripscale.surface.low_pass import transmission
 from gripscale.surface.spectrum import ArealSpectrum, ProfileSpectrum, last_wavenumber
 from gripscale.surface.surface import Surface, SurfacePart
+from gripscale.theory import layers
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -217,6 +219,7 @@ def persson(
     smallest_wavelength: float | None = None,
     gamma: float = 0.5,
     footprint: float | None = None,
+    thickness: float | None = None,
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
 
@@ -239,6 +242,8 @@ def persson(
         Share of the deformation that is left where contact is small, 0 to 1.
     footprint : float, optional
         Length of the nominal contact [m]: recorded, without effect; the largest wave by default.
+    thickness : float, optional
+        Thickness of the rubber on a rigid base [m]; None: a half-space.
     """
     checks.instance("rubber", rubber, Rubber)
     if isinstance(spectrum, ProfileSpectrum):
@@ -261,7 +266,8 @@ def persson(
         ends = nodes[nodes <= last * (1.0 + 1e-9)]
         passed = gaussian_power(nodes, ends[-1:])[0]
         kept = ArealSpectrum(nodes, spectrum.at(nodes) * passed)
-    load = Load(pressure, speed, 2.0 * np.pi / nodes[0] if footprint is None else footprint)
+    length = 2.0 * np.pi / nodes[0] if footprint is None else footprint
+    load = Load(pressure, speed, length, thickness=thickness)
     (area, friction), (area_error, friction_error), status = refine_intervals(
         partial(integrals, rubber, spectrum, load, share, nodes, ends),
         _COARSEST,
@@ -334,6 +340,10 @@ def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[A
     stiff, lossy = np.zeros(q.size), np.zeros(q.size)
     for cosine, width in zip(np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True):
         modulus = rubber.plane_strain_modulus(q * load.speed * cosine)
+        if load.thickness is not None:
+            young = rubber.complex_modulus(q * load.speed * cosine)
+            compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
+            modulus = modulus / layers.thickness_factor(q * load.thickness, compression)[0]
         stiff += width * np.abs(modulus / load.pressure) ** 2
         lossy += width * cosine * modulus.imag / load.pressure
     return stiff, lossy
@@ -367,6 +377,7 @@ class Persson(Checked, Model):
             speed=load.speed,
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
             gamma=self.gamma,
+            thickness=load.thickness,
         )
         return answer_of(replace(result, load=load), on_progress)
 

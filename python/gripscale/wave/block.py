@@ -102,6 +102,11 @@ class FiniteStrainBlock(Checked):
         Raises `InputError` if `start` is of another solver or was read from a file, or `workers`
         is not a whole number from 1 to 1024.
         """
+        if problem.thickness is not None:
+            depth = min(self.mesh.depth, problem.thickness / problem.profile.wavelength)
+            if depth != self.mesh.depth:
+                block = replace(self, mesh=replace(self.mesh, depth=depth))
+                return block.solve(replace(problem, thickness=None), start, workers=workers)
         first = None if start is None else kernel.solution_of(start)
         solution = kernel.solve_steady(
             problem, self.mesh, self.settings, self.tolerance, first, self.time_limit, workers

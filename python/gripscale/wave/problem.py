@@ -99,6 +99,8 @@ class WaveProblem(Checked):
     rubber: Rubber = checked(checks.instance, kind=Rubber)
     profile: Sine | SampledProfile
     load: WaveLoad
+    thickness: float | None = checked(checks.positive, unit="m", default=None)
+    """Of the rubber on a rigid base [m]; None: as deep as the solver has it."""
 
     @property
     def angular_frequency(self) -> float:

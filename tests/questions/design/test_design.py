@@ -27,7 +27,7 @@ from gripscale.model import Load
 from gripscale.questions import designed_rubber
 from gripscale.questions.design import compound_design
 from gripscale.questions.design.charts import design_figure
-from gripscale.questions.design.compound_gain import gain
+from gripscale.questions.design.compound_gain import Gain, gain
 from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.questions.design.compound_search import design_problem
 from gripscale.questions.design.design_text import (
@@ -141,6 +141,23 @@ def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
     assert low < np.expm1(result.log_ratio) < high
 
 
+def test_the_interval_of_a_gain_holds_the_measurement_of_the_rubber(data):
+    """Road, grids and rubber are independent: their variances add up; the road's is a t value."""
+    rubber = data.gain_rubber_error.values
+    assert (rubber > 0.0).all()
+    squares = data.gain_sampling_error**2 + data.gain_grid_error**2 / 3.0 + rubber**2
+    width = 0.5 * np.log((1.0 + data.gain_high) / (1.0 + data.gain_low))
+    # 1.645 standard deviations, more where the sampling has few degrees of freedom
+    assert (width.values >= 1.6448 * np.sqrt(squares).values).all()
+    assert (width.values < 2.2 * np.sqrt(squares).values).all()
+    without = Gain(0.4, 0.4, 0.003, 20.0, 0.005)
+    ends = [np.log1p(replace(without, rubber=error).interval) for error in (0.0, 0.01)]
+    assert np.log1p(without.interval) == pytest.approx(ends[0])
+    narrow, wide = (0.5 * (high - low) for low, high in ends)
+    assert narrow == pytest.approx(1.6635 * np.hypot(0.003, 0.005 / np.sqrt(3.0)), rel=0.01)
+    assert wide == pytest.approx(1.6454 * np.hypot(narrow / 1.6635, 0.01), rel=0.01)
+
+
 def test_stored_points_are_not_solved_again(case, data, monkeypatch):
     def refuse(*_):
         raise AssertionError("solved again")
@@ -205,7 +222,7 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
     ).data
     assert np.isfinite(data.compound_gain).all()
     assert np.isnan(data.compound_rolling_ratio).all()
-    assert "the rolling resistance of short must be at 10 °C to 30 °C" in data.attrs["notes"]
+    assert "rolling resistance of short must lie within 10 to 30 °C" in data.attrs["notes"]
 
 
 @pytest.mark.parametrize("which", [0, 1, 2], ids=["factor", "per decade", "E'"])

@@ -49,6 +49,16 @@ class NumbersWithIntervals(Result):
         return answer_interval(self.data, "friction")
 
     @property
+    def adhesive_friction(self) -> float:
+        """Friction coefficient of the area term [-], over `contact_fraction`; NaN without one."""
+        return answer_number(self.data, "adhesive_friction")
+
+    @property
+    def total_friction(self) -> float:
+        """Sum of hysteresis and area term [-]; NaN without an area term."""
+        return self.friction + self.adhesive_friction
+
+    @property
     def contact_fraction(self) -> float:
         """Real over nominal contact area [-]; NaN without an answer."""
         return answer_number(self.data, "contact_fraction")

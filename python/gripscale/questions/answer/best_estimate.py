@@ -84,6 +84,10 @@ ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_
 frictions the one that a coarse grid changes least."""
 
 
+AREA_TERM = "best_adhesive_friction"
+"""Name of the area term's friction over the contact area of a best estimate."""
+
+
 def best_estimate(
     samples: xr.Dataset,
     supplied: Sequence[Factor] = (),
@@ -101,6 +105,8 @@ def best_estimate(
     relative `_half_width` of their 90 % interval, NaN without a direct contact that converged or
     where the profiles are too short to tell how well they represent the road (`_sampling_error`);
     over `factor` the `_factor` on each with its `_factor_uncertainty`, NaN if not included.
+    `best_adhesive_friction` is there where an area term was asked for: its stress shears the area
+    of the best estimate, and no other.
     """
     has_direct = DIRECT in samples["rung"].values
     status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
@@ -146,6 +152,10 @@ def best_estimate(
         data[f"best_{name}_half_width"] = half_width(error).where(mean.notnull())
         data[f"best_{name}_factor"] = value
         data[f"best_{name}_factor_uncertainty"] = uncertainty
+    if direct is not None and "adhesive_friction" in direct:
+        term = reduce.usable(direct, "adhesive_friction").mean("sample")
+        if bool(term.notnull().any()):
+            data[AREA_TERM] = term * data["best_contact_fraction_factor"].prod("factor")
     return data
 
 
@@ -215,6 +225,15 @@ OF_A_POINT = {
     "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
 }
 """What is kept of the best estimate of a prediction: end of its name, and meaning."""
+POINT_ESTIMATES = frozenset(
+    ["factor_label", *(f"best_{name}{end}" for name in ESTIMATED for end in OF_A_POINT)]
+)
+"""Names that `with_best_estimate` adds for the rubber that slides."""
+BEST_ESTIMATES = POINT_ESTIMATES - {"factor_label"} | {
+    *(f"best_{name}{end}" for name in ESTIMATED for end in ("_uncertainty", "_grid_error")),
+    *(f"best_{share}" for share in (*BASIS_SHARES, *SHARES_BY_SLOPE)),
+}
+"""Names of all numbers of a best estimate."""
 
 
 def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
@@ -257,6 +276,7 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
 def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
     """Return the best estimate of one prediction of a study, a sample of all its profiles."""
     names = [*reduce.SAMPLED_QUANTITIES, *(f"{name}_error" for name in reduce.SMOOTH)]
+    names.append("adhesive_friction")
     names += [name.removeprefix("total_") for name in BASIS]
     numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
     if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
@@ -278,4 +298,7 @@ def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
             kept[f"best_{name}{end}"] = part.assign_attrs(
                 variable_attributes(text.format(_WORDS[name]))
             )
+    if AREA_TERM in best:
+        text = "friction coefficient of the area term over the best estimate of the contact area"
+        kept[AREA_TERM] = best[AREA_TERM].assign_attrs(variable_attributes(text))
     return kept

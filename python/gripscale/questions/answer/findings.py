@@ -9,9 +9,8 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic, ranked
-from gripscale.core.units import MILLI, in_mm
+from gripscale.core.units import in_mm
 from gripscale.cut_off_exponents import OCTAVE
-from gripscale.io.table import significant
 from gripscale.questions.answer.reliance import (
     MOST_ON_GUESSES,
     direct_of,
@@ -22,17 +21,20 @@ from gripscale.questions.answer.reliance import (
     no_answer,
 )
 from gripscale.questions.cut_off.curve import CONTINUED_TO
+from gripscale.questions.inputs.findings import (
+    extrapolated,
+    extrapolated_roughness,
+    in_words,
+    input_findings,
+    misfits,
+)
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.report.elements import number_text, percent_text
+from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
 
 SMALL_CHANGE = 0.05
 """Relative change by half the cut-off that is as good as none."""
-LARGE_MISFIT = 0.05
-"""Of a series from the moduli it stands for: friction errs by about as much."""
-LARGE_RESIDUAL = 0.1
-"""Of the heights of the sine waves."""
 
 
 def no_answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
@@ -93,78 +95,32 @@ def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:
     return {name: ratio**power - 1.0 for name, power in powers.items() if math.isfinite(power)}
 
 
-def in_words(changed: dict[str, float]) -> str:
-    """Return relative changes in words, such as `the friction changes by +38 %`."""
-    words = {"friction": "the friction", "contact_fraction": "the contact area"}
-    first, *others = [
-        (words[name], f"by {'+-'[change < 0.0]}{percent_text(abs(change))}")
-        for name, change in changed.items()
-    ]
-    return " and ".join([" changes ".join(first), *map(" ".join, others)])
-
-
 def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding]:
-    """Return what is known before any wave is solved, ranked: of the answer and of the inputs."""
-    parts = answer_notices(direct), _extrapolated_roughness(direct, record), _misfits(record)
-    in_answer = set() if direct is None else set(model.input_doubts_of(direct))
+    """Return what may change an answer, ranked: findings of its own and of its inputs."""
+    if direct is None:
+        return input_findings(record)
+    parts = answer_notices(direct), _beyond_measurement(direct, record), misfits(record)
+    in_answer = set(model.input_doubts_of(direct))
     inputs = [finding for finding in record.warnings() if finding not in in_answer]
     return ranked([*(finding for part in parts for finding in part), *inputs])
 
 
-def _extrapolated_roughness(direct: xr.Dataset | None, record: InputRecord) -> Iterator[Finding]:
+def _beyond_measurement(direct: xr.Dataset, record: InputRecord) -> Iterator[Finding]:
     """Yield what the roughness adds that is shorter than the measurement resolves."""
-    if not record.number("cut_off_beyond_measurement") > 0.0:
+    if not has_answer(direct):
+        yield from extrapolated(record)
+    if not has_answer(direct) or not record.number("cut_off_beyond_measurement") > 0.0:
         return
     limit, end = record.number("cut_off_carried_m"), record.number("cut_off_m")
-    changed = {}
-    if direct is not None and has_answer(direct):
-        held = float(direct.cutoff_wavelength)
-        if held > 1.01 * end and CONTINUED_TO not in direct:
-            cure = (
-                ": `gripscale cut-off`, or down_to in [below_measurement], continues the roughness"
-            )
-            yield Finding(
-                Severity.DOUBT,
-                f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
-                f"shorter than {in_mm(held, 3)}, two of their steps"
-                f"{'' if record.of_map else cure}.",
-                key="below_measurement.down_to",
-            )
-        end = held
-        if not limit > 1.01 * end:
-            return
-        changed = changes(direct, limit / end)
-    lengths = (f"{number_text(length, MILLI)} mm" for length in (limit, end))
-    text = "Roughness from {}, where the measurement ends, to {} is extrapolated".format(*lengths)
-    yield Finding(
-        Severity.WARNING,
-        f"{text}: without it {in_words(changed)}." if changed else f"{text}.",
-        changed.get("friction", math.nan),
-        changed.get("contact_fraction", math.nan),
-        Topic.SURFACE,
-    )
-
-
-def _misfits(record: InputRecord) -> Iterator[Finding]:
-    """Yield by how much the rubber misses its loss factor, and the sine waves their heights."""
-    loss = record.loss_factor_error
-    if abs(loss) > LARGE_MISFIT:
+    held = float(direct.cutoff_wavelength)
+    if held > 1.01 * end and CONTINUED_TO not in direct:
+        cure = ": `gripscale cut-off`, or down_to in [below_measurement], continues the roughness"
         yield Finding(
-            Severity.WARNING,
-            f"At the frequencies of the waves the loss factor of the Prony series is "
-            f"{percent_text(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
-            "error of the friction is about as large.",
-            loss,
-            topic=Topic.RUBBER,
+            Severity.DOUBT,
+            f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
+            f"shorter than {in_mm(held, 3)}, two of their steps"
+            f"{'' if record.of_map else cure}.",
+            key="below_measurement.down_to",
         )
-    residual = record.number("sines_residual_decades")
-    height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
-    if height > LARGE_RESIDUAL:
-        yield Finding(
-            Severity.WARNING,
-            f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "
-            f"{percent_text(height)} of their height. The friction of the chain has a similar "
-            "error.",
-            height,
-            topic=Topic.SURFACE,
-        )
+    if limit > 1.01 * held:
+        yield extrapolated_roughness(limit, held, changes(direct, limit / held))

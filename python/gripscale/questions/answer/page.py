@@ -12,7 +12,6 @@ from itertools import pairwise
 import numpy as np
 import xarray as xr
 
-from gripscale import model
 from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
@@ -66,7 +65,11 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     )
     motion = f"and {speed}" if reliance.is_moving(data) else "at rest, where there is no friction"
     end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
-    yield f"for {pressure} {motion}, roughness down to {end}"
+    thick = ""
+    if "thickness" in data:
+        thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
+        thick = f", rubber {thickness} thick on a rigid base"
+    yield f"for {pressure} {motion}, roughness down to {end}{thick}"
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:
@@ -135,12 +138,9 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         yield f"not included: {', '.join(missing)}"
     if "part_label" not in data and math.isfinite(float(data[f"best_{name}_half_width"])):
         yield "errors of the inputs are not in the interval (`gripscale sensitivity` lists them)"
-    direct = reliance.direct_of(data)
-    term = float(direct.get(model.ADHESIVE_FRICTION, math.nan))
+    term = reliance.answer_number(data, "adhesive_friction")
     if math.isfinite(term):
-        # it is proportional to the contact area
-        term *= float(data.best_contact_fraction / direct.total_contact_fraction)
-        both = significant(float(data.best_friction) + term)
+        both = significant(reliance.answer_number(data, "friction") + term)
         yield f"an area term of {significant(term)} comes on top: μ = {both} with it"
 
 

@@ -121,8 +121,8 @@ def is_measured(data: xr.Dataset) -> bool:
 
 
 def answer_number(data: xr.Dataset, name: str) -> float:
-    """Return `friction` or `contact_fraction` of an answer [-]; NaN without one."""
-    return float(data[f"best_{name}"]) if has_answer(data) else math.nan
+    """Return a number of an answer such as `friction` [-]; NaN without one."""
+    return float(data.get(f"best_{name}", math.nan)) if has_answer(data) else math.nan
 
 
 def answer_interval(data: xr.Dataset, name: str) -> tuple[float, float]:

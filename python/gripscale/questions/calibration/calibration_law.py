@@ -221,7 +221,20 @@ def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Calibra
     every = _parameters(kind, points)
     held: dict[str, Any] = {name: checks.number(name, value) for name, value in fixed.items()}
     if kind == "gaussian":
-        held |= _temperature_of(points, held)
+        apart = points.temperature_range >= LEAST_APART
+        referred = "reference_temperature" in held
+        if held.get("activation_energy", math.inf if apart else 0.0) == 0.0:
+            if referred:
+                raise InputError(
+                    "reference_temperature belongs to an activation_energy; got one without the "
+                    "other"
+                )
+            held["activation_energy"] = 0.0
+        elif not referred:
+            if points.temperature is None:
+                raise InputError("activation_energy needs the temperatures of the points; got none")
+            middle = float(np.median(points.temperature)) - ZERO_CELSIUS
+            held["reference_temperature"] = round(middle) + ZERO_CELSIUS
     free = tuple(parameter for parameter in every if parameter.name not in held)
     if not free:
         raise InputError(f"fixed must leave a parameter of the law {kind} to be fitted; got all")
@@ -235,23 +248,6 @@ def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Calibra
     starts = np.array([parameter.scaled(parameter.starts[0]) for parameter in free])
     problem.law(starts)  # checks what is held
     return problem
-
-
-def _temperature_of(points: Points, held: Mapping[str, float]) -> dict[str, float]:
-    """Return what the Gaussian law holds beside `held`: no activation energy, or its reference."""
-    apart = points.temperature_range >= LEAST_APART
-    if held.get("activation_energy", math.inf if apart else 0.0) == 0.0:
-        if "reference_temperature" in held:
-            raise InputError(
-                "reference_temperature belongs to an activation_energy; got one without the other"
-            )
-        return {"activation_energy": 0.0}
-    if "reference_temperature" in held:
-        return {}
-    if points.temperature is None:
-        raise InputError("activation_energy needs the temperatures of the points; got none")
-    middle = float(np.median(points.temperature)) - ZERO_CELSIUS
-    return {"reference_temperature": round(middle) + ZERO_CELSIUS}
 
 
 def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:

@@ -44,35 +44,27 @@ def calibrate_command(
     cluster: terminal.Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.questions.calibration.calibration_text import parse_fixed, shear_stress_table
     from gripscale.questions.calibration.question import calibrate, measured_of
 
     values = parse_fixed(fixed or [])
-    file = read_case_file(case)
-    read = read_case(file)
-    friction = measured_of(read, measured)
-    opening = f"Area term of {file.path} from {friction.source}"
-    console, target = terminal.open_folder(file, output, "calibration", opening)
+    work = terminal.CaseCommand(case)
+    friction = measured_of(work.case, measured)
+    opening = f"Area term of {work.file.path} from {friction.source}"
+    work.open_results(output, "calibration", opening)
     result = calibrate(
-        read,
+        work.case,
         friction,
         model=model,
         law=law,
         fixed=values,
         hold_out=hold_out,
-        folder=target,
-        workers=workers,
         client=cluster,
-        on_task=terminal.progress_printer(console),
+        **work.solving(workers),
     )
     assert result.fit is not None
-    terminal.finish(
-        console,
-        target,
+    work.finish(
         result,
-        file,
-        "calibration.txt",
         "tables, figures and [conditions.shear_stress]",
         drawings="",
         files={"shear_stress.toml": shear_stress_table(result.fit)},

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model as models
+from gripscale.case import Case
 from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks
@@ -27,7 +28,12 @@ from gripscale.experiment.measured_friction import (
 )
 from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Load, Model
+from gripscale.questions.answer.best_estimate import AREA_TERM
+from gripscale.questions.answer.direct_contact import direct_contact_totals, each_measured
+from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.cut_off.curve import contact_curves
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
@@ -243,6 +249,61 @@ def predicted_of(data: xr.Dataset) -> Predicted:
         data[models.STATUS].values.tolist(),
         models.status_words(data).values.tolist(),
     )
+
+
+def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicted:
+    """Return what the answer of a case with a measured surface states at each measured point.
+
+    Friction and contact area are those of `gripscale.answer` at the speed, temperature and pressure
+    of a point: the direct contact of the profiles times the factors of the best estimate. A law
+    that is fitted to them is multiplied with the same area when the case is answered with it.
+    A missing temperature or pressure is that of the case.
+
+    Raises `InputError` and `FileError` as `predictions_at`; without a measured surface.
+    """
+    profiles = each_measured(case.surface)
+    if not profiles:
+        raise InputError("the direct contact needs a measured profile; got waves stated by hand")
+    direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions)
+    points: list[Point] = []
+    for sample, (name, surface) in enumerate(profiles):
+        label = f"{name}: " if len(profiles) > 1 else ""
+        line = measured_design(measured, direct, case.rubber, surface, case.load, label)
+        points += [replace(point, index=(*point.index, sample)) for point in line.points]
+    sizes = {**line.sizes, "sample": len(profiles)}
+    subjects = {"subject": ("sample", [name for name, _ in profiles])}
+    samples = solve_design(Design(sizes, points, subjects), bench, sample_numbers)
+    curves: list[xr.Dataset | None] = [None] * len(line.points)
+    if case.below_measurement.down_to is not None:
+        continued = measured_design(
+            measured, case.continuation(), case.rubber, case.surface, case.load, "continued: "
+        )
+        solved = bench.solve(continued.tasks, contact_curves)
+        curves = [solved[point.task.key] for point in continued.points]
+    rows = []
+    for at, (point, curve) in enumerate(zip(line.points, curves, strict=True)):
+        of_point = samples.isel(measurement=at)
+        rows.append(direct_contact_totals(of_point, case, point.task.load, curve))
+        if curve is not None and curve[models.STATUS].item() != CONVERGED:
+            rows[-1] = curve
+
+    def column(name: str) -> tuple[str, list[float]]:
+        return "measurement", [float(row.get(name, math.nan)) for row in rows]
+
+    def texts(name: str) -> tuple[str, Array]:
+        return "measurement", np.array([row[name].item() for row in rows], dtype=object)
+
+    data = xr.Dataset(
+        {
+            "total_friction": column("best_friction"),
+            "total_contact_fraction": column("best_contact_fraction"),
+            models.ADHESIVE_FRICTION: column(AREA_TERM),
+            models.FRICTION_OUTSIDE_BAND: column(models.FRICTION_OUTSIDE_BAND),
+            models.STATUS: texts(models.STATUS),
+            models.STATUS_WORD: texts(models.STATUS_WORD),
+        }
+    )
+    return predicted_of(data.assign_coords(line.coords))
 
 
 _SOURCE = "gripscale residuals"

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gripscale.case import Case
+from gripscale.chain.chain import Chain
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
 from gripscale.core import checks
 from gripscale.core.errors import InputError
@@ -27,7 +28,6 @@ from gripscale.experiment.measured_friction import (
     speed_doubts,
 )
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.half_space.model import DirectContact
 from gripscale.io.table import Table
 from gripscale.model import INPUT_DOUBTS
 from gripscale.questions.answer.findings import case_notices
@@ -36,7 +36,11 @@ from gripscale.questions.calibration import page
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
 from gripscale.questions.calibration.calibration_text import notes
 from gripscale.questions.calibration.charts import calibration_pictures
-from gripscale.questions.calibration.measured_comparison import measured_design, predicted_of
+from gripscale.questions.calibration.measured_comparison import (
+    answers_at,
+    measured_design,
+    predicted_of,
+)
 from gripscale.questions.calibration.profile_likelihood import groups_of
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
@@ -130,7 +134,8 @@ def calibrate(
         Measured friction, or a table of it; that of the case by default.
     model : str, optional
         "direct" or "chain": what predicts the hysteresis and the real contact area; by default
-        the direct contact where a surface was measured.
+        the direct contact where a surface was measured, with the factors of `gripscale.answer`:
+        the case with the fitted law then has the fitted friction as its answer.
     law, fixed, hold_out
         As for `gripscale.questions.fit_area_term`.
     folder : path, optional
@@ -157,10 +162,12 @@ def calibrate(
         for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
             warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
             require_measured(warm, surface.sines.wavelength, float(speed))
-    predicting = case.chain if model == "chain" else DirectContact(conditions=case.conditions)
     with bench_in(folder, workers, client, on_task) as bench:
-        design = measured_design(friction, predicting, rubber, surface, case.load)
-        predicted = predicted_of(solve_design(design, bench))
+        if model == Chain.name:
+            design = measured_design(friction, case.chain, rubber, surface, case.load)
+            predicted = predicted_of(solve_design(design, bench))
+        else:
+            predicted = answers_at(friction, case, bench)
     fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
     data = fit.to_dataset().assign_attrs(
         case.attributes, case_file=case.origin.name, model=model, notes="\n".join(notes(fit))

@@ -12,9 +12,9 @@ from gripscale import model
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
-from gripscale.questions.answer.findings import LARGE_MISFIT
 from gripscale.questions.answer.reliance import friction_sentence
 from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.inputs.findings import LARGE_MISFIT
 from gripscale.report.elements import number_text, percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO, poisson_ratio

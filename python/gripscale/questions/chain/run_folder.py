@@ -14,7 +14,7 @@ from gripscale.questions.chain.run import DYNAMIC, STATIC
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.page import COMPARISON, Compared, stored_comparisons
 from gripscale.questions.inputs.page_record import InputRecord
-from gripscale.questions.result import predicted_tree
+from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
 from gripscale.questions.vary.effects import stored_effects
 

@@ -25,6 +25,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
+from gripscale.questions.answer.best_estimate import AREA_TERM
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
@@ -235,6 +236,9 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
         ends = {"low": best * np.exp(-np.arcsinh(width)), "high": best * np.exp(np.arcsinh(width))}
         marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
+        if name == "friction" and AREA_TERM in comparison:
+            both = best + comparison[AREA_TERM].values
+            marks.append(Series(x, both, INK, f"{BEST}, with the area term", "dashdot"))
     adhesive = with_adhesive(comparison) if name == "friction" else None
     for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,
                                  strict=adhesive is not None):  # fmt: skip

@@ -135,12 +135,6 @@ def solved_ladder(
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
 
-    on_task = bench.on_task
-
-    def of_new_tasks(progress: Progress) -> None:
-        if on_task is not None and not progress.stored:
-            on_task(progress)
-
     wanted = chosen(rungs)
     quick = [rung for rung in wanted if rung.group != WINDOWS]
     asked: Sequence[Rung] = quick or wanted
@@ -164,7 +158,18 @@ def solved_ladder(
             setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
         else:
             return ladder
-        bench = replace(bench, on_task=of_new_tasks)
+        bench = _telling_new(bench)
+
+
+def _telling_new(bench: Bench) -> Bench:
+    """Return the bench that tells of the tasks only that it solves, not of those in its store."""
+    on_task = bench.on_task
+
+    def tell(progress: Progress) -> None:
+        if on_task is not None and not progress.stored:
+            on_task(progress)
+
+    return replace(bench, on_task=tell)
 
 
 def _axis(study: Study) -> Axis:
@@ -257,7 +262,8 @@ def at_measured(
     -------
     xarray.Dataset or None
         As `gripscale.questions.residuals`, with the area term of the case's conditions; None where
-        no friction was measured or no rung predicts. Of several samples of a rung the means.
+        no friction was measured or no rung predicts. Of several samples of a rung the means; beside
+        the direct contact the `answer` of the case, which has its factors on friction and area.
 
     Raises
     ------
@@ -283,11 +289,14 @@ def at_measured(
     tasks = {
         key: task for parts in designs.values() for d in parts for key, task in d.tasks.items()
     }
-    answers = Bench(Store(store), workers, client, on_task).solve(tasks, surface_numbers)
+    bench = Bench(Store(store), workers, client, on_task)
+    answers = bench.solve(tasks, surface_numbers)
     predicted = {
         name: friction.averaged([friction.predicted_of(d.dataset(answers)) for d in parts])
         for name, parts in designs.items()
     }
+    if estimates.DIRECT in predicted:
+        predicted["answer"] = friction.answers_at(measured, ladder.case, _telling_new(bench))
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = friction.residuals(measured, predicted, law)
     return data.assign_attrs(ladder.case.attributes, measured_source=measured.source)
@@ -352,7 +361,11 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
     adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
     if adhesive.notnull().any():
-        add(model.ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term", "rung")
+        text = "friction coefficient of the area term"
+        add(model.ADHESIVE_FRICTION, adhesive, text, "rung")
+        if estimates.AREA_TERM in best:
+            text += " over the best estimate of the contact area"
+            add(estimates.AREA_TERM, best[estimates.AREA_TERM], text)
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
         add(name, (beyond if name in beyond else exponents)[name], text, "rung")

@@ -25,7 +25,7 @@ from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
-from gripscale.questions.result import predicted_tree
+from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown

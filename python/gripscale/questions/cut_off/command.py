@@ -31,19 +31,11 @@ def cut_off_command(
 ) -> None:
     """Contact and friction against the cut-off, down below what the profiles resolve."""
     from gripscale.case import in_si
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.questions.cut_off.question import cut_off
 
     end = None if down_to is None else in_si("--down-to", down_to, "length")
-    file = read_case_file(case)
-    opening = f"Contact and friction of {file.path} against the cut-off"
-    console, target = terminal.open_folder(file, output, "cut_off", opening)
-    result = cut_off(
-        read_case(file),
-        folder=target,
-        down_to=end,
-        hurst=hurst,
-        workers=workers,
-        on_task=terminal.progress_printer(console),
-    )
-    terminal.finish(console, target, result, file, "cut_off.txt", "tables and figure")
+    work = terminal.CaseCommand(case)
+    opening = f"Contact and friction of {work.file.path} against the cut-off"
+    work.open_results(output, "cut_off", opening)
+    result = cut_off(work.case, down_to=end, hurst=hurst, **work.solving(workers))
+    work.finish(result, "tables and figure")

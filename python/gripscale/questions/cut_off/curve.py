@@ -41,7 +41,7 @@ def cut_off_curve(
     model = case.continuation(down_to=down_to, hurst=hurst)
     task = Task(case.rubber, case.surface, load, model)
     label = f"continued down to {in_mm(model.down_to, 3)}"
-    data = bench.solve({label: task}, _curves)[task.key]
+    data = bench.solve({label: task}, contact_curves)[task.key]
     if "cut_off" not in data.dims:
         return data
     names, lengths = zip(*_rules(data, case.surface), strict=True)
@@ -57,7 +57,7 @@ def cut_off_curve(
     )
 
 
-def _curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
+def contact_curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the last cut-off, and the curves."""
     kept = surface_numbers(answer, task)
     kept = kept.assign(answer[["nominal_pressure", "nominal_speed", *STATUSES]].variables)

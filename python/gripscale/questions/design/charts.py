@@ -44,19 +44,12 @@ def design_figure(data: xr.Dataset) -> Figure:
 
     `data` is that of `gripscale.design`.
     """
-    points = _drawn_points(data)
-    panels = [_trade_off_panel(data, points), *_master_curve_panels(data, points)]
-    return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
-
-
-def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:
-    """Return number, colour and label of the points drawn: the answer, and ends apart from it."""
     ratio = data.rolling_ratio.values
     last = data.sizes["point"] - 1
     same = at_todays_rolling(data)
     answer = last if same is None else int(np.abs(ratio - float(same.rolling_ratio)).argmin())
     colours = {0: BLUE, last: ORANGE, answer: GREEN}
-    points = []
+    points = []  # the answer, and ends apart from it
     for at in sorted(colours):
         if at != answer and abs(ratio[at] - ratio[answer]) <= _APART:
             continue
@@ -64,7 +57,8 @@ def _drawn_points(data: xr.Dataset) -> list[tuple[int, str, str]]:
         if abs(ratio[at] - 1.0) < SAME:
             label = "same rolling resistance"
         points.append((at, colours[at], label))
-    return points
+    panels = [_trade_off_panel(data, points), *_master_curve_panels(data, points)]
+    return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
 
 
 def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:

@@ -63,7 +63,7 @@ def design_command(
 
     Resumes where it was stopped.
     """
-    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file import folder
     from gripscale.case_file.named_inputs import names_of, read_rubber, read_surface
     from gripscale.questions.design.compound_limits import CompoundLimits
     from gripscale.questions.design.compound_search import default_goal
@@ -75,35 +75,32 @@ def design_command(
     )
     from gripscale.questions.design.question import design
 
-    file = read_case_file(case)
-    read = read_case(file)
+    work = terminal.CaseCommand(case)
     points = None if not limit else tuple(parse_limit(text) for text in limit)
-    goals = [parse_goal(text, default_goal(read)) for text in goal or ()]
+    goals = [parse_goal(text, default_goal(work.case)) for text in goal or ()]
     wanted = [] if levels is None else parse_levels(levels)
     others = list(rubber or ())
-    console, target = terminal.open_folder(
-        file, output, "design", f"Design of a compound for {file.path}"
-    )
-    folder.save_case(file, target)
+    work.open_results(output, "design", f"Design of a compound for {work.file.path}")
+    folder.save_case(work.file, work.target)
 
     def print_point(point: xr.Dataset) -> None:
         rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
-        print_wrapped(console, f"tan δ when rolling {rolling:+.1%}: friction {gain:+.1%}")
+        print_wrapped(work.console, f"tan δ when rolling {rolling:+.1%}: friction {gain:+.1%}")
 
     result = design(
-        read,
+        work.case,
         goals=goals,
         limits=CompoundLimits(largest_factor, factor_per_decade, points),
         levels=wanted,
         rubbers={
-            name: read_rubber(value, file)
+            name: read_rubber(value, work.file)
             for name, value in zip(names_of(others), others, strict=True)
         },
-        roads={road: read_surface(road, file) for road in sorted({goal.road for goal in goals})},
-        folder=target,
+        roads={name: read_surface(name, work.file) for name in sorted({g.road for g in goals})},
+        folder=work.target,
         workers=workers,
         on_point=print_point,
     )
-    write_targets(result.data, target)
+    write_targets(result.data, work.target)
     contents = "figure, and master curve, Prony series and rubber of each point (target_*)"
-    terminal.finish(console, target, result, file, "design.txt", contents, drawings="", page=True)
+    work.finish(result, contents, drawings="", page=True)

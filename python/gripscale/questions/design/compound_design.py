@@ -57,7 +57,7 @@ class Reference:
     def of(cls, friction: GoalFriction) -> Reference:
         """Solve today's compound."""
         value, _ = friction.log_friction(np.ones(1 + friction.rubber.moduli.size))
-        series = series_derivatives(friction, friction.contacts(friction.rubber))
+        series = series_derivatives(friction, friction.contacts(friction.rubber), friction.rubber)
         fine = friction.contacts(friction.rubber, tolerance=DESIGN_TOLERANCE, warm=False)
         return cls(fine, value, series)
 
@@ -73,9 +73,10 @@ def solved_point(
     best = max(optima, key=lambda optimum: optimum.log_friction)
     optimum = nearest_design(friction, admissible, best)
     rubber = changed(problem.rubber, optimum.ratio)
-    series = series_derivatives(friction, friction.contacts(rubber))
+    series = series_derivatives(friction, friction.contacts(rubber), problem.rubber)
     contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
-    result = gain(friction, reference.contacts, contacts)
+    error = series_error(series - reference.series)
+    result = gain(friction, reference.contacts, contacts, error)
     rolling = problem.rolling_ratio(rubber)
     worth = np.array(list(problem.worth_of_limits(level, best.slope).values()))
     low, high = result.interval
@@ -95,10 +96,7 @@ def solved_point(
         "gain_twice_cut_off": (math.expm1(result.twice_cut_off), "gain with twice the cut-off"),
         "gain_sampling_error": (result.sampling, "standard error from the sampling of the road"),
         "gain_grid_error": (result.grid, "largest error from the grids"),
-        "gain_rubber_error": (
-            series_error(reference.series, series),
-            "standard error from the measurement of the rubber",
-        ),
+        "gain_rubber_error": (result.rubber, "standard error from the measurement of the rubber"),
         "gap": (optimum.gap, "what any admissible change could still gain, to first order"),
         "limited_share": (
             limited,
@@ -133,7 +131,10 @@ def other_compounds(
     for name in rubbers:
         rubber, friction = together[name], problem.friction
         contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
-        result = gain(friction, reference.contacts, contacts)
+        series = series_derivatives(friction, friction.contacts(rubber, warm=False), rubber)
+        errors = [series_error(each) for each in (reference.series, series) if each.size]
+        error = math.hypot(*errors) if errors else math.nan
+        result = gain(friction, reference.contacts, contacts, error)
         low, high = result.interval
         rolling = math.nan
         try:

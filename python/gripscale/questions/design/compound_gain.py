@@ -13,7 +13,8 @@ left has three sources:
 - rubber: other series fit today's measurement as well. The design multiplies E*(w) by a function of
   frequency, whatever the series; with s the derivative of ln mu along a change of ln E*, a series k
   changes G by (s - s_0) . ln(E*_k/E*_0), to first order. Each series is an extreme of three
-  standard deviations, and the largest change is taken for three.
+  standard deviations, and the largest change is taken for three. Another compound was measured by
+  itself: its series and today's each change one friction, and both errors count.
 
 Finite strain and the step from lines to a surface multiply both frictions alike and are left out.
 """
@@ -40,6 +41,7 @@ from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.design.compound_limits import rubber_at
 from gripscale.questions.design.goal_friction import GoalFriction
+from gripscale.rubber import Rubber
 
 ERROR_RATIO = 0.4
 """Error after halving the spacing over the change by it, as in `grid_sequence`."""
@@ -61,23 +63,32 @@ class Gain:
     """Degrees of freedom of the sampling error."""
     grid: float
     """Largest error of G from the grids [-]."""
+    rubber: float = math.nan
+    """Standard error of G from the measurement of the rubber [-]; NaN if nobody knows it."""
 
     @property
     def interval(self) -> tuple[float, float]:
         """Interval of the gain, exp(G) - 1, that holds it 9 times in 10; NaN if not known."""
         sampling = LogError(xr.DataArray(self.sampling), xr.DataArray(self.freedom))
         grid = LogError(xr.DataArray(self.grid / math.sqrt(3.0)), xr.DataArray(math.inf))
-        error = combined([sampling, grid])
+        errors = [sampling, grid]
+        if math.isfinite(self.rubber):
+            errors.append(LogError(xr.DataArray(self.rubber), xr.DataArray(math.inf)))
+        error = combined(errors)
         width = math.asinh(float(half_width(error)))
         return math.expm1(self.log_ratio - width), math.expm1(self.log_ratio + width)
 
 
 def gain(
-    friction: GoalFriction, before: Sequence[RoughContact], after: Sequence[RoughContact]
+    friction: GoalFriction,
+    before: Sequence[RoughContact],
+    after: Sequence[RoughContact],
+    rubber: float = math.nan,
 ) -> Gain:
     """Return the gain of the compound of contacts `after` over that of contacts `before`.
 
-    Both are lists of `GoalFriction.contacts`, on grids that are fine enough for a friction.
+    Both are lists of `GoalFriction.contacts`, on grids that are fine enough for a friction;
+    `rubber` is the standard error of G from the measurement of the rubber (`series_error`).
     """
     weights = friction.weights
 
@@ -103,7 +114,7 @@ def gain(
         abs(total - log_ratio(lambda contact: contact.friction)),
     )
     sampling, freedom = _sampling(friction, before, after)
-    return Gain(total, log_ratio(at_twice_the_cut_off), sampling, freedom, grid)
+    return Gain(total, log_ratio(at_twice_the_cut_off), sampling, freedom, grid, rubber)
 
 
 def _shares(friction: GoalFriction, contacts: Sequence[RoughContact]) -> Array:
@@ -145,28 +156,34 @@ def _sampling(
     return math.hypot(*(error for error in errors if math.isfinite(error))), float(freedom)
 
 
-def series_derivatives(friction: GoalFriction, contacts: Sequence[RoughContact]) -> Array:
-    """Return s . ln(E*_k/E*_0) [-] of each admissible series of today's rubber, shape (series,).
+def series_derivatives(
+    friction: GoalFriction, contacts: Sequence[RoughContact], measured: Rubber
+) -> Array:
+    """Return s . ln(E*_k/E*_0) [-] of each admissible series of a `measured` rubber, (series,).
 
-    `contacts` are those of any compound.
+    `contacts` are those of this rubber, or of a design that multiplies its modulus.
     """
     slopes = []
     for part, contact in zip(friction.parts, contacts, strict=True):
-        today = rubber_at(friction.rubber, friction.goals[part.goal].temperature)
-        if today.admissible is None:
+        best = rubber_at(measured, friction.goals[part.goal].temperature)
+        if best.admissible is None:
             slopes.append(np.zeros(0))
             continue
         adjoint, grid = FrictionAdjoint.of(contact), contact.grid
         modulus, relative = relative_change(contact)
         omega = contact.speed * grid.along
-        others = today.admissible.complex_moduli(np.abs(omega))
+        others = best.admissible.complex_moduli(np.abs(omega))
         others.imag *= np.sign(omega)
-        ratios = np.log(others / today.complex_modulus(omega))
+        ratios = np.log(others / best.complex_modulus(omega))
         along = [float(adjoint.by_modulus(relative * modulus * ratio).sum()) for ratio in ratios]
         slopes.append(np.array(along) / contact.friction_from_dissipation)
     return np.asarray(_shares(friction, contacts) @ np.array(slopes))
 
 
-def series_error(today: Array, design: Array) -> float:
-    """Return the standard error of G from two `series_derivatives`; NaN without a series."""
-    return float(np.abs(design - today).max()) / EXTREME if today.size else math.nan
+def series_error(changes: Array) -> float:
+    """Return the standard error of the changes of G by each series; NaN without a series.
+
+    Of a design they are the difference of two `series_derivatives`, because one measurement is
+    behind both compounds.
+    """
+    return float(np.abs(changes).max()) / EXTREME if changes.size else math.nan

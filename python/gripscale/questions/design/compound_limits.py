@@ -30,7 +30,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError, RubberWarning
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import loss_shape, storage_shape
 from gripscale.rubber.shift import EDGE
@@ -137,11 +137,6 @@ class CompoundLimits(Checked):
     points: tuple[PointLimit, ...] | None = None
 
 
-def celsius(kelvin: float) -> str:
-    """Return a temperature [K] in degrees Celsius."""
-    return f"{kelvin - ZERO_CELSIUS:z.3g} °C"
-
-
 def require_shift(rubber: Rubber, kelvin: float | None, what: str) -> None:
     """Raise `InputError` if the rubber cannot be had at a temperature [K] for `what`."""
     if kelvin is None:
@@ -149,11 +144,7 @@ def require_shift(rubber: Rubber, kelvin: float | None, what: str) -> None:
     if rubber.shift is not None:
         low, high = rubber.shift.limits
         if not low - EDGE <= kelvin <= high + EDGE:
-            raise InputError(
-                f"{what} must be at {celsius(low)} to {celsius(high)}, between the ends of the "
-                f"shift of {rubber.name or 'this rubber'}; got {celsius(kelvin)}: measure sweeps "
-                'up to there, or state shift = { kind = "wlf", ... } in [rubber]'
-            )
+            raise InputError(rubber.shift.beyond_limits(f"the temperature of {what}", kelvin))
         return
     measured = rubber.reference_temperature
     if measured is not None and math.isclose(measured, kelvin, abs_tol=0.5):

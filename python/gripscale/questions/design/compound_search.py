@@ -258,7 +258,7 @@ def design_problem(
     wanted = list(goals) or [default_goal(case)]
     named = {goal.road: (surfaces or {}).get(goal.road, goal.road) for goal in wanted}
     roads = {name: surface_of(road, case) for name, road in named.items()}
-    friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers))
+    friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers), case.load.thickness)
     rolling = PointLimit(
         "loss_factor", 0.0, 1.0, FREQUENCY, None if rubber.shift is None else ROLLING
     )

@@ -25,7 +25,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import Job, in_threads
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import celsius
 from gripscale.half_space.model import smallest_wavelength
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import FrictionAdjoint
@@ -63,7 +63,7 @@ class CompoundGoal(Checked):
     def __str__(self) -> str:
         parts = [f"{self.speed:g} m/s", f"{self.pressure / 1e5:g} bar"]
         if self.temperature is not None:
-            parts.append(f"{self.temperature - ZERO_CELSIUS:.3g} °C")
+            parts.append(celsius(self.temperature))
         if self.road != "case":
             parts.append(self.road)
         return ", ".join(parts)
@@ -92,6 +92,8 @@ class GoalFriction:
     goals: Sequence[CompoundGoal]
     parts: Sequence[MeasuredPart] = field(repr=False)
     workers: int = 1
+    thickness: float | None = None
+    """Of the rubber [m]; None: a half-space."""
     _before: dict[int, RoughContact] = field(default_factory=dict, repr=False)
 
     @classmethod
@@ -101,6 +103,7 @@ class GoalFriction:
         goals: Sequence[CompoundGoal],
         roads: Mapping[str, Surface],
         workers: int = 1,
+        thickness: float | None = None,
     ) -> GoalFriction:
         """Return the friction of a compound at `goals` on `roads` by their names.
 
@@ -123,7 +126,7 @@ class GoalFriction:
             for surface, length in zip(surfaces, lengths, strict=True):
                 shortest = smallest_wavelength(road, surface)
                 parts.append(MeasuredPart(index, surface, shortest, longest, length / sum(lengths)))
-        return cls(rubber, goals, parts, workers)
+        return cls(rubber, goals, parts, workers, thickness)
 
     @property
     def weights(self) -> Array:
@@ -148,6 +151,7 @@ class GoalFriction:
                 part.surface,
                 pressure=goal.pressure,
                 speed=goal.speed,
+                thickness=self.thickness,
                 smallest_wavelength=part.smallest_wavelength,
                 tolerance=tolerance,
                 start=self._before.get(index) if warm else None,

@@ -16,11 +16,10 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.core import checks
-from gripscale.core.finding import Finding, doubt
+from gripscale.core.finding import doubt
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table
-from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.design import page
 from gripscale.questions.design.compound_design import (
     DESIGN_FILE,
@@ -39,7 +38,6 @@ from gripscale.questions.design.compound_search import design_problem
 from gripscale.questions.design.design_dataset import today
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
 from gripscale.report.elements import Page
@@ -59,11 +57,6 @@ class CompoundDesign(Result):
     def lines(self) -> Sequence[str]:
         """Friction gained at the same rolling resistance, what decides it and what it rests on."""
         return tuple(page.design_lines(self.data))
-
-    @property
-    def findings(self) -> Sequence[Finding]:
-        """What may change the design, the most important first."""
-        return tuple(case_notices(None, InputRecord(self.inputs)))
 
     def parts(self) -> Iterator[str | Table]:
         """Yield the points of the curve, then other compounds."""

@@ -114,12 +114,22 @@ def inputs(
     excitation = excited(case.load.speed, surface.sines)
     rubber = case.measured_rubber
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
-    left_out = [finding.about("Surface") for finding in surface.extrapolated]
-    findings = [*further, *(f for f in case.findings(surfaces, loads) if f not in left_out)]
+    findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
     data = _files(case.origin.files) | series
-    attrs = _waves(surface) | about_series
-    attrs |= {"findings": to_json(findings) if findings else None}
+    sines = surface.sines
+    low, high = sines.lag_range or (None, None)
+    attrs: Variables = {
+        "sines_s_wavelength": sines.s_wavelength,
+        "sines_s_amplitude": sines.s_amplitude,
+        "sines_residual_decades": sines.residual,
+        "sines_lag_min_m": low,
+        "sines_lag_max_m": high,
+        "sines_cut_off_m": sines.cut_off,
+        "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
+        **about_series,
+        "findings": to_json(findings) if findings else None,
+    }
     if excitation.size:
         attrs["excited_low_rad_per_s"] = float(excitation.min())
         attrs["excited_high_rad_per_s"] = float(excitation.max())
@@ -147,20 +157,6 @@ def _files(files: Sequence[NamedFile]) -> Variables:
         "file_name": ("file", _texts([file.name for file in files])),
         "file_bytes": ("file", np.array([file.size for file in files])),
         "file_sha256": ("file", _texts([file.sha256 for file in files])),
-    }
-
-
-def _waves(surface: Surface) -> Variables:
-    sines = surface.sines
-    low, high = sines.lag_range or (None, None)
-    return {
-        "sines_s_wavelength": sines.s_wavelength,
-        "sines_s_amplitude": sines.s_amplitude,
-        "sines_residual_decades": sines.residual,
-        "sines_lag_min_m": low,
-        "sines_lag_max_m": high,
-        "sines_cut_off_m": sines.cut_off,
-        "correlation_top_height_fraction": surface.counted.get("top_height_fraction"),
     }
 
 

@@ -44,23 +44,19 @@ def sensitivity_command(
     workers: Workers = None,
 ) -> None:
     """Tell which part of the master curve, and which input, decides the friction of a case."""
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.questions.sensitivity.question import DERIVED_OVER, sensitivity
     from gripscale.questions.vary.axis import parse_axes
 
     axes = parse_axes(vary or (), DERIVED_OVER)
-    file = read_case_file(case)
-    opening = f"What decides the friction of {file.path}"
-    console, target = terminal.open_folder(file, output, "sensitivity", opening)
+    work = terminal.CaseCommand(case)
+    work.open_results(output, "sensitivity", f"What decides the friction of {work.file.path}")
     result = sensitivity(
-        read_case(file),
-        folder=target,
-        vary=read_named_inputs(axes, file) or None,
+        work.case,
+        vary=read_named_inputs(axes, work.file) or None,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,
-        workers=workers,
-        on_task=terminal.progress_printer(console),
+        **work.solving(workers),
     )
-    terminal.finish(console, target, result, file, "sensitivity.txt", "tables and figure")
+    work.finish(result, "tables and figure")

@@ -23,14 +23,13 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
 from gripscale.core.checks import checked
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED, surface_numbers, variable_attributes
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import contact_trace, trace_variables, with_traces
 from gripscale.half_space.model import DirectContact
-from gripscale.half_space.sensitivity import contact_sensitivity
+from gripscale.half_space.sensitivity import TEXTS, contact_sensitivity
 from gripscale.model import STATUS
 from gripscale.questions.vary.inputs import conditions_of
 
@@ -49,6 +48,15 @@ FEEDBACK = "_with_feedback"
 LOG_STEP, KELVIN_STEP = 0.1, 2.0
 """Of the differences of whole solutions: ln v, ln p_0, and temperature [K]. The friction of a grid
 bends where an asperity comes into contact; smaller steps are single asperities."""
+
+_DERIVATIVES = {
+    f"d_ln_{quantity}_d_{name}{end}": quantity
+    for quantity in ("friction", "contact_fraction")
+    for name in TEXTS.keys() - {"ln_modulus"}
+    for end in ("", FEEDBACK)
+}
+"""Names of derivatives, with the number that they are of; without those by Prony terms, which
+rubbers do not share."""
 
 _RULES = {"wet grip": ZERO_CELSIUS, "rolling resistance": ZERO_CELSIUS + 60.0}
 """Rules of thumb of tread compounds: tan(delta) at these temperatures [K] and `RULE_FREQUENCY`.
@@ -141,20 +149,13 @@ class FrictionSensitivity(DirectContact):
         }
 
 
-def _derivatives_of(data: xr.Dataset) -> list[str]:
-    """Return the names of derivatives but for those by Prony terms, which rubbers do not share."""
-    named = (str(name) for name in data if str(name).startswith("d_ln_"))
-    return [name for name in named if "term" not in data[name].dims]
-
-
 def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
     """Return the derivatives that profiles of these lengths [m] have together."""
-    names = _derivatives_of(parts[0])
+    names = [str(name) for name in parts[0] if name in _DERIVATIVES]
     every = xr.concat([part[names] for part in parts], "profile", join="outer", fill_value=0.0)
     out = {}
     for name in names:
-        quantity = "friction" if name.startswith("d_ln_friction") else "contact_fraction"
-        amounts = np.array(lengths) * [float(part[quantity]) for part in parts]
+        amounts = np.array(lengths) * [float(part[_DERIVATIVES[name]]) for part in parts]
         weight = xr.DataArray(amounts / amounts.sum(), dims="profile")
         mean = (weight * every[name]).sum("profile", skipna=False)
         out[name] = mean.assign_attrs(parts[0][name].attrs)
@@ -163,13 +164,19 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 
 def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
-    kept = answer[[*_derivatives_of(answer), *trace_variables(answer)]]
+    names = [name for name in answer if name in _DERIVATIVES]
+    kept = answer[[*names, *trace_variables(answer)]]
     return surface_numbers(answer, task).assign(kept.variables)
 
 
 def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     """Return the Dataset with the master curve of its rubber, and the rules of thumb on it."""
-    kelvin, at = _rules(rubber)
+    shift, reference = rubber.shift, rubber.reference_temperature
+    kelvin = at = np.empty(0)
+    if shift is not None and reference is not None:  # the rules within the shift
+        low, high = shift.limits
+        kelvin = np.array([each for each in _RULES.values() if low <= each <= high])
+        at = 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)
     drawn = np.array([*data.frequency.values, *at])
     omega = np.geomspace(drawn.min() / _MARGIN, drawn.max() * _MARGIN, MASTER_POINTS)
     modulus = rubber.complex_modulus(omega)
@@ -191,16 +198,3 @@ def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
             variable_attributes("share of the effect of E'' within half a decade")
         ),
     )
-
-
-def _rules(rubber: Rubber) -> tuple[Array, Array]:
-    """Return the temperatures of the rules [K], and where on the master curve they are [rad/s].
-
-    Those within the shift of the rubber; none without a shift.
-    """
-    shift, reference = rubber.shift, rubber.reference_temperature
-    if shift is None or reference is None:
-        return np.empty(0), np.empty(0)
-    low, high = shift.limits
-    kelvin = np.array([each for each in _RULES.values() if low <= each <= high])
-    return kelvin, 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)

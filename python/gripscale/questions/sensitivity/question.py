@@ -97,7 +97,10 @@ class Sensitivity(Result):
         ]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():
-                low, high = _middle_half(point)
+                effect = np.maximum(point[LOSS].values, 0.0)
+                within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
+                ends = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
+                low, high = np.exp(ends)
                 where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
                 between = f"between {low:.2g} and {high:.2g} rad/s"
                 lines.append(f"  half of the effect of E''{where} is {between}")
@@ -128,7 +131,19 @@ class Sensitivity(Result):
         yield self.decades_table()
         if CARRIED.format("friction") in self.data:
             yield _carried_table(self.data)
-        yield from _rule_lines(self.data)
+        if "rule" not in self.data.dims:
+            yield (
+                "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place "
+                "on this axis."
+            )
+            return
+        for i, name in enumerate(self.data.rule.values):
+            shares = least_to_most(self.data.rule_share.isel(rule=i), percent)
+            yield (
+                f"The rule of thumb for {name} takes tan δ at "
+                f"{float(self.data.rule_frequency[i]):.2g} rad/s ({RULE_FREQUENCY:g} Hz, shifted); "
+                f"{shares} of the effect of E'' lies within half a decade of it."
+            )
 
     def table(self) -> Table:
         """Return the derivatives by each input, the moduli summed over frequency."""
@@ -225,14 +240,6 @@ class Sensitivity(Result):
                 yield Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
 
 
-def _middle_half(point: xr.Dataset) -> tuple[float, float]:
-    """Return the frequencies between which the middle half of the effect of E'' lies [rad/s]."""
-    effect = np.maximum(point[LOSS].values, 0.0)
-    within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
-    log = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
-    return float(np.exp(log[0])), float(np.exp(log[1]))
-
-
 def _carried_table(data: xr.Dataset) -> Table:
     """Return what is not known of the inputs, and what it carries to the results, most first."""
     errors = {name: data[CARRIED.format(name)].values for name in CARRIED_QUANTITIES}
@@ -246,23 +253,6 @@ def _carried_table(data: xr.Dataset) -> Table:
     if missing := not_stated(data):
         notes.append(f"Not included, as the case states no standard error: {', '.join(missing)}.")
     return Table("carried", columns, "Effect of the errors of the inputs", notes, keys=1)
-
-
-def _rule_lines(data: xr.Dataset) -> Iterator[str]:
-    """Yield what the rules of thumb look at, and how much of the effect is there."""
-    if "rule" not in data.dims:
-        yield (
-            "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place on "
-            "this axis."
-        )
-        return
-    for i, name in enumerate(data.rule.values):
-        share, at = data.rule_share.isel(rule=i), float(data.rule_frequency[i])
-        shares = least_to_most(share, percent)
-        yield (
-            f"The rule of thumb for {name} takes tan δ at {at:.2g} rad/s ({RULE_FREQUENCY:g} Hz, "
-            f"shifted); {shares} of the effect of E'' lies within half a decade of it."
-        )
 
 
 @overload

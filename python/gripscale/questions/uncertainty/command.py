@@ -75,7 +75,6 @@ def uncertainty_command(
 
     Options go before what the case states in its table [uncertainty].
     """
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.core import checks
     from gripscale.core.parallel import worker_count
     from gripscale.experiment.solve import PROCESSES
@@ -93,31 +92,24 @@ def uncertainty_command(
         "ranges": _values_by_source(ranges or ()),
         "block_length": None if block_length is None else length(block_length),
     }
-    file = read_case_file(case)
-    read = read_case(file)
-    choice = Uncertainty.of_case(stated_options(read), **options)
-    models = models or stated_models(read, choice)
+    work = terminal.CaseCommand(case)
+    choice = Uncertainty.of_case(stated_options(work.case), **options)
+    models = models or stated_models(work.case, choice)
     if cluster is None and DirectContact.name in models and worker_count(workers) > 1:
         cluster = PROCESSES
-    console, target = terminal.open_folder(
-        file, output, "uncertainty", f"Uncertainty of {file.path}"
-    )
+    work.open_results(output, "uncertainty", f"Uncertainty of {work.file.path}")
     result = question.uncertainty(
-        read,
+        work.case,
         **options,
         samples=samples,
         seed=seed,
         models=models,
         vary=axes,
         tolerance=tolerance,
-        folder=target,
-        workers=workers,
         client=cluster,
-        on_task=terminal.progress_printer(console),
+        **work.solving(workers),
     )
-    terminal.finish(
-        console, target, result, file, "uncertainty.txt", "tables and figures", page=True
-    )
+    work.finish(result, "tables and figures", page=True)
 
 
 def _values_by_source(ranges: Sequence[str]) -> dict[str, str]:

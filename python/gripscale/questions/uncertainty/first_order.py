@@ -166,7 +166,7 @@ def _log_ratio(adjoint: FrictionAdjoint, rubber: Rubber) -> ComplexArray:
     contact, body = adjoint.contact, adjoint.contact.body
     solid = (contact.conditions or Conditions()).before(rubber)
     scales = None if body.by_scale is None else replace(body.by_scale, rubber=solid)
-    other = HalfSpace(solid, body.speed, by_scale=scales)
+    other = HalfSpace(solid, body.speed, by_scale=scales, thickness=body.thickness)
     change = np.log(other.modulus(contact.grid) / body.modulus(contact.grid))
     return np.broadcast_to(change, contact.grid.spectrum_shape)
 

@@ -339,13 +339,26 @@ def propagate(
     number = defaults.samples if samples is None else samples
     start = defaults.seed if seed is None else seed
     accuracy = defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
+    named = stated_models(case, choice) if models is None else models
+    named = [named] if isinstance(named, str) else list(named)
+    for name in named:
+        checks.one_of("model", name, _MODELS)
+    if not named or len(set(named)) < len(named):
+        short = checks.short_repr(models)
+        raise InputError(f"models must be one or both of chain, direct; got {short}")
+    axis: Axis | None = None
+    if vary:
+        axis, *further = axes_of(vary)
+        if further or axis.name not in SAMPLED_OVER:
+            names = ", ".join(each.name for each in (axis, *further))
+            raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
     plan = Plan(
         case,
         choice,
         checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
         checks.whole("seed", start, least=0, most=MOST_SEED),
-        _models(stated_models(case, choice) if models is None else models),
-        _axis(vary),
+        tuple(name for name in _MODELS if name in named),
+        axis,
         accuracy,
     )
     path = None if folder is None else Path(folder) / _RESULT
@@ -372,26 +385,6 @@ def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
         of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
         word = "both" if of_chain else "direct"
     return BOTH[word]
-
-
-def _models(names: Sequence[str]) -> tuple[str, ...]:
-    chosen = [names] if isinstance(names, str) else list(names)
-    for name in chosen:
-        checks.one_of("model", name, _MODELS)
-    if not chosen or len(set(chosen)) < len(chosen):
-        short = checks.short_repr(names)
-        raise InputError(f"models must be one or both of chain, direct; got {short}")
-    return tuple(name for name in _MODELS if name in chosen)
-
-
-def _axis(vary: Mapping[str, Any] | None) -> Axis | None:
-    if not vary:
-        return None
-    axes = axes_of(vary)
-    if len(axes) > 1 or axes[0].name not in SAMPLED_OVER:
-        names = ", ".join(axis.name for axis in axes)
-        raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
-    return axes[0]
 
 
 def _answered(plan: Plan, chosen: sampling.Chosen, bench: Bench) -> xr.Dataset:

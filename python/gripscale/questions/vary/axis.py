@@ -32,6 +32,7 @@ _QUANTITIES = {
     "temperature": "temperature",
     "smallest_wavelength": "length",
     "cut_off": "length",
+    "thickness": "length",
 }
 """Axes of numbers, with the kind of quantity."""
 
@@ -46,6 +47,7 @@ LONG_NAMES = {
     "pressure": "nominal pressure",
     "temperature": "temperature of the rubber before the contact",
     "smallest_wavelength": "smallest wavelength",
+    "thickness": "thickness of the rubber",
     "cut_off": "shortest wavelength of the roughness",
     "top_height_fraction": "fraction of the heights, from the top, that counts",
     "waves": "number of waves",
@@ -268,6 +270,7 @@ _EXAMPLES = {
     "temperature": "0 C:60 C:lin7",
     "smallest_wavelength": "0.1 mm:1 mm:log4",
     "cut_off": "0.1 mm:1 mm:log4",
+    "thickness": "1 mm:8 mm:log4",
 }
 """Ranges of the quantities."""
 

@@ -49,7 +49,8 @@ TITLES = {
     for name, title in AXIS_TITLES.items()
 }
 """Titles of axes."""
-REPLACED = {f"total_{name}": f"best_{name}" for name in AXIS_TITLES}
+_ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
+REPLACED = {f"total_{name}": f"best_{name}" for name in _ESTIMATED}
 """Totals of a model that are not drawn where there is a best estimate."""
 FRICTIONS = ("best_friction", "total_friction")
 """Drawn from zero."""
@@ -67,7 +68,7 @@ def varied_axis(data: xr.Dataset, name: str) -> tuple[PlotAxis, Array]:
 def study_charts(data: xr.Dataset) -> list[Chart]:
     """Return a chart for each total over each numeric axis, and for each number per wave."""
     axes = [axis for axis in dimensions(data) if of_numbers(data, axis) and data.sizes[axis] > 1]
-    best = [name for name in map(partial(believed, data), AXIS_TITLES) if name in data]
+    best = [name for name in map(partial(believed, data), _ESTIMATED) if name in data]
     totals = [
         str(name)
         for name, variable in data.data_vars.items()
@@ -292,7 +293,7 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
     the rubber are hatched, and dashed.
     """
     abscissa, x = varied_axis(result, axis)
-    beyond = _waves_beyond(result, axis)
+    beyond = style.waves_beyond(result.transpose("scale", axis, ...))
     friction = result.friction.transpose("scale", axis).values
     running = result.running_contact_fraction.transpose("scale", axis).values
     looks = zip(running, style.shades(len(running)), beyond, strict=True)
@@ -312,11 +313,6 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
         ),
     ]
     return Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength").on_paper()
-
-
-def _waves_beyond(result: xr.Dataset, axis: str) -> RowFlags:
-    """Return for each wave and point whether it excites the rubber beyond the measured band."""
-    return style.waves_beyond(result.transpose("scale", axis, ...))
 
 
 def _stack(rows: Array) -> tuple[Array, Array]:

@@ -19,7 +19,7 @@ def study_command(
         typer.Option(
             help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
             "temperature='0 C:60 C:lin7', effects=all,no_heat,none, smallest_wavelength, cut_off, "
-            "top_height_fraction, waves, pressure_classes, "
+            "thickness=1 mm:8 mm:log4, top_height_fraction, waves, pressure_classes, "
             "factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
             metavar="NAME=VALUES",
         ),
@@ -43,32 +43,27 @@ def study_command(
     ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
-    from gripscale.case_file import folder, read_case, read_case_file
+    from gripscale.case_file import folder
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.questions.vary.axis import parse_axes
     from gripscale.questions.vary.question import Variation
     from gripscale.questions.vary.study import Study
 
     axes = parse_axes(vary)
-    file = read_case_file(case)
-    varied = read_named_inputs(axes, file)
-    planned = Study(read_case(file), varied, static=static, model=model, tolerance=tolerance)
-    console, target = terminal.open_folder(file, output, "study")
-    stored = planned.stored(target)
+    work = terminal.CaseCommand(case)
+    varied = read_named_inputs(axes, work.file)
+    planned = Study(work.case, varied, static=static, model=model, tolerance=tolerance)
+    work.open_results(output, "study")
+    stored = planned.stored(work.target)
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
     for line in [*opening, ""]:
-        terminal.print_wrapped(console, line)
-    folder.save_case(file, target)
-    progress = terminal.progress_printer(console)
-    data = planned.run(target, workers=workers, client=cluster, on_task=progress)
-    terminal.finish(
-        console,
-        target,
+        terminal.print_wrapped(work.console, line)
+    folder.save_case(work.file, work.target)
+    data = planned.run(client=cluster, **work.solving(workers))
+    work.finish(
         Variation(data),
-        file,
-        "study.txt",
         "table and figures",
         opening=opening,
         keep_figures=stored is not None,

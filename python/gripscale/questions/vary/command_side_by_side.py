@@ -49,26 +49,21 @@ def compare_surfaces_command(
     workers: Workers = None,
 ) -> None:
     """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.case_file.named_inputs import names_of, read_surface
     from gripscale.questions.vary.surface_comparison import compare_surfaces
 
-    file = read_case_file(case_of(surfaces, case, "the rubber and the load"))
-    console, target = terminal.open_folder(file, output, "surfaces")
+    work = terminal.CaseCommand(case_of(surfaces, case, "the rubber and the load"))
+    work.open_results(output, "surfaces")
     roads = compare_surfaces(
-        read_case(file),
+        work.case,
         {
-            name: read_surface(value, file)
+            name: read_surface(value, work.file)
             for name, value in zip(names_of(surfaces), surfaces, strict=True)
         },
-        target,
         samples=samples or None,
-        workers=workers,
-        on_task=terminal.progress_printer(console),
+        **work.solving(workers),
     )
-    terminal.finish(
-        console, target, roads, file, "surfaces.txt", "tables and figures", drawings="", page=True
-    )
+    work.finish(roads, "tables and figures", drawings="", page=True)
 
 
 @command
@@ -98,32 +93,27 @@ def compare_rubbers(
     workers: Workers = None,
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.case_file.named_inputs import names_of, read_rubber
     from gripscale.core.units import temperature_in_kelvin
     from gripscale.questions.vary.rubber_comparison import compare_compounds
 
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
-    file = read_case_file(chosen)
+    work = terminal.CaseCommand(chosen)
     opening = (
         "Each compound is predicted first; then the range that the error of its measured moduli "
         "leaves, on half-planes."
     )
-    console, target = terminal.open_folder(file, output, "rubbers", *[opening] * uncertainty)
+    work.open_results(output, "rubbers", *[opening] * uncertainty)
     compounds = compare_compounds(
-        read_case(file),
+        work.case,
         {
-            name: read_rubber(value, file)
+            name: read_rubber(value, work.file)
             for name, value in zip(names_of(rubbers), rubbers, strict=True)
         },
-        target,
         temperature=kelvin,
         uncertainty=uncertainty,
-        workers=workers,
-        on_task=terminal.progress_printer(console),
+        **work.solving(workers),
     )
     contents = "table and figures"
-    terminal.finish(
-        console, target, compounds, file, "compounds.txt", contents, drawings="", page=True
-    )
+    work.finish(compounds, contents, text="compounds.txt", drawings="", page=True)

@@ -13,11 +13,12 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
+from gripscale.questions.answer.best_estimate import BEST_ESTIMATES
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
 from gripscale.questions.vary.words import is_evidence, telling, words_of
-from gripscale.questions.words import SYMBOLS, believed
+from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.failures import Failure
 
 _MOST_ROWS = 200
@@ -50,11 +51,11 @@ def study_table(data: xr.Dataset) -> Table:
             ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
             columns.append(Column(f"{column}_interval", ends, "90 %"))
     friction = believed(data, "friction")
-    if friction.startswith("total") and "total_friction_from_dissipation" in data:
+    if not is_estimated(data, "friction") and "total_friction_from_dissipation" in data:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
     if ADHESIVE_FRICTION in data:
-        term = np.array(each(ADHESIVE_FRICTION))
+        term = np.array(each(believed(data, "adhesive_friction")))
         total = term + np.array(each(friction))
         columns += [
             Column("area_term", term, "μ", "area term"),
@@ -186,7 +187,7 @@ def totals_of(data: xr.Dataset) -> list[str]:
         and not str(name).endswith(("_key", "_status_word"))
         and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
     ]
-    return sorted(names, key=lambda name: not name.startswith("best_"))
+    return sorted(names, key=lambda name: name not in BEST_ESTIMATES)
 
 
 def totals_table(data: xr.Dataset) -> Table | None:

@@ -12,8 +12,8 @@ from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
-from gripscale.model import ADHESIVE_FRICTION, STATUS, STEEP_SHARE, input_doubts_of
-from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.model import STATUS, STEEP_SHARE, input_doubts_of
+from gripscale.questions.answer.best_estimate import AREA_TERM, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
@@ -45,7 +45,8 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
         yield "Answer: none; no prediction has a result."
         return
     estimated = is_estimated(data, "contact_fraction")
-    level = " (90 % intervals)" if estimated and _has_intervals(data) else ""
+    has_intervals = estimated and bool(data["best_contact_fraction_low"].notnull().any())
+    level = " (90 % intervals)" if has_intervals else ""
     by = "" if estimated else f" by the {_model(data)}, without an interval"
     yield f"Answer{by}: {'; '.join(texts)}{level}."
     yield from (f"  {line}" for line in study_basis(data))
@@ -141,10 +142,6 @@ def _at(data: xr.Dataset, name: str, index: tuple[int, ...]) -> str:
     return f"{_number(data, name, index)} at {', '.join(places)}"
 
 
-def _has_intervals(data: xr.Dataset) -> bool:
-    return bool(data["best_contact_fraction_low"].notnull().any())
-
-
 def _model(data: xr.Dataset) -> str:
     name = str(data.attrs.get("model", "model"))
     return _MODELS.get(name, name.replace("_", " "))
@@ -189,8 +186,8 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield "a road without direction is assumed"
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"
-    if ADHESIVE_FRICTION in data:
-        term = data[ADHESIVE_FRICTION]
+    if AREA_TERM in data:
+        term = data[AREA_TERM]
         low, high = float(term.min()), float(term.max())
         yield f"an area term of {significant(low)} to {significant(high)} comes on top"
     if has_intervals:
@@ -201,10 +198,9 @@ def _card_detail(data: xr.Dataset, name: str) -> str:
     """Return over what a range of answers is, and its widest interval."""
     axes = dimensions(data)
     over = " × ".join(_reach(data, axis) for axis in axes)
-    column = believed(data, name)
-    if column.startswith("total"):
+    if not is_estimated(data, name):
         return f"{_model(data)}; {over}"
-    width = float(data[f"{column}_half_width"].max())
+    width = float(data[f"best_{name}_half_width"].max())
     interval = f"; ± {percent_text(width)} (90 %)" if math.isfinite(width) else ""
     return f"best estimate{interval}; {over}"
 

@@ -145,13 +145,11 @@ def ratio_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
     ends = [ratio_ends(data, "friction", i) for i in range(1, len(names))]
     level = " (90 % intervals)" if np.isfinite(ends).any() else ", without an interval"
     others = [i for i in range(1, len(names)) if math.isfinite(friction[i])]
-    texts = [
-        f"{names[i]} {', '.join(_ratio_text(data, name, i) for name in reversed(SYMBOLS))}"
-        for i in others
-    ]
+    ratios = [", ".join(_ratio_text(data, name, i) for name in reversed(SYMBOLS)) for i in others]
     if len(names) == 2:
-        head = f"{_grip_words(data, names[1], names[0])}: {texts[0].removeprefix(names[1]).strip()}"
+        head = f"{_grip_words(data, names[1], names[0])}: {ratios[0]}"
     else:
+        texts = [f"{names[i]} {ratio}" for i, ratio in zip(others, ratios, strict=True)]
         top = f"{names[int(np.nanargmax(friction))]} has the most friction"
         head = f"{top}. Over {names[0]}: {'; '.join(texts)}"
     yield f"Answer: {head}{level}."

@@ -30,14 +30,14 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import celsius
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
 from gripscale.model import input_doubts
-from gripscale.questions.answer.best_estimate import with_best_estimate
+from gripscale.questions.answer.best_estimate import POINT_ESTIMATES, with_best_estimate
 from gripscale.questions.vary.inputs import TEMPERATURE, measured_rubber_of, reading_notes
 from gripscale.questions.vary.side_by_side import Compounds
 from gripscale.questions.vary.study import Study
@@ -83,7 +83,9 @@ def at_one_temperature(
     if wanted is None:
         fixed = {name: t for name, t in temperatures.items() if rubbers[name].shift is None}
         if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
-            each = ", ".join(f"{name} for {_celsius(kelvin)}" for name, kelvin in fixed.items())
+            each = ", ".join(
+                f"{name} for {celsius(kelvin, '.1f')}" for name, kelvin in fixed.items()
+            )
             raise InputError(
                 "compounds must hold for one temperature, or have a shift to it; got "
                 f"{each} without one"
@@ -99,16 +101,13 @@ def at_one_temperature(
             continue
         if rubber.shift is None:
             raise InputError(
-                f"{name} holds for {_celsius(before)} and cannot be brought to {_celsius(wanted)}: "
+                f"{name} holds for {celsius(before, '.1f')} and cannot be brought to "
+                f"{celsius(wanted, '.1f')}: "
                 "give it a shift, or leave it out"
             )
         together[name] = rubber.at(wanted)
-        shifted.append(f"{name} shifted from {_celsius(before)} to {_celsius(wanted)}")
+        shifted.append(f"{name} shifted from {celsius(before, '.1f')} to {celsius(wanted, '.1f')}")
     return together, (*shifted, *temperature_doubts(together))
-
-
-def _celsius(kelvin: float) -> str:
-    return f"{kelvin - ZERO_CELSIUS:.1f} °C"
 
 
 FEWEST, _MOST = 2, 6
@@ -302,7 +301,7 @@ def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:
 
 def _believed(best: xr.Dataset, data: xr.Dataset) -> dict[str, xr.DataArray]:
     """Return the best estimates of the compounds, and the ratios to the first that are believed."""
-    names = [str(name) for name in best if str(name).startswith(("best_", "factor_"))]
+    names = [str(name) for name in best if name in POINT_ESTIMATES]
     widths = None
     if f"{_TOTALS[0]}_low" in data:
         widths = {name: _widths(best, data, name) for name in COMPARED_QUANTITIES}

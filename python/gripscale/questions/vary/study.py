@@ -129,8 +129,8 @@ class Study:
     case
         The case, prepared, read, or its file. What is not varied is as it says.
     vary
-        One or two of speed, pressure, temperature, smallest_wavelength, cut_off (numbers in SI
-        units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
+        One or two of speed, pressure, temperature, smallest_wavelength, thickness, cut_off (numbers
+        in SI units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
         `CutOffRule`), top_height_fraction (numbers), waves, pressure_classes (whole numbers),
         factors (pairs of magnification factors, or "3.5/2.4"), effects (of the conditions: "all",
         "no heat", "none"), rubber and surface (names and files, or a mapping from names to
@@ -365,7 +365,9 @@ class Study:
 
     def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
         load = self.case.load
-        pressure, speed = (values.get(key, getattr(load, key)) for key in ("pressure", "speed"))
+        pressure, speed, thickness = (
+            values.get(key, getattr(load, key)) for key in ("pressure", "speed", "thickness")
+        )
         speed = 0.0 if static else speed
         load_time = load.load_time if speed > 0.0 else "passage"
         model, rubber = self._model(values), self.rubbers[at.get("rubber", 0)]
@@ -373,7 +375,9 @@ class Study:
             rubber = self.case.conditions.before(rubber)
         # nothing is solved if one point of the study is impossible
         inputs.rubber_before(rubber, model)
-        load = replace(load, pressure=pressure, speed=speed, load_time=load_time)
+        load = replace(
+            load, pressure=pressure, speed=speed, load_time=load_time, thickness=thickness
+        )
         return Task(rubber, self._surface(at.get("surface", 0), values), load, model)
 
     def _model(self, values: dict[str, Any]) -> Model:

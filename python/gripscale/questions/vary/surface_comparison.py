@@ -45,7 +45,7 @@ from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import STATUS, STATUS_WORD, Load, Model, input_doubts
 from gripscale.model import TOTALS as OF_ALL
-from gripscale.questions.answer.best_estimate import with_best_estimate
+from gripscale.questions.answer.best_estimate import POINT_ESTIMATES, with_best_estimate
 from gripscale.questions.uncertainty.propagation import quantiles
 from gripscale.questions.uncertainty.sampled_inputs import FailSafeModel, Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import draws
@@ -169,7 +169,7 @@ def _best(surfaces: Mapping[str, Surface], roads: xr.Dataset) -> dict[str, xr.Da
         return rubber_comparison.ratios_to_first(roads.sel(model=Chain.name, drop=True), "surface")
     heights = [upper_height_of(surface) or np.nan for surface in surfaces.values()]
     best = with_best_estimate(direct.assign({UPPER_HEIGHT: ("surface", heights)}))
-    names = [name for name in best if str(name).startswith(("best_", "factor_"))]
+    names = [name for name in best if name in POINT_ESTIMATES]
     widths = {}
     for name in rubber_comparison.COMPARED_QUANTITIES:
         half_width = best[f"best_{name}_half_width"]

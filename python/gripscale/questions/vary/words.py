@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, WHY_NO_EXPONENT
+from gripscale.questions.answer.best_estimate import AREA_TERM
 from gripscale.questions.vary.axis import AXIS_LABELS
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 
@@ -25,6 +26,7 @@ _WORDS = {
     "total_friction": "friction μ",
     "total_friction_from_dissipation": "μ from the energy lost",
     ADHESIVE_FRICTION: "μ of the area term",
+    AREA_TERM: "μ of the area term, best estimate",
     FRICTION_OUTSIDE_BAND: "share of μ beyond the measured band",
     "total_decades_below_band": "decades below the measured band",
     "total_decades_above_band": "decades above the measured band",

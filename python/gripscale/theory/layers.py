@@ -1,0 +1,231 @@
+"""Rubber of finite thickness on a rigid base, in one layer or in several: its compliance K(q).
+
+Geometry: layers of infinite extent, bonded to one another and to a rigid base; a harmonic pressure
+p exp(i q . r) without shear on the free surface lifts it by u = K(q) p. Plane strain for a line; a
+map has the same K(|q|). Letters: G shear modulus, nu Poisson's ratio, both complex at the frequency
+of the wave; d thickness, s = |q| d.
+
+One layer, over the half-space of the same rubber:
+
+    K = (1 - nu) / (G |q|) F,    F = N / D,
+    N = (3 - 4 nu) sinh 2s - 2s,    D = (3 - 4 nu) cosh 2s + 2 s^2 + 5 - 12 nu + 8 nu^2.
+
+Source: M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94; F. Bentall & K. L. Johnson, Int. J. Mech.
+Sci. 10 (1968) 637, of elastic layers, with complex moduli in place of theirs. N and D are
+multiplied by exp(-2s), and sinh 2s - 2s is a series where s is small: no overflow and no
+cancellation. F is 1 for thick and 2 s^3 / 3 for thin incompressible layers; a thin compressible one
+has K = d / (oedometric modulus).
+
+Several layers: in each, displacements (i U, W) and tractions (i T, P) on a plane are four solutions
+of Navier's equations, exp(z) and exp(-z) with a constant and a linear factor, z = |q| times height.
+They give the stiffness of the layer in blocks, of its lower and its upper face,
+
+    (t_l, t_u) = (A, B; C, E) (u_l, u_u),    S <- E - C (A + S)^-1 B,
+
+upwards from S = E of the lowest layer; K = (S^-1)_WW. Source: E. Kausel & J. M. Roesset, Stiffness
+matrices for layered soils, Bull. Seismol. Soc. Am. 71 (1981) 1743, at rest. Exponentials are one at
+the face where a solution is largest.
+
+A layer loses Im(u* . t) at its upper face less that at its lower face: the losses of all layers sum
+to Im K |p|^2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.errors import InputError
+from gripscale.rubber import Rubber
+
+_ROWS = 2**14
+"""Waves at once: their matrices take about 10 MB."""
+_TERMS = 8
+"""Of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum."""
+
+
+class Layers:
+    """Layers of rubber on a rigid base, bonded to one another.
+
+    Parameters
+    ----------
+    layers : sequence of (Rubber, float)
+        Rubber and thickness [m] of each layer, that in contact first.
+
+    Raises
+    ------
+    InputError
+        Unless there is at least one layer, each a `Rubber` and a thickness above zero.
+    """
+
+    __slots__ = ("_layers",)
+    _layers: tuple[tuple[Rubber, float], ...]
+
+    def __init__(self, layers: Sequence[tuple[Rubber, float]]) -> None:
+        pairs = list(layers) if isinstance(layers, list | tuple) else []
+        if not pairs or not all(
+            isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs
+        ):
+            raise InputError(
+                "layers must be pairs of a Rubber and its thickness [m], the layer in contact "
+                f"first; got {checks.short_repr(layers)}"
+            )
+        read = []
+        for number, (rubber, thickness) in enumerate(pairs, start=1):
+            if not isinstance(rubber, Rubber):
+                raise InputError(
+                    f"rubber of layer {number} must be a Rubber; got {type(rubber).__name__}"
+                )
+            name = f"thickness of layer {number}"
+            read.append((rubber, checks.positive(name, thickness, unit="m")))
+        object.__setattr__(self, "_layers", tuple(read))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"Layers cannot be changed; got a new {name}: make other Layers")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (list(self._layers),)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Layers) and self._layers == other._layers
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.thicknesses))
+
+    def __len__(self) -> int:
+        return len(self._layers)
+
+    def __iter__(self) -> Iterator[tuple[Rubber, float]]:
+        return iter(self._layers)
+
+    def __repr__(self) -> str:
+        parts = ", ".join(f"({rubber.name or 'rubber'}, {d:g})" for rubber, d in self)
+        return f"Layers([{parts}])"
+
+    @property
+    def rubbers(self) -> list[Rubber]:
+        """Rubber of each layer, that in contact first."""
+        return [rubber for rubber, _ in self._layers]
+
+    @property
+    def thicknesses(self) -> list[float]:
+        """Thickness of each layer [m], that in contact first."""
+        return [thickness for _, thickness in self._layers]
+
+
+def shear_and_compression(modulus: ComplexArray, bulk: float) -> tuple[ComplexArray, ComplexArray]:
+    """Return G [Pa] and the complex 1 - 2 nu [-] of E* = 3 G and the bulk modulus [Pa]."""
+    shear = modulus / 3.0
+    return shear, 3.0 * shear / (3.0 * bulk + shear)
+
+
+def _sinh_less(x: Array) -> Array:
+    """Return exp(-x) (sinh x - x) of x not negative, to its last digits."""
+    small = np.minimum(x, 1.0)
+    term = small**3 / 6.0
+    series = np.zeros_like(small)
+    for number in range(_TERMS):
+        series += term
+        term = term * small**2 / ((2 * number + 4) * (2 * number + 5))
+    large = np.maximum(x, 1.0)
+    whole = -0.5 * np.expm1(-2.0 * large) - large * np.exp(-large)
+    return np.where(x < 1.0, np.exp(-small) * series, whole)
+
+
+def thickness_factor(depth: Array, compression: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+    """Return F [-] of one layer and d ln F / d nu [-].
+
+    `depth` is |q| d [-], above zero; `compression` is 1 - 2 nu [-]; broadcast together.
+    """
+    x = 2.0 * depth
+    decay, difference = np.exp(-x), _sinh_less(x)
+    cosh = 0.5 * (1.0 + np.exp(-2.0 * x))
+    stiff = 1.0 + 2.0 * compression  # 3 - 4 nu
+    # 5 - 12 nu + 8 nu^2 = 1 + 2 c + 2 c^2 with c = 1 - 2 nu
+    rest = 2.0 * depth**2 + 1.0 + 2.0 * compression * (1.0 + compression)
+    above = stiff * difference + 2.0 * compression * x * decay
+    below = stiff * cosh + rest * decay
+    # by c: d/d nu = -2 d/d c
+    slope_above = 2.0 * difference + 2.0 * x * decay
+    slope_below = 2.0 * cosh + (2.0 + 4.0 * compression) * decay
+    slope = -2.0 * (slope_above / above - slope_below / below)
+    deep = decay == 0.0
+    return np.where(deep, 1.0, above / below), np.where(deep, 0.0, slope)
+
+
+def _layer_stiffness(depth: Array, shear: ComplexArray, compression: ComplexArray) -> ComplexArray:
+    """Return the stiffness of a layer over |q| [Pa], shape (waves, 4, 4); lower face first."""
+    displacement = np.empty((depth.size, 4, 4), dtype=complex)
+    traction = np.empty_like(displacement)
+    stiff = 1.0 + 2.0 * compression  # 3 - 4 nu
+    decay = np.exp(-depth)
+    zero, one = np.zeros_like(depth), np.ones_like(depth)
+    for column, sign in ((0, 1.0), (2, -1.0)):
+        # growing solutions are one at the upper face, decaying ones at the lower face
+        faces = ((-depth, decay), (zero, one)) if sign > 0.0 else ((zero, one), (depth, decay))
+        for row, (height, size) in zip((0, 2), faces, strict=True):
+            outward = -1.0 if row == 0 else 1.0
+            constant, linear = column, column + 1
+            displacement[:, row, constant] = size
+            displacement[:, row + 1, constant] = sign * size
+            displacement[:, row, linear] = height * size
+            displacement[:, row + 1, linear] = (sign * height - stiff) * size
+            traction[:, row, constant] = outward * 2.0 * sign * size
+            traction[:, row + 1, constant] = outward * 2.0 * size
+            # 1 - (3 - 4 nu) = -2 c, and -4 + 4 nu = -2 (1 + c), with c = 1 - 2 nu
+            tangential, normal = -2.0 * compression, -2.0 * sign * (1.0 + compression)
+            traction[:, row, linear] = outward * (tangential + 2.0 * sign * height) * size
+            traction[:, row + 1, linear] = outward * (normal + 2.0 * height) * size
+    transposed = np.linalg.solve(displacement.swapaxes(1, 2), traction.swapaxes(1, 2))
+    return shear[:, None, None] * transposed.swapaxes(1, 2)
+
+
+def _stack_losses(
+    number: Array, moduli: Sequence[ComplexArray], bulk: Sequence[float], thickness: Sequence[float]
+) -> tuple[ComplexArray, Array]:
+    """Return K(q) [m/Pa] of some waves, and what of Im K each layer loses, (layers, waves)."""
+    lower: ComplexArray | None = None
+    steps = []
+    for modulus, bulk_modulus, height in reversed(list(zip(moduli, bulk, thickness, strict=True))):
+        stiffness = _layer_stiffness(number * height, *shear_and_compression(modulus, bulk_modulus))
+        upper = stiffness[:, 2:, 2:]
+        if lower is not None:
+            follows = -np.linalg.solve(stiffness[:, :2, :2] + lower, stiffness[:, :2, 2:])
+            upper = upper + stiffness[:, 2:, :2] @ follows
+            steps.append((follows, lower))
+        lower = upper
+    assert lower is not None
+    load = np.zeros((number.size, 2, 1), dtype=complex)
+    load[:, 1] = 1.0
+    surface = np.linalg.solve(lower, load)
+    compliance = surface[:, 1, 0] / number
+    displacement, work = surface, [compliance.imag]
+    for follows, below in reversed(steps):
+        displacement = follows @ displacement
+        power = (displacement.conj().swapaxes(1, 2) @ (below @ displacement))[:, 0, 0]
+        work.append(-power.imag / number)
+    work.append(np.zeros(number.size))
+    return np.asarray(compliance), np.asarray(-np.diff(np.array(work), axis=0))
+
+
+def stack_compliance(
+    number: Array, moduli: Sequence[ComplexArray], bulk: Sequence[float], thickness: Sequence[float]
+) -> tuple[ComplexArray, Array]:
+    """Return K(q) [m/Pa] of layers, and what of Im K each layer loses, shape (layers, *waves).
+
+    `number` is |q| [rad/m], above zero; `moduli` are E* [Pa] of each layer, that in contact first,
+    broadcastable to the waves; `bulk` and `thickness` are their bulk moduli [Pa] and heights [m].
+    """
+    waves = [np.broadcast_to(modulus, number.shape).reshape(-1) for modulus in moduli]
+    flat = number.reshape(-1)
+    parts = [
+        _stack_losses(flat[at : at + _ROWS], [w[at : at + _ROWS] for w in waves], bulk, thickness)
+        for at in range(0, flat.size, _ROWS)
+    ]
+    compliance = np.concatenate([part[0] for part in parts]).reshape(number.shape)
+    losses = np.concatenate([part[1] for part in parts], axis=1)
+    return compliance, losses.reshape(len(moduli), *number.shape)

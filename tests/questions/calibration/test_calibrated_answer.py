@@ -1,0 +1,179 @@
+"""A case with the area term fitted to measured friction answers with the fitted friction.
+
+The area that a fitted stress shears is that of the answer: with the step from lines to a surface,
+which takes a third of it away. A fit beside the area of the lines misses by as much.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case import BelowMeasurement
+from gripscale.conditions import (
+    Conditions,
+    ConstantStress,
+    GaussianStress,
+    InterfacialShearStress,
+)
+from gripscale.experiment import MeasuredFriction
+from gripscale.io import netcdf
+from gripscale.io.table import significant
+from gripscale.questions.calibration.question import Calibration
+from gripscale.questions.compare import comparison
+from gripscale.surface import self_affine_profile
+from tests.samples import SHIFTED_RUBBER, THERMAL, Shell, write_master_curve, write_road
+
+LINES = [
+    self_affine_profile(0.8, 3e-3, 8e-4, length=length, step=2e-4, seed=seed)
+    for length, seed in ((0.1, 1), (0.14, 2))
+]
+"""Two of different lengths."""
+TRUE = GaussianStress(4e6, 0.1, 0.05, 0.9, 293.15)
+SPEEDS, KELVINS, PRESSURES = [0.03, 0.1, 0.3, 0.03, 0.3], [283.15] * 3 + [303.15] * 2, [3e5, 2e5]
+
+
+LAW = '[conditions.shear_stress]\nkind = "constant"\nstress_0 = "9 MPa"\n'
+
+
+def made(conditions: Conditions, **load: float) -> gs.Case:
+    """Return a case of two lines under conditions, at another load where it is stated."""
+    arguments: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05, **load}
+    return gs.Case(
+        LINES, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3, conditions=conditions, **arguments
+    )
+
+
+def answer_at(law: InterfacialShearStress, at: int, heat: bool) -> gs.Answer:
+    """Return the answer of the case with `law` at a measured point."""
+    conditions = Conditions(
+        temperature=KELVINS[at], heat=THERMAL if heat else None, shear_stress=law
+    )
+    return gs.answer(made(conditions, speed=SPEEDS[at], pressure=PRESSURES[at % 2]))
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["without heat", "with heat"])
+def calibrated(request: pytest.FixtureRequest) -> tuple[Calibration, bool]:
+    """The fit to the friction that the case itself has with a known law, and a little noise."""
+    heat = bool(request.param)
+    noise = np.random.default_rng(0).normal(0.0, 0.003, len(SPEEDS))
+    friction = [answer_at(TRUE, at, heat).total_friction + noise[at] for at in range(len(SPEEDS))]
+    measured = MeasuredFriction(
+        SPEEDS, friction, [0.003] * len(SPEEDS), KELVINS, pressure=np.resize(PRESSURES, len(SPEEDS))
+    )
+    conditions = Conditions(temperature=293.15, heat=THERMAL if heat else None)
+    return gs.calibrate(made(conditions), measured, fixed={"reference_temperature": 293.15}), heat
+
+
+def test_the_answer_is_the_fitted_friction(calibrated: tuple[Calibration, bool]) -> None:
+    result, heat = calibrated
+    data = result.data
+    residual = np.abs(data.difference.values).max()
+    assert residual < 0.01
+    # under heat a law of the mean temperature stands for the mean of the law over the lines
+    close = 1e-3 if heat else 1e-12
+    for at in range(len(SPEEDS)):
+        answer = answer_at(result.law, at, heat)
+        assert answer.friction == pytest.approx(float(data.hysteresis[at]), rel=1e-12)
+        assert answer.contact_fraction == pytest.approx(float(data.contact_fraction[at]), rel=1e-12)
+        assert answer.total_friction == pytest.approx(float(data.friction[at]), rel=close)
+        misfit = answer.total_friction - float(data.measured_friction[at])
+        assert abs(misfit) <= residual + close
+
+
+def test_the_area_is_not_that_of_the_lines(calibrated: tuple[Calibration, bool]) -> None:
+    result, heat = calibrated
+    answer = answer_at(result.law, 0, heat).data
+    assert float(answer.best_contact_fraction / answer.total_contact_fraction) < 0.8
+    ratio = answer.best_adhesive_friction / answer.total_adhesive_friction
+    assert float(ratio) == pytest.approx(
+        float(answer.best_contact_fraction / answer.total_contact_fraction)
+    )
+
+
+def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
+    """Of one line: a variation weighs lines by their length, an answer does not."""
+    conditions = Conditions(temperature=293.15, shear_stress=TRUE)
+    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05}
+    case = gs.Case(
+        LINES[:1], SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3, conditions=conditions, **load
+    )
+    answer = gs.answer(case)
+    sum_of_both = f"μ = {significant(answer.total_friction)} with it"
+    assert sum_of_both in " ".join(answer.lines)
+
+    varied = gs.vary(case, speed=[0.1, 0.3])
+    columns = {column.name: column.values for column in varied.table().columns}
+    assert columns["friction_with_area_term"][0] == pytest.approx(answer.total_friction)
+    assert columns["area_term"][0] == pytest.approx(answer.adhesive_friction)
+    least = significant(columns["area_term"].min())
+    assert f"an area term of {least} to" in " ".join(varied.lines)
+
+    measured = MeasuredFriction([0.1], [0.5], temperature=[293.15])
+    compared = gs.compare(case, rungs=["direct"], measured=measured)
+    assert sum_of_both in " ".join(compared.lines)
+    assert compared.ladder is not None
+    residuals = comparison.at_measured(compared.ladder, tmp_path)
+    assert residuals is not None
+    total = float(residuals.friction.sel(model="answer", measurement=0))
+    assert total == pytest.approx(answer.total_friction)
+
+
+def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> None:
+    write_road(tmp_path / "road.txt", LINES[0])
+    frequency = np.geomspace(1e-1, 1e5, 30)
+    modulus = SHIFTED_RUBBER.complex_modulus(2.0 * np.pi * frequency)
+    write_master_curve(tmp_path / "dma.txt", frequency, modulus)
+    case = tmp_path / "case.toml"
+    text = (
+        '[surface]\nfiles = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"\n'
+        '[rubber]\nfile = "dma.txt"\nreference_temperature = "20 C"\n'
+        '[load]\npressure = "3 bar"\nspeed = "0.1 m/s"\nfootprint = "50 mm"\n'
+    )
+    rows = []
+    for speed in (0.03, 0.1, 0.3):
+        case.write_text(f"{text}{LAW}".replace("0.1 m/s", f"{speed} m/s"), encoding="utf-8")
+        rows.append(f"{speed},{gs.answer(gs.read_case(case)).total_friction:.3f}\n")
+    (tmp_path / "mu.csv").write_text(f"speed [m/s],friction\n{''.join(rows)}", encoding="utf-8")
+    measured = f'{text}[measured]\nfriction = "mu.csv"\n'
+    case.write_text(measured, encoding="utf-8")
+    run = shell("calibrate", case, "--law", "constant", "--output", tmp_path / "fit")
+    assert run.exit_code == 0, run.output
+    fit = netcdf.load_dataset(tmp_path / "fit" / "calibration.nc")
+    law = (tmp_path / "fit" / "shear_stress.toml").read_text(encoding="utf-8")
+    case.write_text(f"{measured}{law}", encoding="utf-8")
+    run = shell("run", case, "--output", tmp_path / "run", columns=500)
+    assert run.exit_code == 0, run.output
+    answer = netcdf.load_dataset(tmp_path / "run" / "answer.nc")
+    total = float(answer.best_friction + answer.best_adhesive_friction)
+    assert total == pytest.approx(float(fit.friction[1]), rel=1e-5)  # six digits in the file
+    # the table has three digits
+    assert total == pytest.approx(float(fit.measured_friction[1]), abs=1e-3)
+    assert f"μ = {significant(total)} with it" in run.stdout
+
+
+def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
+    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05}
+    line = self_affine_profile(0.8, 3e-3, 8e-4, length=0.15, step=2e-4, seed=1)
+    continued = BelowMeasurement(down_to=4e-4)
+
+    def answered(law: InterfacialShearStress) -> gs.Answer:
+        return gs.answer(
+            gs.Case(
+                line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3,
+                below_measurement=continued, conditions=Conditions(shear_stress=law), **load,
+            )
+        )  # fmt: skip
+
+    truth = answered(ConstantStress(4e6))
+    measured = MeasuredFriction([0.1, 0.1], [truth.total_friction] * 2)
+    case = gs.Case(
+        line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3, below_measurement=continued, **load
+    )
+    result = gs.calibrate(case, measured, law="constant")
+    assert result.estimates[0].value == pytest.approx(4e6, rel=1e-6)
+    assert answered(result.law).total_friction == pytest.approx(truth.total_friction, rel=1e-9)
