@@ -27,7 +27,7 @@ def filtered(heights, factor):
 
 def faces(slope):
     """Heights of a roughness of 2 to 0.4 mm with an rms slope."""
-    band = (WAVENUMBER >= np.pi / 1e-3) & (WAVENUMBER <= np.pi / 0.2e-3)
+    band = (np.pi / 1e-3 <= WAVENUMBER) & (np.pi / 0.2e-3 >= WAVENUMBER)
     power = np.where(band, np.maximum(WAVENUMBER, 1.0) ** -1.3, 0.0)
     heights = filtered(np.random.default_rng(1).standard_normal(POSITION.size), power)
     return heights * (slope / filtered(heights, 1j * WAVENUMBER).std())

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-
 from gripscale.core.status import Status
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load

@@ -16,7 +16,7 @@ def test_one_period_is_what_the_direct_contact_sees():
     there = periodic_heights(LINE, smallest_wavelength=2e-3, periodic=False)
     here = periodic_heights(period, smallest_wavelength=None, periodic=True)
     assert here.grid.lengths == pytest.approx(there.grid.lengths, rel=1e-12)
-    # but for waves below half the cut-off, which the points of the period do not carry: 1/16 of them
+    # but for waves below half the cut-off, of which 1/16 is left: the period has no points for them
     np.testing.assert_allclose(here.on((800,)), there.on((800,)), atol=1e-2 * np.ptp(LINE.z))
 
 
