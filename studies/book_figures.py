@@ -33,6 +33,7 @@ from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.sensitivity.charts import sensitivity_figure
+from gripscale.surface.low_pass import transmission
 from gripscale.theory import Persson
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.result import waves_to_dataset
@@ -194,6 +195,26 @@ def road(shipped: Shipped) -> Figure:
     return Sheet(panels, 1, height=5.0).on_paper()
 
 
+def cut_off(_: Shipped) -> Figure:
+    """A groove between flat faces behind a sharp cut of the spectrum and behind the Gaussian."""
+    step, cut = 5e-6, 0.4e-3
+    x = step * np.arange(2048)
+    z = np.where(np.abs(x - x.mean()) < 0.5e-3, -0.5e-3, 0.0)
+    waves = 2.0 * np.pi * np.fft.rfftfreq(x.size, step)
+    share = {
+        "as measured": np.ones(waves.size),
+        "sharp cut": np.where(waves <= 2.0 * np.pi / cut, 1.0, 0.0),
+        "Gaussian": transmission(waves, cut),
+    }
+    marks: list[Mark] = []
+    for (label, passed), colour in zip(share.items(), (GREY, ORANGE, BLUE), strict=True):
+        kept = np.fft.irfft(np.fft.rfft(z) * passed, x.size)
+        marks.append(Series((x - x.mean()) / MILLI, kept / MILLI, colour, label))
+    distance = PlotAxis("distance $x$ [mm]", low=-2.0, high=2.0)
+    panel = Panel(distance, PlotAxis("height $z$ [mm]"), marks, legend="lower right")
+    return Sheet([panel], 1, height=2.8).on_paper()
+
+
 def draped(shipped: Shipped) -> Figure:
     """Draw the rubber of the direct contact on the road, from afar and close up."""
     _, trace = named_traces(shipped.direct)[0]
@@ -320,7 +341,19 @@ def errors(shipped: Shipped) -> Figure:
     return Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys).on_paper()
 
 
-PICTURES = (block, wave, stack, road, draped, sensitivity, speeds, conditions, models, errors)
+PICTURES = (
+    block,
+    wave,
+    stack,
+    road,
+    cut_off,
+    draped,
+    sensitivity,
+    speeds,
+    conditions,
+    models,
+    errors,
+)
 
 
 def pictures() -> Iterator[tuple[str, Figure]]:
