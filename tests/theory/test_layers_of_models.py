@@ -114,3 +114,17 @@ def test_thickness_varies_as_rubber_wears_down() -> None:
     assert study.thickness.values.tolist() == [8e-3, 2e-3]
     area = study.total_contact_fraction.values
     assert area[0] > 1.1 * area[1]
+
+
+def test_a_study_of_another_input_states_the_thickness() -> None:
+    study = gs.vary(case("4 mm"), speed=[0.1, 0.3])
+    assert "rubber 4 mm thick on a rigid base" in str(study)
+
+
+def test_chain_takes_the_thickness_as_an_argument() -> None:
+    sines = gs.SineStack([LENGTH], [AMPLITUDE])
+    load = {"pressure": PRESSURE, "speed": 0.3, "footprint": 0.1}
+    chain = gs.solve_chain(RUBBER, sines, thickness=2e-3, **load)
+    assert chain.scales[0].details["depth"] == 0.2
+    assert chain.load.thickness == 2e-3
+    assert float(chain.to_dataset().thickness) == 2e-3

@@ -42,7 +42,15 @@ ROAD_FIELDS = (
     "z_unit",
     "z_axis",
 )
-RUBBER_FIELDS = ("name", "reference_temperature", "bulk_modulus", "terms", "extrapolate", "source")
+RUBBER_FIELDS = (
+    "name",
+    "reference_temperature",
+    "bulk_modulus",
+    "thickness",
+    "terms",
+    "extrapolate",
+    "source",
+)
 LOAD_TABLES = {
     "load": ("Load", ("pressure", "speed", "footprint", "static", "load_time")),
     "conditions": ("Conditions", ("temperature", "strain_norm")),

@@ -78,6 +78,7 @@ def solve_chain(
     max_scales: int | None = None,
     pressure_classes: int = 1,
     load_time: LoadTime = "passage",
+    thickness: float | None = None,
     on_scale: Callable[[ChainResult], None] | None = None,
     start: ChainResult | None = None,
     rubber_at: RubberAt | None = None,
@@ -99,6 +100,8 @@ def solve_chain(
         Sliding speed [m/s]; zero is static contact of the relaxed rubber.
     footprint
         Length of the nominal contact [m]; over `speed` the load time of wave 1.
+    thickness
+        Thickness of the rubber on a rigid base [m], which no block exceeds; None: no limit.
     solver
         "finite_strain", "half_plane", the function that is its face (`solve_scale`,
         `theory.solve_half_plane`), or any `WaveSolver`.
@@ -157,7 +160,7 @@ def solve_chain(
     return chain.solve(
         rubber,
         sines,
-        Load(pressure, speed, footprint, load_time),
+        Load(pressure, speed, footprint, load_time, thickness),
         smallest_wavelength=smallest_wavelength,
         max_scales=max_scales,
         on_scale=on_scale,

@@ -163,10 +163,10 @@ def _layer_stiffness(depth: Array, shear: ComplexArray, compression: ComplexArra
     traction = np.empty_like(displacement)
     stiff = 1.0 + 2.0 * compression  # 3 - 4 nu
     decay = np.exp(-depth)
-    zero, one = np.zeros_like(depth), np.ones_like(depth)
+    zero, full = np.zeros_like(depth), np.ones_like(depth)
     for column, sign in ((0, 1.0), (2, -1.0)):
         # growing solutions are one at the upper face, decaying ones at the lower face
-        faces = ((-depth, decay), (zero, one)) if sign > 0.0 else ((zero, one), (depth, decay))
+        faces = ((-depth, decay), (zero, full)) if sign > 0.0 else ((zero, full), (depth, decay))
         for row, (height, size) in zip((0, 2), faces, strict=True):
             outward = -1.0 if row == 0 else 1.0
             constant, linear = column, column + 1

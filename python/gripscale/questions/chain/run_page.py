@@ -148,6 +148,11 @@ def _load_facts(run: RunSource) -> Facts:
             ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
             ("Sliding speed", speeds),
             ("Footprint", text("footprint", float(data["footprint"]))),
+            *(
+                [("Thickness of the rubber", text("thickness", float(data["thickness"])))]
+                if "thickness" in data
+                else []
+            ),
             ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
             ("Model", model.replace("_", " ")),
             ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),

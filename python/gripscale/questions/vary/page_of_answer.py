@@ -155,6 +155,9 @@ def _held(data: xr.Dataset) -> Iterator[str]:
             yield display_unit_of(data.attrs, name).text(value)
     if "cutoff_wavelength" in data:
         yield f"roughness down to {1e3 * float(data.cutoff_wavelength):.3g} mm"
+    if "thickness" in data.attrs and "thickness" not in data.dims:
+        thickness = display_unit_of(data.attrs, "thickness").text(data.attrs["thickness"])
+        yield f"rubber {thickness} thick on a rigid base"
 
 
 def _factors(data: xr.Dataset) -> Iterator[str]:

@@ -411,6 +411,7 @@ class Study:
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,
             "footprint": load.footprint,
+            **({} if load.thickness is None else {"thickness": load.thickness}),
             "conditions": json.dumps(None if conditions is None else conditions.to_dict()),
             "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
