@@ -176,7 +176,7 @@ TRAPS: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "heights in another unit, too large": (
         {"road": road_text(1e3 * ROUGH.z)},
-        "of the heights are spikes",
+        "of the heights stand at steps",
     ),
     "distances in another unit, too small": (
         {"road": road_text(titles="x [um]\tz [mm]")},

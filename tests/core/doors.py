@@ -230,7 +230,7 @@ def _surface() -> Iterator[Door]:
     yield Door(SLOPES.power_law, {"of": "surface"})
     yield Door(surface.RmsSlope, {"rms_slope": 1.3, "of": "surface", "extrapolate": False})
     yield Door(surface.find_cut_off, {"surface": LONG, "rule": 1e-3})
-    yield Door(surface.profile_warnings, {"profile": LINE, "cleaned": None, "steep": True})
+    yield Door(surface.profile_warnings, {"profile": LINE, "cleaned": None})
     places = {"x": PLACE, "z": HEIGHT, "step": 5e-4, "bridge": None, "name": "", "source": ""}
     yield Door(surface.resample, places)
     road = {"hurst": 0.8, "xi_parallel": 1e-2, "xi_perpendicular": 1e-3}

@@ -7,7 +7,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.half_space import one_period
-from gripscale.surface.low_pass import envelope
+from gripscale.surface.low_pass import upper_envelope
 
 STEP = 2e-5
 POSITION = STEP * np.arange(2000)
@@ -40,7 +40,7 @@ def test_a_map_of_cones_is_its_own_envelope():
     """A point above a plane becomes a cone, over the periods too; what is gentle stays as it is."""
     z = np.zeros((40, 50))
     z[3, 45] = 1e-3
-    raised = envelope(z, (2e-5, 3e-5), 2.0)
+    raised = upper_envelope(z, (2e-5, 3e-5), 2.0)
     along, across = np.meshgrid(np.arange(40), np.arange(50), indexing="ij")
     x = 2e-5 * np.minimum((along - 3) % 40, (3 - along) % 40)
     y = 3e-5 * np.minimum((across - 45) % 50, (45 - across) % 50)
@@ -48,9 +48,11 @@ def test_a_map_of_cones_is_its_own_envelope():
     # distances along the grid and its diagonals are up to 13 % longer where steps are as 2 to 3
     assert (raised <= straight + 1e-15).all()
     assert (raised >= np.maximum(1e-3 - 2.0 * 1.135 * np.hypot(x, y), 0.0) - 1e-15).all()
-    np.testing.assert_allclose(envelope(raised, (2e-5, 3e-5), 2.0), raised, rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(
+        upper_envelope(raised, (2e-5, 3e-5), 2.0), raised, rtol=0.0, atol=1e-15
+    )
     gentle = 1e-5 * np.sin(2.0 * np.pi * along / 40)
-    assert (envelope(gentle, (2e-5, 3e-5), 2.0) == gentle).all()
+    assert (upper_envelope(gentle, (2e-5, 3e-5), 2.0) == gentle).all()
 
 
 def test_gentle_lines_are_kept():

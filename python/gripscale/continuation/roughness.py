@@ -31,7 +31,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.half_space.grid import periodic_heights
+from gripscale.half_space.grid import periodic_heights, resampled
 from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.surface import HeightMap, Profile
 
@@ -61,12 +61,14 @@ class PeriodicLine:
 
     @classmethod
     def of(cls, line: Profile, shortest: float, finest: float = math.inf) -> PeriodicLine:
-        """Return the waves of a line down to `shortest`, with points for waves to `finest` [m]."""
+        """Return the waves of a line down to `shortest` in full, with points for `finest` [m]."""
         heights = periodic_heights(line, smallest_wavelength=shortest, periodic=False)
         length = heights.grid.lengths[0]
         waves = length / min(shortest, finest)
         points = 2 * scipy.fft.next_fast_len(math.ceil(0.5 * POINTS_IN_WAVE * waves))
-        return cls(length, points, np.asarray(scipy.fft.rfft(heights.on((points,)))))
+        kept = heights.grid.wavenumber <= 2.0 * np.pi / shortest * (1.0 + _ROUNDING)
+        z = resampled(np.where(kept, heights.spectrum, 0.0), heights.grid.shape, (points,))
+        return cls(length, points, np.asarray(scipy.fft.rfft(z)))
 
     @property
     def wavenumber(self) -> Array:

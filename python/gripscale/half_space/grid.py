@@ -24,7 +24,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap, Profile
-from gripscale.surface.low_pass import STEEPEST, envelope, transmission
+from gripscale.surface.low_pass import STEEPEST, transmission, upper_envelope
 from gripscale.surface.resampling import fill_gaps
 
 Single = NDArray[np.float32]
@@ -208,7 +208,7 @@ def periodic_heights(
     z = fill_gaps(surface.z, tuple(steps), periodic=periodic)
     if not periodic:
         z = joined(z)
-    z = envelope(z, tuple(steps), slope)
+    z = upper_envelope(z, tuple(steps), slope)
     step, length = max(steps), min(grid.lengths)
     if FEWEST_STEPS * step > length:
         raise InputError(

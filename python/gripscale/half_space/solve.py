@@ -108,7 +108,7 @@ def solve_rough_contact(
         Take the surface as one period. Otherwise its ends are joined by subtracting the smooth part
         that carries the jump between them; for a line, the straight line through its ends.
     steepest : float
-        Largest slope that rubber follows [-]: steeper flanks are filled by the `envelope` before
+        Largest slope that rubber follows [-]: steeper flanks are filled by the `upper_envelope` before
         the cut-off. Infinity keeps all.
     thickness : float, optional
         Thickness [m] of the rubber, bonded to a rigid base; None: a half-space. `Layers` state

@@ -133,7 +133,7 @@ def clean(
             steps.append(partial(mark_steep_steps, slope=spike_slope, across_gaps=across_gaps))
         else:
             steps.append(partial(mark_spikes, slope=spike_slope))
-    if across_gaps and spikes != "iso13473":
+    if checks.flag("across_gaps", across_gaps) and spikes != "iso13473":
         raise InputError(f'across_gaps belongs to spikes = "iso13473"; got {spikes!r}')
     steps.append(partial(subtract_trend, kind=detrend))
     return _in_turn(steps, profile)
@@ -181,18 +181,18 @@ def _isolated(z: Array, rise: float) -> Mask:
     after = np.minimum.accumulate(after[..., ::-1], axis=-1)[..., ::-1]
     spikes = np.zeros(padded.shape, dtype=bool)
     for width in range(1, min(_LONGEST_SPIKE, points) + 1):
-        left, right = before[..., : points + 1 - width], after[..., width + 1 :]
+        start, end = before[..., : points + 1 - width], after[..., width + 1 :]
         runs = [padded[..., 1 + k : points + 2 - width + k] for k in range(width)]
         lowest, highest = np.minimum.reduce(runs), np.maximum.reduce(runs)
         first = index[..., 1 : points + 2 - width]
         off = [np.ones(first.shape, dtype=bool), np.ones(first.shape, dtype=bool)]
-        for beside, distance in ((left, first - left), (right, right - first - (width - 1))):
-            level = np.take_along_axis(padded, beside, axis=-1)
+        for at, distance in ((start, first - start), (end, end - first - (width - 1))):
+            level = np.take_along_axis(padded, at, axis=-1)
             alone = np.isnan(level)  # at an end of the line one side decides
             with np.errstate(invalid="ignore"):
                 off[0] &= alone | (lowest - level >= rise * distance)
                 off[1] &= alone | (level - highest >= rise * distance)
-        bounded = (left > 0) | (right < points + 1)
+        bounded = (start > 0) | (end < points + 1)
         spike = (off[0] | off[1]) & bounded & np.isfinite(lowest)
         for k in range(width):
             spikes[..., 1 + k : points + 2 - width + k] |= spike

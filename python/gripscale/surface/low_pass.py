@@ -45,7 +45,7 @@ POINTS_IN_CUT_OFF = 4
 
 _ROUNDING = 1e-12
 
-Heights = TypeVar("Heights", Profile, HeightMap)
+_Heights = TypeVar("_Heights", Profile, HeightMap)
 
 
 def transmission(wavenumber: Array, cut_off: float | Array) -> Array:
@@ -54,7 +54,7 @@ def transmission(wavenumber: Array, cut_off: float | Array) -> Array:
     return np.asarray(np.exp(-math.log(2.0) * waves**2))
 
 
-def envelope(
+def upper_envelope(
     z: Array, steps: tuple[float, ...], steepest: float = STEEPEST, *, periodic: bool = True
 ) -> Array:
     """Return the smallest heights [m] above `z` without slopes above `steepest`.
@@ -98,10 +98,10 @@ def envelope(
     return np.where(inside - z > _ROUNDING * np.ptp(z), inside, z)
 
 
-def followed(surface: Heights) -> Heights:
+def followed(surface: _Heights) -> _Heights:
     """Return a profile or map without the flanks that rubber cannot follow; gaps stay."""
     steps = surface.step if isinstance(surface, HeightMap) else (surface.step,)
-    whole = envelope(fill_gaps(surface.z, steps), steps, periodic=False)
+    whole = upper_envelope(fill_gaps(surface.z, steps), steps, periodic=False)
     return replace(surface, z=np.where(np.isnan(surface.z), np.nan, whole))
 
 
@@ -111,7 +111,7 @@ def one_period(
     """Return a periodic line, for any model with `periodic=True`.
 
     Missing heights are filled, the line through the end points subtracted, and flanks above a slope
-    of `steepest` [-] replaced by their `envelope`; infinity keeps all. A `smallest_wavelength` [m]
+    of `steepest` [-] replaced by their `upper_envelope`; infinity keeps all. A `smallest_wavelength` [m]
     then cuts the line off with `low_pass`; without one it keeps its steps and all its waves.
 
     Raises `InputError` if `steepest` is not above zero, or `smallest_wavelength` is not from two
@@ -121,7 +121,7 @@ def one_period(
     slope = checks.positive("steepest", steepest, infinite=True)
     z = fill_gaps(line.z)
     z = z - np.linspace(0.0, z[-1] - z[0], z.size, endpoint=False)
-    z = envelope(z, (line.step,), slope)
+    z = upper_envelope(z, (line.step,), slope)
     whole = Profile(line.x, z - z.mean(), line.name, line.source)
     if smallest_wavelength is None:
         return whole
