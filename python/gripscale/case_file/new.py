@@ -55,6 +55,12 @@ _COMMENT: dict[str, Any] = {
 }
 
 
+_WITHOUT_END = (
+    "the rubber is taken to have no end; --thickness states where it ends on a rigid base: 8 mm of "
+    "a new tread, 2 mm of a worn one, 5 mm of a sole"
+)
+
+
 @dataclass(frozen=True)
 class NewCase:
     """A case that was written, and what is doubtful about it."""
@@ -97,6 +103,7 @@ def propose(
     step: str | list[str] | None = None,
     shift: Mapping[str, Any] | None = None,
     layout: Mapping[str, Any] | None = None,
+    thickness: str | None = None,
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
@@ -116,6 +123,8 @@ def propose(
         Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
     layout : mapping, optional
         What the file of the rubber does not state: keys of [rubber], such as columns.
+    thickness : str, optional
+        Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
 
     Raises
     ------
@@ -154,6 +163,10 @@ def propose(
             )
             for file in shifts
         ]
+    if thickness is None:
+        tables["rubber"].findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
+    else:
+        tables["rubber"].add("thickness", thickness)
     tables["conditions"] = conditions_proposal(tables["rubber"], rubbers, kelvin)
     return tables, skipped
 

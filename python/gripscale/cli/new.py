@@ -38,6 +38,9 @@ def new(
     footprint: Annotated[
         str | None, terminal.option('Length of the nominal contact; "100 mm" by default.')
     ] = None,
+    thickness: Annotated[
+        str | None, terminal.option('Of the rubber, such as "8 mm"; it has no end by default.')
+    ] = None,
     step: Annotated[
         str | None,
         terminal.option(
@@ -60,7 +63,7 @@ def new(
     """Write a commented case for measured files, and list what is doubtful about it."""
     from gripscale.case_file.new import new_case
 
-    options: dict[str, Any] = {}
+    options: dict[str, Any] = {"thickness": thickness}
     if step is not None:
         options["step"] = terminal.lengths_of(step)
     if wlf is not None:
