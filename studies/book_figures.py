@@ -196,7 +196,7 @@ def road(shipped: Shipped) -> Figure:
 
 
 def cut_off(_: Shipped) -> Figure:
-    """A groove between flat faces behind a sharp cut of the spectrum and behind the Gaussian."""
+    """Draw a groove between flat faces behind a sharp cut of the spectrum and the Gaussian."""
     step, cut = 5e-6, 0.4e-3
     x = step * np.arange(2048)
     z = np.where(np.abs(x - x.mean()) < 0.5e-3, -0.5e-3, 0.0)

@@ -286,5 +286,5 @@ def _rough() -> Iterator[Door]:
         {"rubber": SOLID, "surface": LINE, "length": 1e-2, **PRESSED},
         slow=True,
     )
-    spread = {"length": 1e-2, "most": 2, "smallest_wavelength": 2e-3}
+    spread = {"length": 1e-2, "most": 2}
     yield Door(rough.spread_windows, {"profiles": [LINE], **spread})

@@ -34,6 +34,7 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.grid import periodic_heights, resampled
 from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.surface import HeightMap, Profile
+from gripscale.surface.low_pass import STEEPEST
 
 QUANTILE = 0.68
 """Share of the points in contact whose slope is below that of an octave."""
@@ -60,9 +61,17 @@ class PeriodicLine:
     """`scipy.fft.rfft` of the heights [m], shape (points // 2 + 1,)."""
 
     @classmethod
-    def of(cls, line: Profile, shortest: float, finest: float = math.inf) -> PeriodicLine:
+    def of(
+        cls,
+        line: Profile,
+        shortest: float,
+        finest: float = math.inf,
+        steepest: float = STEEPEST,
+    ) -> PeriodicLine:
         """Return the waves of a line down to `shortest` in full, with points for `finest` [m]."""
-        heights = periodic_heights(line, smallest_wavelength=shortest, periodic=False)
+        heights = periodic_heights(
+            line, smallest_wavelength=shortest, periodic=False, steepest=steepest
+        )
         length = heights.grid.lengths[0]
         waves = length / min(shortest, finest)
         points = 2 * scipy.fft.next_fast_len(math.ceil(0.5 * POINTS_IN_WAVE * waves))
@@ -203,7 +212,8 @@ class FinerMeasurement(Checked):
 
     def slope(self, longest: float, shortest: float) -> float:
         """Return the slope [-] of the waves between two wavelengths [m]."""
-        periodic = [PeriodicLine.of(line, shortest) for line in self.lines]
+        # as measured: heights in a wrong unit must show
+        periodic = [PeriodicLine.of(line, shortest, steepest=math.inf) for line in self.lines]
         return typical_slope(np.concatenate([line.slope(longest, shortest) for line in periodic]))
 
 

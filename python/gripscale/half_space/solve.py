@@ -108,8 +108,8 @@ def solve_rough_contact(
         Take the surface as one period. Otherwise its ends are joined by subtracting the smooth part
         that carries the jump between them; for a line, the straight line through its ends.
     steepest : float
-        Largest slope that rubber follows [-]: steeper flanks are filled by the `upper_envelope` before
-        the cut-off. Infinity keeps all.
+        Largest slope that rubber follows [-]: the `upper_envelope` fills steeper flanks before the
+        cut-off. Infinity keeps all.
     thickness : float, optional
         Thickness [m] of the rubber, bonded to a rigid base; None: a half-space. `Layers` state
         their own.

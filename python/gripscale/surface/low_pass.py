@@ -111,8 +111,8 @@ def one_period(
     """Return a periodic line, for any model with `periodic=True`.
 
     Missing heights are filled, the line through the end points subtracted, and flanks above a slope
-    of `steepest` [-] replaced by their `upper_envelope`; infinity keeps all. A `smallest_wavelength` [m]
-    then cuts the line off with `low_pass`; without one it keeps its steps and all its waves.
+    of `steepest` [-] replaced by their `upper_envelope`; infinity keeps all. `low_pass` then cuts
+    the line off at `smallest_wavelength` [m]; without one it keeps its steps and all its waves.
 
     Raises `InputError` if `steepest` is not above zero, or `smallest_wavelength` is not from two
     steps of the line to its length.
