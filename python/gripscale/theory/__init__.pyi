@@ -13,7 +13,6 @@ from .half_plane import solve_half_plane as solve_half_plane
 from .klueppel_heinrich import KlueppelHeinrich as KlueppelHeinrich
 from .klueppel_heinrich import KlueppelHeinrichResult as KlueppelHeinrichResult
 from .klueppel_heinrich import klueppel_heinrich as klueppel_heinrich
-from .layers import Layers as Layers
 from .persson import Persson as Persson
 from .persson import PerssonResult as PerssonResult
 from .persson import persson as persson
