@@ -112,7 +112,6 @@ MISTAKES: list[tuple[Callable[[Place], list[str]], str]] = [
     (lambda at: at.retitled("dma.txt", DMA, "# f (Hz) E' (GPa) E'' (GPa)"), "is the unit of the m"),
     (lambda at: at.retitled("road.txt", ROAD, "x\tz"), "column 1 names no unit of length; write i"),
     (lambda at: at.retitled("road.txt", ROAD, "x [m]\tz [m]"), "leaves 3 of a profile from 0 mm"),
-    (lambda at: at.retitled("road.txt", ROAD, "x [mm]\tz [m]"), "the unit of heights or of distan"),
     (lambda at: at.put("dma.txt", SEMICOLONS + "1,5;2,0;0,2\n2.5;3,0;0,3\n"),
      "line 3: expected one decimal sign throughout; got '2.5' after '1,5' in line 2"),
     (lambda at: at.put("dma.txt", SEMICOLONS + "1;2;0,2\n3;4\n"), "line 3: expected 3 columns as"),

@@ -33,7 +33,8 @@ def test_a_level_map_is_its_lines():
     level = HeightMap(x, x, np.full((x.size, x.size), 3e-3))
     found = solve_map_and_lines(ZENER, level, lines=2, pressure=3e5, speed=0.3)
     for one in (found.whole, found.lines):
-        assert one == {AREA: 1.0, FRICTION: 0.0, "friction": 0.0}
+        # waves of rounding errors, whose friction is their square
+        assert one == pytest.approx({AREA: 1.0, FRICTION: 0.0, "friction": 0.0}, abs=1e-20)
     assert found.between_directions[AREA] == 1.0
     assert np.isnan(found.between_directions[FRICTION])
 

@@ -77,7 +77,8 @@ def test_another_cut_off(results, tangent):
     # the exponent is that of the last octave, of a road of a few waves
     assert tangent.change(changed) == pytest.approx(expected, rel=0.5)
     assert tangent.change(changed) < 0.0
-    assert tangent.area_change(changed) == pytest.approx(area, abs=0.02)
+    # one point of a contact of 43
+    assert tangent.area_change(changed) == pytest.approx(area, abs=0.025)
     assert tangent.area_change(changed) > 0.0
 
 
@@ -90,8 +91,8 @@ def test_another_temperature_and_pressure(folder):
         expected = shifted.solved_change(inputs)
         derived = [shifted.change(inputs), shifted.area_change(inputs)]
         assert np.abs(expected).max() > 0.02
-        # the second order, and single points of a contact of 82
-        assert derived == pytest.approx(expected, abs=0.015), change
+        # the second order, and one point of a contact of 43
+        assert derived == pytest.approx(expected, abs=0.025), change
 
 
 def test_noise_of_the_heights_is_one_way(results, tangent):
