@@ -152,10 +152,9 @@ class DirectContact(Checked, model.Model):
     """Direct contact of every cleaned profile, averaged by length; or of a map.
 
     At small strain the mean deformation has no effect, and so the load time has none. The footprint
-    is the length over which the rubber is heated. Shorter waves than `smallest_wavelength` [m] are
-    left out: by default than the cut-off of the surface's sine waves or, without one, the last of
-    them, so that chain and direct contact have the same roughness. The other fields are arguments
-    of `solve_rough_contact`.
+    is the length over which the rubber is heated. `smallest_wavelength` is the cut-off [m]: by
+    default that of the surface's sine waves or, without one, the last of them; a `periodic` surface
+    keeps all its waves then. The other fields are arguments of `solve_rough_contact`.
     """
 
     name: ClassVar[str] = "direct"
@@ -185,7 +184,9 @@ class DirectContact(Checked, model.Model):
         contacts = []
         measurement = _measurement(surface, "the direct contact needs a measured profile")
         for measured in measurement.surfaces:
-            smallest = self.smallest_wavelength or smallest_wavelength(surface, measured)
+            smallest = self.smallest_wavelength
+            if smallest is None and not self.periodic:
+                smallest = smallest_wavelength(surface, measured)
             contact = solve_rough_contact(
                 rubber,
                 measured,

@@ -24,6 +24,7 @@ from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
 from gripscale.surface.low_pass import one_period as one_period
+from gripscale.surface.low_pass import upper_envelope
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import fill_gaps
 
@@ -203,7 +204,7 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
 def random_phases(surface: _Measurement, seed: int) -> _Measurement:
     """Return a periodic surface with the spectrum of `surface` and random phases.
 
-    Missing heights are filled and ends joined as `solve_rough_contact` does. The height difference
+    Missing heights are filled, ends joined and steep flanks filled as `solve_rough_contact` does. The height difference
     correlation of the filled surface is kept; positions of the roughness and the distribution of
     heights are not. Steep lines that bridge gaps are part of the spectrum: where steep flanks are
     missing, the surface is rougher than the pairs of measured heights.
@@ -212,8 +213,8 @@ def random_phases(surface: _Measurement, seed: int) -> _Measurement:
     """
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     surface_axes(surface)
-    steps = surface.step if isinstance(surface, HeightMap) else ()
-    z = joined(fill_gaps(surface.z, steps))
+    steps = surface.step if isinstance(surface, HeightMap) else (surface.step,)
+    z = upper_envelope(joined(fill_gaps(surface.z, steps)), steps)
     spectrum = scipy.fft.rfftn(random.standard_normal(z.shape))  # phases of a real surface
     size = np.abs(spectrum)
     spectrum *= np.abs(scipy.fft.rfftn(z)) / np.where(size > 0.0, size, 1.0)

@@ -220,7 +220,8 @@ def _of_sines(sines: SineStack, seed: int) -> Profile:
 )
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
-    return [SampleSpec(setup.direct, with_single_measurement(setup.surface, x)) for x in lines]
+    in_full = replace(setup.direct, periodic=True, smallest_wavelength=None)
+    return [SampleSpec(in_full, with_single_measurement(setup.surface, x)) for x in lines]
 
 
 _shuffled = lru_cache(maxsize=64)(random_phases)
