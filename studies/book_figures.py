@@ -200,7 +200,7 @@ def cut_off(_: Shipped) -> Figure:
     step, cut = 5e-6, 0.4e-3
     x = step * np.arange(2048)
     z = np.where(np.abs(x - x.mean()) < 0.5e-3, -0.5e-3, 0.0)
-    waves = 2.0 * np.pi * np.fft.rfftfreq(x.size, step)
+    waves = 2.0 * np.pi * np.asarray(np.fft.rfftfreq(x.size, step), dtype=float)
     share = {
         "as measured": np.ones(waves.size),
         "sharp cut": np.where(waves <= 2.0 * np.pi / cut, 1.0, 0.0),

@@ -204,10 +204,10 @@ def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
 def random_phases(surface: _Measurement, seed: int) -> _Measurement:
     """Return a periodic surface with the spectrum of `surface` and random phases.
 
-    Missing heights are filled, ends joined and steep flanks filled as `solve_rough_contact` does. The height difference
-    correlation of the filled surface is kept; positions of the roughness and the distribution of
-    heights are not. Steep lines that bridge gaps are part of the spectrum: where steep flanks are
-    missing, the surface is rougher than the pairs of measured heights.
+    Missing heights are filled, ends joined and steep flanks filled as `solve_rough_contact` does.
+    The height difference correlation of the filled surface is kept; positions of the roughness and
+    the distribution of heights are not. Lines that bridge gaps are part of the spectrum: where
+    flanks are missing, the surface is rougher than the pairs of measured heights.
 
     Raises `InputError` if `seed` is not a whole number that is not negative.
     """

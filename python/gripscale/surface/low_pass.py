@@ -149,7 +149,7 @@ def low_pass(line: Profile, cut_off: float) -> Profile:
         )
     points = max(FEWEST_POINTS, POINTS_IN_CUT_OFF * waves)
     spectrum = np.fft.rfft(line.z)[: (points + 1) // 2]
-    number = 2.0 * np.pi / period * np.arange(spectrum.size)
+    number = 2.0 * np.pi / period * np.arange(spectrum.size, dtype=float)
     z = np.fft.irfft(spectrum * transmission(number, cut), points) * (points / len(line))
     x = line.x[0] + np.linspace(0.0, period, points, endpoint=False)
     return Profile(x, z, line.name, source=line.source)
