@@ -220,7 +220,7 @@ def estimate(profiles: Sequence[Profile]) -> dict[str, Estimate]:
     """Return area and friction of the surface that lines lie on, as `gripscale compare` does."""
     waves = SineStack([LARGEST], [1e-3])
     load = Load(LOAD["pressure"], LOAD["speed"], 0.1)
-    model = DirectContact(tolerance=TOLERANCE, periodic=True)
+    model = DirectContact(SMALLEST, TOLERANCE, periodic=True)
     samples = []
     for number, profile in enumerate(profiles):
         measured = Surface(waves, "", measured=Measured.of([profile]), end=SMALLEST)
