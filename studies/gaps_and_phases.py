@@ -21,6 +21,7 @@ from scipy.optimize import least_squares
 
 import gripscale as gs
 from gripscale.half_space import one_period, random_phases
+from gripscale.surface.low_pass import followed
 from gripscale.surface.resampling import fill_gaps
 from gripscale.surface.sine_fit import first_consistent_lag
 from studies.shipped import road, tread
@@ -73,9 +74,9 @@ def main() -> None:
 
 
 def _rows(rubber: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> None:
-    first = first_consistent_lag(gs.height_difference(line))
+    first = first_consistent_lag(gs.height_difference(followed(line)))
     whole = gs.Profile(line.x, fill_gaps(line.z), name=line.name)
-    of_filled, of_pairs = (smooth_spectrum(one, first) for one in (whole, line))
+    of_filled, of_pairs = (smooth_spectrum(followed(one), first) for one in (whole, line))
     ways = {
         AS_MEASURED: [line],
         "random phases": [random_phases(line, seed) for seed in range(SEEDS)],
@@ -98,10 +99,7 @@ def _rows(rubber: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> Non
         area = np.mean([one.contact_fraction for one in found])
         friction = np.mean([one.friction for one in found])
         slope = np.mean(
-            [
-                _slope(one_period(one, steepest=np.inf) if way == AS_MEASURED else one, cut_off)
-                for one in lines
-            ]
+            [_slope(one_period(one) if way == AS_MEASURED else one, cut_off) for one in lines]
         )
         held = np.mean([one.missing_share for one in found])
         print(
