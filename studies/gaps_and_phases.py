@@ -21,7 +21,6 @@ from scipy.optimize import least_squares
 
 import gripscale as gs
 from gripscale.half_space import one_period, random_phases
-from gripscale.surface.low_pass import followed
 from gripscale.surface.resampling import fill_gaps
 from gripscale.surface.sine_fit import first_consistent_lag
 from studies.shipped import road, tread
@@ -74,9 +73,9 @@ def main() -> None:
 
 
 def _rows(rubber: gs.Rubber, line: gs.Profile, name: str, cut_off: float) -> None:
-    first = first_consistent_lag(gs.height_difference(followed(line)))
+    first = first_consistent_lag(gs.height_difference(line))
     whole = gs.Profile(line.x, fill_gaps(line.z), name=line.name)
-    of_filled, of_pairs = (smooth_spectrum(followed(one), first) for one in (whole, line))
+    of_filled, of_pairs = (smooth_spectrum(one, first) for one in (whole, line))
     ways = {
         AS_MEASURED: [line],
         "random phases": [random_phases(line, seed) for seed in range(SEEDS)],
