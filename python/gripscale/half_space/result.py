@@ -12,7 +12,7 @@ The effect of the cut-off follows from the grids of the solution. A grid has fou
 shortest wave on it, and the next one twice as many with waves half as long: two solutions whose
 cut-offs are an octave apart, with the same resolution. The friction by octave of the last contact
 does not replace them: without its smallest waves the larger ones have more contact and lose more,
-so that without an octave friction changes by half of what is lost in it (docs/cut-off.md).
+so that without an octave friction changes by less than is lost in it (docs/cut-off.md).
 """
 
 from __future__ import annotations
