@@ -16,6 +16,7 @@ from gripscale.case_file.new import NewCase, new_case
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import BY_A_FACTOR, OF_ANOTHER_CASE, TENS_OF_PERCENT
 from gripscale.core.errors import FileError, InputError
+from gripscale.core.finding import Severity
 from gripscale.rubber import WLF
 from tests.samples import Shell
 
@@ -364,12 +365,14 @@ def test_a_title_that_says_depth_is_a_doubt_of_weight(tmp_path: Path) -> None:
     assert np.array_equal(after, -before)
 
 
-def test_a_wrong_unit_of_heights_is_named_first(tmp_path: Path) -> None:
+def test_a_wrong_unit_of_heights_is_doubted(tmp_path: Path) -> None:
     rows = (f"{1e3 * a:.7g},{1e6 * b:.7g}" for a, b in zip(ROUGH.x, ROUGH.z, strict=True))
     path = tmp_path / "road.csv"
     path.write_text("\n".join(["x [mm],z [mm]", *rows]))
-    with pytest.raises(InputError, match=r"csv: the unit of heights or of distances looks wrong"):
-        new_case([path, sweeps(tmp_path / "dma.csv")], tmp_path / "case.toml")
+    case = new_case([path, sweeps(tmp_path / "dma.csv")], tmp_path / "case.toml")
+    doubts = [str(each) for each in case.findings if each.severity is Severity.DOUBT]
+    assert any("100 % of the heights stand at steps steeper than 3" in doubt for doubt in doubts)
+    assert any("too high for a texture; is the unit of heights right?" in doubt for doubt in doubts)
 
 
 def test_a_folder_of_a_rubber_names_what_is_not_moduli(tmp_path: Path) -> None:

@@ -181,7 +181,6 @@ def test_a_measured_map_has_its_documented_roughness():
         ({"trim": 1.5}, "trim must be a share of the heights, from 0 to 1; got 1.5"),
         ({"trim": -0.5}, "trim must not be negative"),
         ({"spike_slope": 0.0}, "spike_slope must be greater than zero"),
-        ({"spike_slope": 1e-15}, "unit of heights or of distances looks wrong.*makes all of them"),
         ({"form": 9}, "form must be a whole number from 0 to 8; got 9"),
         ({"form": 1.5}, "form must be a whole number"),
         ({"form": "plane"}, "form must be a finite number"),
