@@ -96,9 +96,15 @@ class Measured:
     @cached_property
     def followed(self) -> list[Profile]:
         """The cleaned lines without the flanks that rubber cannot follow."""
-        if self.map is not None:
-            return followed(self.map).lines()
-        return [followed(line) for line in self.cleaned]
+        heights = self._followed_heights
+        return heights.lines() if isinstance(heights, HeightMap) else heights
+
+    @cached_property
+    def _followed_heights(self) -> list[Profile] | HeightMap:
+        heights = self.heights
+        if isinstance(heights, HeightMap):
+            return followed(heights)
+        return [followed(line) for line in heights]
 
     @property
     def surfaces(self) -> list[Profile] | list[HeightMap]:
@@ -108,7 +114,7 @@ class Measured:
     @cached_property
     def slopes(self) -> SlopeByWavelength:
         """Rms slope of the measurement down to each wavelength."""
-        return slope_by_wavelength(self.followed if self.map is None else followed(self.map))
+        return slope_by_wavelength(self._followed_heights)
 
     @cached_property
     def texture(self) -> xr.Dataset:

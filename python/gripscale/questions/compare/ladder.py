@@ -220,7 +220,7 @@ def _of_sines(sines: SineStack, seed: int) -> Profile:
 )
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
-    in_full = replace(setup.direct, periodic=True, smallest_wavelength=None)
+    in_full = replace(setup.direct, periodic=True)
     return [SampleSpec(in_full, with_single_measurement(setup.surface, x)) for x in lines]
 
 
