@@ -10,9 +10,11 @@ cancel in the ratio and would become part of the law.
 
 The law is fitted to pairs of lines, since two lines is what a measurement often has:
 
-    ln(map / mean of all sixteen lines) = constant + slope t,    t: the pair's upper height.
+    ln(map / mean of all sixteen lines) = constant + t (slope + low_load / sqrt(P)),
 
-About ten minutes of one core; solved maps are kept in the output folder, and a stopped run goes on.
+with the pair's upper height t and relative load P. Even seeds are solved at five pressures, odd
+ones at a random pressure and speed. About forty minutes of one core; solved maps are kept in the
+output folder, and a stopped run goes on.
 """
 
 from __future__ import annotations
@@ -29,16 +31,19 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy.special import stdtrit
+from scipy.optimize import nnls
+from scipy.special import erfinv, stdtrit
 
 import gripscale as gs
 from gripscale.core.status import Status
 from gripscale.half_space.line_to_map import (
     FREEDOM,
+    FULL_CONTACT_FRICTION,
+    LineUnderLoad,
     RatioLaw,
     contact_fraction_ratio,
     friction_ratio,
-    upper_height,
+    line_under_load,
 )
 from gripscale.surface import HeightMap
 from studies.shipped import tread
@@ -47,10 +52,11 @@ from studies.surface_families import FAMILIES, LARGEST, family_map
 Array = NDArray[np.float64]
 
 CUT_OFF, SHORTER = 0.8e-3, 0.4e-3
-"""Smallest wave of a contact [m], and a shorter one of the first seed, four times as dear."""
+"""Smallest wave of a contact [m], and a shorter one of the first seed at the usual pressure."""
 PRESSURE, SPEED = 3e5, 0.3
-"""Of even seeds [Pa, m/s]; odd ones draw both from the ranges that follow."""
-PRESSURES, SPEEDS = (1e5, 1e6), (1e-3, 20.0)
+"""The usual load [Pa, m/s]."""
+PRESSURES, SPEEDS = (1e4, 3e4, 1e5, PRESSURE, 1e6), (1e-3, 20.0)
+"""Of even seeds, at the usual speed; odd ones draw both from the ranges between the ends."""
 HIGH_PRESSURES = (3e6, 1e7, 3e7)
 LINES = 16
 TOLERANCE = 0.05
@@ -74,18 +80,35 @@ class SolvedMap:
     friction: float
     line_heights: list[float]
     """Upper heights of the lines that converged."""
+    line_loads: list[float]
+    """Relative loads of the same."""
     line_areas: list[float]
     line_frictions: list[float]
 
     @property
-    def pair_heights(self) -> Array:
-        """Upper heights of all pairs of lines."""
-        return self._pairs(self.line_heights)
+    def pairs(self) -> Array:
+        """Columns that the law multiplies by its numbers, of all pairs of lines."""
+        heights, loads = self._pairs(self.line_heights), self._pairs(self.line_loads)
+        return np.column_stack([np.ones_like(heights), heights, heights / np.sqrt(loads)])
 
     @property
     def upper_height(self) -> float:
         """Mean upper height of the lines."""
         return float(np.mean(self.line_heights))
+
+    @property
+    def line(self) -> LineUnderLoad:
+        """Mean of the lines."""
+        return LineUnderLoad(self.upper_height, float(np.mean(self.line_loads)))
+
+    def small(self, quantity: str) -> float:
+        """Return ln(map / mean of its lines) without the part of full contact."""
+        area = float(np.mean(self.line_areas))
+        if quantity == "area":
+            shrunk = np.log(erfinv(min(self.area, 1.0 - 1e-12)) / erfinv(area))
+            return float(shrunk / (1.0 - 0.5 * area))
+        full = area**4
+        return float((self.ratio(quantity) - full * np.log(FULL_CONTACT_FRICTION)) / (1.0 - full))
 
     def ratio(self, quantity: str) -> float:
         """Return ln(map / mean of its lines) of area or friction."""
@@ -116,7 +139,10 @@ def solve_map(
     """Return the contacts of a map and its lines that were solved, one for each cut-off."""
     columns = range(0, surface.z.shape[1], surface.z.shape[1] // LINES)
     lines = [gs.Profile(surface.x, surface.z[:, column]) for column in columns]
-    heights = [upper_height(line, LARGEST) for line in lines]
+    under_load = [
+        line_under_load(line, rubber, largest_wavelength=LARGEST, pressure=pressure, speed=speed)
+        for line in lines
+    ]
     solved = []
     for cut_off in cut_offs:
         options: dict[str, Any] = {
@@ -142,7 +168,8 @@ def solve_map(
                 speed,
                 whole.contact_fraction,
                 whole.friction_from_dissipation,
-                [heights[i] for i in usable],
+                [float(under_load[i].upper_height) for i in usable],
+                [float(under_load[i].relative_load) for i in usable],
                 [parts[i].contact_fraction for i in usable],
                 [parts[i].friction_from_dissipation for i in usable],
             )
@@ -150,13 +177,14 @@ def solve_map(
     return solved
 
 
-def load(seed: int, family: str) -> tuple[float, float]:
-    """Return pressure [Pa] and speed [m/s] of a map."""
+def loads(seed: int, family: str) -> list[tuple[float, float]]:
+    """Return pressures [Pa] and speeds [m/s] of a map."""
     if seed % 2 == 0:
-        return PRESSURE, SPEED
+        return [(pressure, SPEED) for pressure in PRESSURES]
     random = np.random.default_rng([seed, list(FAMILIES).index(family), 1])
-    pressure, speed = (np.exp(random.uniform(*np.log(ends))) for ends in (PRESSURES, SPEEDS))
-    return float(pressure), float(speed)
+    ends = (PRESSURES[0], PRESSURES[-1]), SPEEDS
+    pressure, speed = (float(np.exp(random.uniform(*np.log(end)))) for end in ends)
+    return [(pressure, speed)]
 
 
 def solved_maps(path: Path, seeds: int) -> list[SolvedMap]:
@@ -176,20 +204,18 @@ def solved_maps(path: Path, seeds: int) -> list[SolvedMap]:
         for family in FAMILIES:
             if (family, seed) in kept:
                 continue
-            contacts = solve_map(
-                rubber,
-                family_map(family, seed),
-                family,
-                seed,
-                *load(seed, family),
-                (CUT_OFF, SHORTER) if seed == 0 else (CUT_OFF,),
-            )
+            surface = family_map(family, seed)
+            contacts = []
+            for load in loads(seed, family):
+                finer = (CUT_OFF, SHORTER) if (seed, *load) == (0, PRESSURE, SPEED) else (CUT_OFF,)
+                contacts += solve_map(rubber, surface, family, seed, *load, finer)
             kept[family, seed] = contacts
             entry = {"family": family, "seed": seed, "contacts": [asdict(c) for c in contacts]}
             with path.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(entry) + "\n")
             for c in contacts:
-                print(f"{family} {seed}, {1e3 * c.cut_off:g} mm: {_ratios(c)}", flush=True)
+                where = f"{1e-5 * c.pressure:.2g} bar, {1e3 * c.cut_off:g} mm"
+                print(f"{family} {seed}, {where}: {_ratios(c)}", flush=True)
     return [contact for (_, seed), maps in kept.items() if seed < seeds for contact in maps]
 
 
@@ -203,7 +229,7 @@ class FittedLaw:
 
     quantity: str
     law: RatioLaw
-    """Its scatter is that of families the law was fitted without."""
+    """Its scatters are those of families the law was fitted without."""
     maps: list[SolvedMap]
     residuals: list[Array]
     """ln(map / lines) less the law, for all pairs of lines of each map."""
@@ -213,14 +239,15 @@ class FittedLaw:
     @classmethod
     def of(cls, maps: list[SolvedMap], quantity: str) -> FittedLaw:
         """Fit the law to all pairs of lines of all maps."""
-        constant, slope = _coefficients(maps, quantity)
+        numbers = _coefficients(maps, quantity)
         without = {
             family: _coefficients([m for m in maps if m.family != family], quantity)
             for family in {m.family for m in maps}
         }
-        held_out = [_residuals(m, quantity, *without[m.family]) for m in maps]
-        law = RatioLaw(constant, slope, _rms(held_out))
-        residuals = [_residuals(m, quantity, constant, slope) for m in maps]
+        held_out = [_residuals(m, quantity, without[m.family]) for m in maps]
+        constant, slope, low_load = numbers.tolist()
+        law = RatioLaw(constant, slope, low_load, *_scatter(maps, held_out))
+        residuals = [_residuals(m, quantity, numbers) for m in maps]
         return cls(quantity, law, maps, residuals, held_out)
 
     def total_errors(self) -> list[Array]:
@@ -231,15 +258,22 @@ class FittedLaw:
         ]
 
 
-def _coefficients(maps: Sequence[SolvedMap], quantity: str) -> tuple[float, float]:
-    heights = np.concatenate([m.pair_heights for m in maps])
-    ratios = np.concatenate([np.full(m.pair_heights.size, m.ratio(quantity)) for m in maps])
-    slope, constant = np.polyfit(heights, ratios, 1)
-    return float(constant), float(slope)
+def _coefficients(maps: Sequence[SolvedMap], quantity: str) -> Array:
+    columns = np.concatenate([m.pairs for m in maps])
+    ratios = np.concatenate([np.full(len(m.pairs), m.small(quantity)) for m in maps])
+    return np.asarray(np.linalg.lstsq(columns, ratios, rcond=None)[0])
 
 
-def _residuals(solved: SolvedMap, quantity: str, constant: float, slope: float) -> Array:
-    return solved.ratio(quantity) - (constant + slope * solved.pair_heights)
+def _residuals(solved: SolvedMap, quantity: str, numbers: Array) -> Array:
+    return np.asarray(solved.small(quantity) - solved.pairs @ numbers)
+
+
+def _scatter(maps: Sequence[SolvedMap], missed: Sequence[Array]) -> tuple[float, float]:
+    """Return the scatter at high load, and what low loads add, from what a law misses."""
+    squares = np.array([np.mean(part**2) for part in missed])
+    loads = np.array([1.0 / m.line.relative_load for m in maps])
+    high, low = nnls(np.column_stack([np.ones_like(loads), loads]), squares)[0]
+    return float(np.sqrt(high)), float(np.sqrt(low))
 
 
 def _rms(parts: list[Array]) -> float:
@@ -283,10 +317,13 @@ def summary(fitted: FittedLaw) -> Iterator[str]:
     """Yield the law, its scatter, and the correlations of what it misses."""
     law = fitted.law
     of_maps = np.array([residual.mean() for residual in fitted.residuals])
-    yield f"ln(map/lines) = {law.constant:+.3f} {law.slope:+.3f} t"
+    form = f"{law.constant:+.3f} + t ({law.slope:+.3f} {law.low_load:+.4f} / sqrt(P))"
+    yield f"ln(map/lines) = {form}"
     yield (
-        f"scatter, pairs of lines: {_rms(fitted.residuals):.3f} about the law, {law.scatter:.3f} "
-        f"about laws without the family; all lines of a map: {of_maps.std():.3f} about the law"
+        f"scatter, pairs of lines: {_rms(fitted.residuals):.3f} about the law, "
+        f"{_rms(fitted.held_out):.3f} about laws without the family, of which {law.scatter:.3f} at "
+        f"high load and {law.low_load_scatter:.4f} / sqrt(P); all lines of a map: "
+        f"{of_maps.std():.3f} about the law"
     )
     yield (
         f"estimates from pairs of lines, law without the family: rms "
@@ -296,6 +333,10 @@ def summary(fitted: FittedLaw) -> Iterator[str]:
     ratios = np.array([m.ratio(fitted.quantity) for m in fitted.maps])
     share = 1.0 - np.var(of_maps) / np.var(ratios)
     yield f"share of the variance of ln(map/lines) that the law explains: {share:.2f}"
+    for pressure in PRESSURES:
+        pressed = [m.pressure == pressure for m in fitted.maps]
+        missed = of_maps[pressed]
+        yield f"{1e-5 * pressure:g} bar, {missed.size} maps: {_mean_and_scatter(missed.tolist())}"
     influences: dict[str, Callable[[SolvedMap], float]] = {
         "cut-off": lambda m: m.cut_off,
         "pressure": lambda m: m.pressure,
@@ -324,7 +365,7 @@ COLOURS = dict(
 
 
 def draw(laws: Sequence[FittedLaw], path: Path) -> None:
-    """Draw the ratios of area and friction over the upper height, with the law and 90 % of maps."""
+    """Draw the ratios of area and friction over those of the law, with the band of 90 % of maps."""
     figure = Figure(figsize=(9.5, 4.4), layout="constrained")
     FigureCanvasAgg(figure)
     for column, fitted in enumerate(laws):
@@ -332,42 +373,41 @@ def draw(laws: Sequence[FittedLaw], path: Path) -> None:
         for family, colour in COLOURS.items():
             members = [m for m in fitted.maps if m.family == family]
             panel.plot(
-                [m.upper_height for m in members],
-                [np.exp(m.ratio(fitted.quantity)) for m in members],
+                [fitted.law.at(m.line) for m in members],
+                [np.exp(m.small(fitted.quantity)) for m in members],
                 "o",
-                ms=4.5,
+                ms=3.5,
                 mew=0.0,
-                alpha=0.8,
+                alpha=0.7,
                 color=colour,
                 label=family if column == 0 else None,
             )
-        ends = np.array([m.upper_height for m in fitted.maps])
-        t = np.linspace(ends.min() - 0.1, ends.max() + 0.1, 50)
-        ratio = np.exp(fitted.law.constant + fitted.law.slope * t)
-        factor = np.exp(stdtrit(FREEDOM, 0.95) * fitted.law.scatter)
-        panel.plot(t, ratio, color="black", lw=1.4, label="law" if column == 0 else None)
+        ends = [fitted.law.at(m.line) for m in fitted.maps]
+        ratio = np.geomspace(0.95 * min(ends), 1.05 * max(ends), 2)
+        factor = np.exp(stdtrit(FREEDOM, 0.95) * fitted.law.scatter)  # at high load
+        panel.plot(ratio, ratio, color="black", lw=1.4, label="law" if column == 0 else None)
         band = "90 % band" if column == 0 else None
         panel.fill_between(
-            t, ratio / factor, ratio * factor, color="0.5", alpha=0.2, lw=0.0, label=band
+            ratio, ratio / factor, ratio * factor, color="0.5", alpha=0.2, lw=0.0, label=band
         )
-        panel.axhline(1.0, color="0.6", lw=0.6)
-        panel.set_xlabel("t: height that 1 % of a line exceeds / rms height")
+        panel.set_xlabel("by the law")
         title = {"area": "contact area", "friction": "friction"}[fitted.quantity]
         panel.set_title(f"{title}: map over its lines", fontsize=10)
-        panel.set_yscale("log")
-        ticks = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.4, 1.6]
-        low, high = panel.get_ylim()
-        panel.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+        ticks = [0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0]
+        panel.loglog()
         panel.minorticks_off()
-        panel.set_ylim(low, high)
+        panel.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        panel.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+        panel.set_xlim(ratio[0], ratio[-1])
+        panel.set_ylim(ratio[0] / factor, ratio[-1] * factor)
         panel.grid(lw=0.4, alpha=0.4)
     figure.legend(loc="outside right center", frameon=False, fontsize=9)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=100, pil_kwargs={"optimize": True})
 
 
-def other_loads() -> Iterator[str]:
-    """Yield how ln(map/lines) changes with the load on the same maps, the first of each family."""
+def other_speeds() -> Iterator[str]:
+    """Yield how ln(map/lines) changes with the speed on the same maps, the first of each family."""
     rubber = tread()
     first = {family: family_map(family, 0) for family in FAMILIES}
 
@@ -380,16 +420,15 @@ def other_loads() -> Iterator[str]:
         return out
 
     usual = ratios(PRESSURE, SPEED)
-    loads = [(pressure, SPEED) for pressure in PRESSURES] + [(PRESSURE, speed) for speed in SPEEDS]
     yield f"\nchange of ln(map/lines) from {PRESSURE:g} Pa and {SPEED:g} m/s, mean and scatter"
-    for pressure, speed in loads:
-        change = ratios(pressure, speed) - usual
+    for speed in SPEEDS:
+        change = ratios(PRESSURE, speed) - usual
         cells = [
             f"{name} {np.nanmean(column):+.3f} ± {np.nanstd(column, ddof=1):.3f}"
             for name, column in zip(QUANTITIES, change.T, strict=True)
         ]
         number = int(np.isfinite(change[:, 0]).sum())
-        yield f"{pressure:g} Pa, {speed:g} m/s: {', '.join(cells)} ({number} maps)"
+        yield f"{speed:g} m/s: {', '.join(cells)} ({number} maps)"
 
 
 def near_full_contact() -> Iterator[str]:
@@ -404,7 +443,7 @@ def near_full_contact() -> Iterator[str]:
                 areas.append(area)
                 missed.append(
                     [
-                        solved.ratio(quantity) - np.log(form(solved.upper_height, area).ratio)
+                        solved.ratio(quantity) - np.log(form(solved.line, area).ratio)
                         for quantity, form in zip(QUANTITIES, forms, strict=True)
                     ]
                 )
@@ -422,7 +461,7 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=Path("results/line_to_map"))
     parser.add_argument("--seeds", type=int, default=7)
     parser.add_argument("--figure", type=Path, default=FIGURE)
-    parser.add_argument("--loads", action="store_true", help="other loads on the same maps, too")
+    parser.add_argument("--loads", action="store_true", help="other speeds, and full contact, too")
     options = parser.parse_args()
     maps = solved_maps(options.output / "maps.jsonl", options.seeds)
     laws = [FittedLaw.of(maps, quantity) for quantity in QUANTITIES]
@@ -431,7 +470,7 @@ def main() -> None:
         print(*summary(fitted), sep="\n", flush=True)
     draw(laws, options.figure)
     if options.loads:
-        for line in (*other_loads(), *near_full_contact()):
+        for line in (*other_speeds(), *near_full_contact()):
             print(line, flush=True)
 
 

@@ -10,8 +10,16 @@ import pytest
 import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.half_space import line_to_map
+from tests.verification.families import tread
 
 WAVE = 0.01
+RUBBER = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
+
+
+def upper_height(profile: gs.Profile) -> float:
+    """The upper height of a line with waves of 10 mm at most."""
+    load = {"largest_wavelength": WAVE, "pressure": 1e5, "speed": 0.3}
+    return float(line_to_map.line_under_load(profile, RUBBER, **load).upper_height)
 
 
 def test_upper_height_of_known_distributions() -> None:
@@ -23,66 +31,72 @@ def test_upper_height_of_known_distributions() -> None:
         (-random.exponential(size=x.size), 1.0 + math.log(0.99)),
     ):
         # the 99 % quantile of 1,600 values a piece scatters by 4 %; of 125 pieces by 0.4 %
-        assert line_to_map.upper_height(gs.Profile(x, heights), WAVE) == pytest.approx(
-            known, abs=0.03
-        )
+        assert upper_height(gs.Profile(x, heights)) == pytest.approx(known, abs=0.03)
 
 
 def test_trends_gaps_and_offsets_do_not_count() -> None:
     random = np.random.default_rng(1)
     x = 1e-4 * np.arange(64_000)
     z = 1e-3 * random.standard_normal(x.size)
-    plain = line_to_map.upper_height(gs.Profile(x, z), WAVE)
+    plain = upper_height(gs.Profile(x, z))
     long_wave = 0.05 * np.sin(2.0 * np.pi * x / x[-1])
     steps = np.where(np.arange(x.size) < 32_000, 0.0, 1.0)
-    assert line_to_map.upper_height(gs.Profile(x, z + steps), WAVE) == pytest.approx(plain)
-    assert line_to_map.upper_height(gs.Profile(x, z + 0.02 * long_wave), WAVE) == pytest.approx(
-        plain, rel=0.02
-    )
+    assert upper_height(gs.Profile(x, z + steps)) == pytest.approx(plain)
+    assert upper_height(gs.Profile(x, z + 0.02 * long_wave)) == pytest.approx(plain, rel=0.02)
     z[::7] = np.nan
-    assert line_to_map.upper_height(gs.Profile(x, z), WAVE) == pytest.approx(plain, rel=0.02)
+    assert upper_height(gs.Profile(x, z)) == pytest.approx(plain, rel=0.02)
     with pytest.raises(InputError, match="two different heights"):
-        line_to_map.upper_height(gs.Profile(x, np.zeros(x.size)), WAVE)
+        upper_height(gs.Profile(x, np.zeros(x.size)))
 
 
 def test_limits() -> None:
-    for reach in (1.0, 2.3, 4.0):
+    for height, load in ((1.0, 0.3), (2.3, 0.01), (4.0, 1.0)):
+        reach = line_to_map.LineUnderLoad(height, load)
         area = line_to_map.contact_fraction_ratio(reach, [1e-6, 1.0])
         assert area.ratio == pytest.approx(
-            [line_to_map.CONTACT_FRACTION_LAW.at(reach), 1.0], rel=1e-5
+            [float(line_to_map.CONTACT_FRACTION_LAW.at(reach)), 1.0], rel=1e-5
         )
         assert area.uncertainty == pytest.approx(
-            [line_to_map.CONTACT_FRACTION_LAW.scatter, 0.0], abs=1e-5
+            [float(line_to_map.CONTACT_FRACTION_LAW.uncertainty(reach)), 0.0], abs=1e-5
         )
         friction = line_to_map.friction_ratio(reach, [1e-6, 1.0])
         assert friction.ratio == pytest.approx(
-            [line_to_map.FRICTION_LAW.at(reach), line_to_map.FULL_CONTACT_FRICTION]
+            [float(line_to_map.FRICTION_LAW.at(reach)), line_to_map.FULL_CONTACT_FRICTION]
         )
         between = line_to_map.contact_fraction_ratio(reach, np.linspace(0.01, 0.99, 50))
         on_the_surface = between.ratio * np.linspace(0.01, 0.99, 50)
         assert (np.diff(on_the_surface) > 0.0).all()
 
 
-def test_a_gaussian_map_is_within_the_scatter() -> None:
+def test_relative_load_is_dimensionless() -> None:
+    """Heights, waves and moduli in other units, and a load that is stated by hand."""
+    x = 1e-4 * np.arange(6400)
+    z = 1e-3 * np.sin(2.0 * np.pi * x / WAVE)
+    load = line_to_map.line_under_load(
+        gs.Profile(x, z), RUBBER, largest_wavelength=WAVE, pressure=3e5, speed=0.0
+    ).relative_load
+    modulus = abs(complex(RUBBER.plane_strain_modulus(0.0)))
+    assert load == pytest.approx(3e5 * WAVE / (modulus * 1e-3 / math.sqrt(2.0)), rel=1e-3)
+
+
+@pytest.mark.parametrize("pressure", [2e4, 3e5])
+def test_a_gaussian_map_is_within_the_scatter(pressure: float) -> None:
     """A family that the law was not fitted to, small enough for a test."""
-    points, step = 256, 2e-4
-    k = np.hypot(np.fft.fftfreq(points, step)[:, None], np.fft.rfftfreq(points, step)[None, :])
-    inside = (k > 0.9 / 12.8e-3) & (k < 1.0 / 8e-4)
-    noise = np.fft.rfft2(np.random.default_rng(5).standard_normal((points, points)))
-    z = np.fft.irfft2(noise * np.where(inside, np.maximum(k, 1.0) ** -1.8, 0.0), (points, points))
-    x = step * np.arange(points)
-    z *= 8e-4 / z.std()
-    rubber = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
-    load = {
-        "pressure": 3e5, "speed": 0.3, "smallest_wavelength": 8e-4, "periodic": True,
-        "tolerance": None,
-    }  # fmt: skip
-    whole = gs.solve_rough_contact(rubber, gs.HeightMap(x, x, z), **load)
-    profiles = [gs.Profile(x, z[:, at]) for at in range(0, points, 4)]
-    lines = [gs.solve_rough_contact(rubber, profile, **load) for profile in profiles]
+    shape, step, longest = (512, 128), 2e-4, 6.4e-3
+    k = np.hypot(np.fft.fftfreq(shape[0], step)[:, None], np.fft.rfftfreq(shape[1], step))
+    inside = (k > 0.9 / longest) & (k < 1.0 / 8e-4)
+    noise = np.fft.rfft2(np.random.default_rng(5).standard_normal(shape))
+    z = np.fft.irfft2(noise * np.where(inside, np.maximum(k, 1.0) ** -1.8, 0.0), shape)
+    x, y = (step * np.arange(points) for points in shape)
+    z *= 4e-4 / z.std()
+    rubber, load = tread(), {"pressure": pressure, "speed": 0.3}
+    solver = {"smallest_wavelength": 8e-4, "periodic": True, "tolerance": None}
+    whole = gs.solve_rough_contact(rubber, gs.HeightMap(x, y, z), **load, **solver)
+    profiles = [gs.Profile(x, z[:, at]) for at in range(0, shape[1], 4)]
+    lines = [gs.solve_rough_contact(rubber, profile, **load, **solver) for profile in profiles]
     area = np.mean([line.contact_fraction for line in lines])
     friction = np.mean([line.friction_from_dissipation for line in lines])
-    reach = line_to_map.upper_height(profiles, 12.8e-3)
+    reach = line_to_map.line_under_load(profiles, rubber, largest_wavelength=longest, **load)
     for measured, law in (
         (whole.contact_fraction / area, line_to_map.contact_fraction_ratio(reach, area)),
         (whole.friction_from_dissipation / friction, line_to_map.friction_ratio(reach, area)),

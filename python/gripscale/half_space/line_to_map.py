@@ -3,18 +3,20 @@
 A line is solved in plane strain, as if the surface were grooves across the sliding direction. On an
 isotropic surface rubber escapes sideways, and high places beside the line carry load in its place.
 On maps of eight families (`python -m studies.line_to_map`) the contact of the map over that of its
-lines follows how far the heights of a line reach up:
+lines follows how far the heights of a line reach up, and the more so the fewer of them carry:
 
-    ln f = a_0 + a_1 t,    ln g = b_0 + b_1 t,
+    ln f = a_0 + t (a_1 + a_2 / sqrt(P)),    ln g = b_0 + t (b_1 + b_2 / sqrt(P)),
     t = (height that 1 % of a line exceeds - mean height) / rms height,
+    P = pressure * largest wave / (|M| * rms height),
 
-f for small areas A of contact, g for friction. Towards full contact the areas meet and the friction
-of the map is 1.11 times that of its lines, whatever the heights:
+f for small areas A of contact, g for friction, M the plane-strain modulus of the largest wave where
+it slides. Towards full contact the areas meet and the friction of the map is 1.11 times that of its
+lines, whatever the heights:
 
     A_map = erf(f^(1 - A/2) erfinv(A)),    ln(mu_map / mu) = (1 - A^4) ln g + A^4 ln 1.11.
 
-Rubber, speed, cut-off and pressure change the ratios by less than their scatter from map to map:
-20 m/s in place of 0.3 m/s by 3 and 4 %, 1 bar in place of 3 bar by 10 and 9 %.
+Speed and cut-off change the ratios by less than their scatter from map to map: 20 m/s in place of
+0.3 m/s by 3 and 4 %.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ from numpy.typing import ArrayLike
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.surface import Profile, Surface
+from gripscale.rubber import Rubber
+from gripscale.surface import Profile
 from gripscale.surface.profile import profile_list
 
 _PIECE = 16.0
@@ -39,23 +42,39 @@ EXCEEDED = 0.01
 """Share of a line that is higher than its upper height."""
 
 
+class LineUnderLoad(NamedTuple):
+    """What the law needs of a line, or of several, and of the load."""
+
+    upper_height: float | Array
+    """t: height that 1 % of the line exceeds over its rms height [-]."""
+    relative_load: float | Array
+    """P: pressure times largest wave over modulus times rms height [-]."""
+
+
 class RatioLaw(NamedTuple):
-    """A ratio ln y = constant + slope t, and how well it is known."""
+    """A ratio ln y = constant + t (slope + low_load / sqrt(P)), and how well it is known."""
 
     constant: float
     slope: float
+    low_load: float
     scatter: float
-    """Standard deviation of ln y about the law, over maps of all families."""
+    """Standard deviation of ln y about the law at high load, over maps of all families."""
+    low_load_scatter: float
+    """What few summits add to it in squares, times sqrt(P)."""
 
-    def at(self, upper_height: float) -> float:
-        """Return the ratio at an upper height t."""
-        return float(np.exp(self.constant + self.slope * upper_height))
+    def at(self, line: LineUnderLoad) -> Array:
+        """Return the ratio of lines."""
+        few = self.low_load / np.sqrt(line.relative_load)
+        return np.asarray(np.exp(self.constant + line.upper_height * (self.slope + few)))
+
+    def uncertainty(self, line: LineUnderLoad) -> Array:
+        """Return the standard deviation of ln y about the law."""
+        return np.hypot(self.scatter, self.low_load_scatter / np.sqrt(line.relative_load))
 
 
-CONTACT_FRACTION_LAW = RatioLaw(-0.031, -0.195, 0.12)
-FRICTION_LAW = RatioLaw(-0.385, 0.179, 0.11)
-"""Scatter: between that about the law (0.110, 0.098) and that of families which a law of the other
-families misses (0.132, 0.122)."""
+CONTACT_FRACTION_LAW = RatioLaw(-0.052, -0.176, -0.0189, 0.12, 0.017)
+FRICTION_LAW = RatioLaw(-0.392, 0.149, 0.0216, 0.095, 0.023)
+"""Scatter: between that about the law and that of families which a law of the others misses."""
 FULL_CONTACT_FRICTION = 1.11
 FREEDOM = 6
 """Degrees of freedom of the scatter: eight families less the two numbers of the law."""
@@ -74,47 +93,64 @@ class SurfaceOverLines(NamedTuple):
     """Of the logarithm [-]."""
 
 
-def contact_fraction_ratio(upper_height: float, contact_fraction: ArrayLike) -> SurfaceOverLines:
-    """Return the area ratio at an upper height t and contact fractions of the lines [-]."""
+def contact_fraction_ratio(line: LineUnderLoad, contact_fraction: ArrayLike) -> SurfaceOverLines:
+    """Return the area ratio of a line at contact fractions of the lines [-]."""
     from scipy.special import erf, erfinv
 
     area = np.clip(np.asarray(contact_fraction, dtype=float), _TINY, 1.0 - _TINY)
-    small = CONTACT_FRACTION_LAW.at(upper_height) ** (1.0 - 0.5 * area)
+    small = CONTACT_FRACTION_LAW.at(line) ** (1.0 - 0.5 * area)
     ratio = erf(small * erfinv(area)) / area
-    return SurfaceOverLines(ratio, CONTACT_FRACTION_LAW.scatter * np.sqrt(1.0 - area**2))
+    return SurfaceOverLines(ratio, CONTACT_FRACTION_LAW.uncertainty(line) * np.sqrt(1.0 - area**2))
 
 
-def friction_ratio(upper_height: float, contact_fraction: ArrayLike) -> SurfaceOverLines:
-    """Return the friction ratio at an upper height t and contact fractions of the lines [-]."""
+def friction_ratio(line: LineUnderLoad, contact_fraction: ArrayLike) -> SurfaceOverLines:
+    """Return the friction ratio of a line at contact fractions of the lines [-]."""
     full = np.asarray(contact_fraction, dtype=float) ** 4
-    law = math.log(FRICTION_LAW.at(upper_height))
+    law = np.log(FRICTION_LAW.at(line))
     ratio = np.exp((1.0 - full) * law + full * math.log(FULL_CONTACT_FRICTION))
-    return SurfaceOverLines(ratio, np.full_like(ratio, FRICTION_LAW.scatter))
+    return SurfaceOverLines(ratio, FRICTION_LAW.uncertainty(line) + 0.0 * ratio)
 
 
-def upper_height(profile: Profile | Sequence[Profile], largest_wavelength: float) -> float:
-    """Return how far a line reaches up: the height 1 % of it exceeds over the rms height.
+def line_under_load(
+    profile: Profile | Sequence[Profile],
+    rubber: Rubber,
+    *,
+    largest_wavelength: float,
+    pressure: float,
+    speed: float,
+) -> LineUnderLoad:
+    """Return how far lines reach up, and how hard they are pressed for their height.
 
-    Both are from the mean of pieces of sixteen largest waves, or of the whole line where it is
-    shorter; the mean over all pieces counts. Missing heights are left out.
-    Raises `InputError` if an argument is out of its range, or no piece has two heights.
+    Parameters
+    ----------
+    profile : Profile or sequence of Profile
+        Measured lines; missing heights are left out. Heights count from the mean of pieces of
+        sixteen largest waves, or of the whole line where it is shorter; the mean over all pieces
+        counts.
+    rubber : Rubber
+        At the temperature of the contact.
+    largest_wavelength : float
+        Longest wave of the roughness [m].
+    pressure, speed : float
+        Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of its range, or no piece has two different heights.
     """
-    longest = _PIECE * checks.positive("largest_wavelength", largest_wavelength, unit="m")
-    ratios = []
+    longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
+    pressed = checks.positive("pressure", pressure, unit="Pa")
+    omega = 2.0 * math.pi * checks.not_negative("speed", speed, unit="m/s") / longest
+    ratios, rms = [], []
     for line in profile_list(profile):
-        for piece in np.array_split(line.z, max(1, round(line.length / longest))):
+        for piece in np.array_split(line.z, max(1, round(line.length / (_PIECE * longest)))):
             heights = piece[np.isfinite(piece)]
             if heights.size > 1 and heights.std() > 0.0:
-                top = np.quantile(heights, 1.0 - EXCEEDED) - heights.mean()
-                ratios.append(top / heights.std())
+                rms.append(heights.std())
+                ratios.append((np.quantile(heights, 1.0 - EXCEEDED) - heights.mean()) / rms[-1])
     if not ratios:
         raise InputError("profile must have two different heights at least; got none")
-    return float(np.mean(ratios))
-
-
-def upper_height_of(surface: Surface) -> float | None:
-    """Return the upper height of the measured lines of a surface; None without lines, of a map."""
-    measured = surface.measured
-    if measured is None or measured.map is not None:
-        return None
-    return upper_height(list(measured.cleaned), float(surface.sines.wavelength[0]))
+    modulus = abs(complex(rubber.plane_strain_modulus(omega)))
+    load = pressed * longest / (modulus * float(np.mean(rms)))
+    return LineUnderLoad(float(np.mean(ratios)), load)

@@ -19,6 +19,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
+from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
 from gripscale.half_space.sampling_error import PIECE, sampling_error
@@ -58,21 +59,37 @@ def resolved_wavelength(surface: Surface) -> float:
 
 
 def _with_basis(
-    answer: xr.Dataset, contacts: Sequence[RoughContact], lengths: Sequence[float], piece: float
+    answer: xr.Dataset,
+    contacts: Sequence[RoughContact],
+    lengths: Sequence[float],
+    surface: Surface,
+    load: Load,
 ) -> xr.Dataset:
     """Return an answer with what it rests on (`gripscale.model.BASIS`).
 
-    The profiles are independent: their sampling errors, from pieces of a length [m], add up in
-    squares.
+    The profiles are independent: their sampling errors add up in squares. A map is no line, and
+    what the step from lines to a surface needs is NaN.
     """
+    longest = float(surface.sines.wavelength[0])
+    piece, line = PIECE * longest, LineUnderLoad(math.nan, math.nan)
+    measured = surface.measured
+    if measured is not None and measured.map is None:
+        line = line_under_load(
+            measured.cleaned,
+            contacts[0].body.rubber,
+            largest_wavelength=longest,
+            pressure=load.pressure,
+            speed=load.speed,
+        )
     errors = [sampling_error(contact, piece) for contact in contacts]
     area, friction = (
         np.multiply(lengths, [getattr(contact, name) for contact in contacts])
         for name in ("contact_fraction", "friction_from_dissipation")
     )
-    numbers = (
+    numbers: tuple[Any, ...] = (
         _relative(area, [error.contact_fraction for error in errors]),
         _relative(friction, [error.friction for error in errors]),
+        *line,
         float(sum(error.pieces - 1 for error in errors)),
         _weighted(friction, [contact.steep_share for contact in contacts]),
         _weighted(area, [contact.missing_share for contact in contacts]),
@@ -223,8 +240,7 @@ class DirectContact(Checked, model.Model):
         notes = dict.fromkeys(note for contact in contacts for note in contact.notes)
         answer = answer.assign_attrs(notes=" ".join(notes))
         if surface.waves is not None:
-            piece = PIECE * float(surface.waves.wavelength[0])
-            answer = _with_basis(answer, contacts, lengths, piece)
+            answer = _with_basis(answer, contacts, lengths, surface, load)
         if self.traces:
             answer = with_traces(answer, [contact_trace(contact) for contact in contacts])
         adhesive = [contact.adhesive_friction for contact in contacts]

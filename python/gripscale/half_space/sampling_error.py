@@ -5,9 +5,11 @@ load, both summed over pieces of the surface. A piece that happens to be high ca
 has more contact, at about the same ratio. So the error of the ratio r = sum(y) / sum(p) comes from
 the residuals of the pieces,
 
-    var(r) / r^2 = n / (n - 1) sum((y_i - r p_i)^2) / sum(y)^2
+    var(r) / r^2 = m / (m - 1) sum((y_i - r p_i)^2) / sum(y)^2,    m = sum(p)^2 / sum(p^2)
 
-(W. G. Cochran, Sampling Techniques, 3rd ed. (1977), sec. 6.4), without another solution. The
+(W. G. Cochran, Sampling Techniques, 3rd ed. (1977), sec. 6.4), without another solution. m is the
+number of pieces that carry (L. Kish, Survey Sampling (1965), sec. 11.7): at low pressure a few
+pieces have all of the load, and the others tell nothing of the scatter. The
 friction force of a piece is that of the losses: pressure times the part of the slope of the rubber
 that its losses make. The traction would do for the sum but not for a piece, because elastic forces
 of one piece on another cancel in the sum only.
@@ -28,6 +30,8 @@ from gripscale.half_space.result import RoughContact
 
 FEWEST_PIECES = 4
 """Pieces below which their scatter says nothing."""
+FEWEST_CARRYING = 1.5
+"""The same of pieces that carry."""
 PIECE = 2.0
 """Length of a piece in largest waves: long enough to make neighbours nearly independent."""
 
@@ -37,8 +41,8 @@ class SamplingError(NamedTuple):
 
     contact_fraction: float
     friction: float
-    pieces: int
-    """Pieces they are estimated from."""
+    pieces: float
+    """Pieces that carry, from which they are estimated."""
 
 
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
@@ -48,15 +52,15 @@ def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     four; of friction also at rest, and where it is not positive.
     """
     counts = _counts(contact, checks.positive("piece", piece, unit="m"))
-    pieces = math.prod(counts)
-    if pieces < FEWEST_PIECES:
-        return SamplingError(math.nan, math.nan, pieces)
     load = _by_piece(contact.pressure, counts)
+    carrying = _carrying(load)
+    if load.size < FEWEST_PIECES or carrying < FEWEST_CARRYING:
+        return SamplingError(math.nan, math.nan, carrying)
     touched = _by_piece(contact.active.astype(float), counts)
     friction = math.nan
     if contact.speed > 0.0:
         friction = _relative_error(_by_piece(_losses(contact), counts), load)
-    return SamplingError(_relative_error(touched, load), friction, pieces)
+    return SamplingError(_relative_error(touched, load), friction, carrying)
 
 
 def _by_piece(field: Array, counts: Sequence[int]) -> Array:
@@ -84,12 +88,20 @@ def friction_residuals(contact: RoughContact, piece: float) -> Array:
     return _residuals(_by_piece(_losses(contact), counts), _by_piece(contact.pressure, counts))
 
 
-def error_of_residuals(residuals: Array) -> float:
-    """Return the relative standard error that the residuals of pieces make; NaN for one piece."""
-    count = residuals.size
-    if count < 2:
+def error_of_residuals(residuals: Array, carrying: float) -> float:
+    """Return the relative standard error that the residuals of pieces make, of which some carry."""
+    if carrying <= 1.0:
         return math.nan
-    return math.sqrt(count / (count - 1) * float(residuals @ residuals))
+    return math.sqrt(carrying / (carrying - 1.0) * float(residuals @ residuals))
+
+
+def pieces_that_carry(contact: RoughContact, piece: float) -> float:
+    """Return the number m of pieces of a length [m] that carry the load."""
+    return _carrying(_by_piece(contact.pressure, _counts(contact, piece)))
+
+
+def _carrying(load: Array) -> float:
+    return float(load.sum() ** 2 / (load @ load))
 
 
 def _counts(contact: RoughContact, piece: float) -> list[int]:
@@ -105,4 +117,4 @@ def _relative_error(values: Array, load: Array) -> float:
     """Return the relative standard error of sum(values) / sum(load)."""
     if float(values.sum()) <= 0.0:
         return math.nan
-    return error_of_residuals(_residuals(values, load))
+    return error_of_residuals(_residuals(values, load), _carrying(load))

@@ -20,6 +20,7 @@ from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sampling_error import (
     error_of_residuals,
     friction_residuals,
+    pieces_that_carry,
     sampling_error,
 )
 from gripscale.io import netcdf
@@ -51,6 +52,19 @@ CASE = case_text(
 LEVELS = [0.8, 1.0, 1.2]
 
 
+def loss_factor(rubber: gs.Rubber, hertz: float) -> float:
+    """tan(delta) at a frequency."""
+    return float(rubber.loss_factor(2.0 * np.pi * hertz))
+
+
+def loss_compliance(rubber: gs.Rubber, hertz: float) -> float:
+    """J'' [1/Pa] at a frequency, -Im(1/E*)."""
+    return -float((1.0 / rubber.complex_modulus(2.0 * np.pi * hertz)).imag)
+
+
+LOSSES = (loss_factor, loss_compliance)
+
+
 @pytest.fixture(scope="module")
 def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("design")
@@ -70,7 +84,7 @@ def data(case):
 def test_the_page_begins_with_the_gain(case, data):
     cards = list(design_cards(data))
     same = data.isel(point=1)
-    assert cards[0].value == f"{100.0 * float(same.gain):+.0f} %"
+    assert cards[0].value == f"{100.0 * float(same.gain):+.1f} %"  # less than ten per cent
     page = write_report(case.parent / "stored" / "design.nc", case.parent / "design.html")
     text = page.read_text(encoding="utf-8")
     assert "Compound for case.toml" in text
@@ -109,9 +123,13 @@ def test_the_curve_rises_and_keeps_to_its_levels(data):
             designed_rubber(data, at),
             gs.Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
         )
+        ratios = [
+            loss(rubber, hertz) / loss(today, hertz) for hertz in (10.0, 50.0) for loss in LOSSES
+        ]
+        assert max(ratios) == pytest.approx(float(data.rolling_ratio[at]), rel=1e-9)
+        between = [loss(rubber, 25.0) / loss(today, 25.0) for loss in LOSSES]
+        assert max(between) <= float(data.rolling_level[at]) * 1.02
         omega = 2.0 * np.pi * 10.0
-        ratio = float(rubber.loss_factor(omega) / today.loss_factor(omega))
-        assert ratio == pytest.approx(float(data.rolling_ratio[at]), rel=1e-9)
         stiff = float(rubber.complex_modulus(omega).real / today.complex_modulus(omega).real)
         assert stiff == pytest.approx(float(data.limited_ratio[at, 0]), rel=1e-9)
         assert 0.9 - 1e-6 < stiff < 1.1 + 1e-6
@@ -133,7 +151,8 @@ def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
     after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05, warm=False)
     piece = 2.0 * friction.parts[0].largest_wavelength
     each = [sampling_error(contacts[0], piece).friction for contacts in (before, after)]
-    whole = error_of_residuals(friction_residuals(before[0], piece))
+    carrying = pieces_that_carry(before[0], piece)
+    whole = error_of_residuals(friction_residuals(before[0], piece), carrying)
     assert whole == pytest.approx(each[0], rel=1e-12)
     result = gain(friction, before, after)
     assert 0.0 < result.sampling < 0.5 * np.hypot(*each)
@@ -173,15 +192,13 @@ def test_stored_points_are_not_solved_again(case, data, monkeypatch):
 
 def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
     """A search that ends lower at a looser level makes no point: the one below is admissible."""
-    nearest = compound_design.nearest_design
+    nearest, found = compound_design.nearest_design, []
 
-    def worse(friction, admissible, optimum):
-        design = nearest(friction, admissible, optimum)
-        if admissible.points[-1].high < 1.0:
-            return design
-        return replace(design, ratio=0.9 + 0.1 * design.ratio)
+    def no_better(friction, admissible, optimum):
+        found.append(nearest(friction, admissible, optimum))
+        return replace(found[-1], ratio=found[0].ratio)
 
-    monkeypatch.setattr(compound_design, "nearest_design", worse)
+    monkeypatch.setattr(compound_design, "nearest_design", no_better)
     worst = gs.design(read_case(case), folder=tmp_path, levels=LEVELS).data
     assert worst.rolling_level.values.tolist() == [0.8]
     assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
@@ -212,7 +229,8 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
     result = shell("design", tmp_path / "case.toml", "--levels", "1", "--output", tmp_path / "out")
     assert result.exit_code == 0, result.output
     written = " ".join((tmp_path / "out" / "design.txt").read_text(encoding="utf-8").split())
-    assert "tan δ at 10 Hz and 40 °C (the shift ends there, not at 60 °C)" in written
+    assert "at 10 to 50 Hz and 40 °C (the shift ends there), the worst of them" in written
+    assert "at 10 Hz and 40 °C (the shift ends there, not at 60 °C)" in written
     assert "tan δ wet: at 10 Hz and 10 °C (the shift ends there, not at 0 °C)" in written
 
     short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
@@ -239,7 +257,7 @@ def test_wider_limits_are_worth_what_is_said(case, data, tmp_path, which):
     gained = np.log1p(float(more.gain_optimum[0])) - np.log1p(float(point.gain_optimum))
     # second order in a tenth; the contacts of the search start elsewhere
     assert float(point.limit_worth[which]) == pytest.approx(gained, rel=0.2, abs=1e-3)
-    assert point.limit_worth[2] > 0.02
+    assert point.limit_worth.max() > 0.02
 
 
 def test_todays_friction_between_two_points(data):

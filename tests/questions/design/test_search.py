@@ -18,8 +18,9 @@ from gripscale.questions.design.compound_limits import (
     changed,
     modulus_parts,
 )
-from gripscale.questions.design.compound_search import best_change, nearest_design
+from gripscale.questions.design.compound_search import DesignProblem, best_change, nearest_design
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction, MeasuredPart
+from gripscale.questions.design.rolling import rolling_band
 from gripscale.rubber import ShiftTable
 from gripscale.surface import Profile
 from tests.half_space.rough_cases import WAVELENGTH, sine
@@ -228,17 +229,49 @@ def test_parts_add_up_to_the_modulus():
     assert storage.sum(axis=-1) + 1j * loss.sum(axis=-1) == pytest.approx(whole, rel=1e-12)
 
 
-def test_least_loss_factor_of_one_relaxation():
+def test_least_level_of_one_relaxation():
     """tan(delta) = r_1 l/(r_0 + r_1 s): least with r_1 at its lower, r_0 at its upper bound."""
     rubber = gs.Rubber(1e6, [9e6], [1e-3])
     point = PointLimit("loss_factor", 0.0, 1.0, frequency=1e3 / (2.0 * np.pi))  # w tau = 1
-    limits = admissible(rubber, factor_per_decade=1e3)
+    free = CompoundLimits(factor_per_decade=1e3, points=())
+    friction = SimpleNamespace(rubber=rubber)
     today = 4.5 / (1.0 + 4.5)
     least = 0.5 * 4.5 / (2.0 + 0.5 * 4.5)
-    assert limits.least_loss_factor(point) == pytest.approx(least / today, rel=1e-6)
+    problem = DesignProblem(friction, free, (point,))
+    assert problem.least_level() == pytest.approx(least / today, rel=1e-5)
     lossier = replace(point, low=1.1, high=1.3)  # which today's rubber does not keep
-    limits = admissible(rubber, lossier, factor_per_decade=1e3)
-    assert limits.least_loss_factor(point) == pytest.approx(1.1, rel=1e-6)
+    problem = DesignProblem(friction, replace(free, points=(lossier,)), (point,))
+    assert problem.least_level() == pytest.approx(1.1, rel=1e-5)
+
+
+def test_a_limit_on_the_loss_compliance_is_a_tangent():
+    """No admissible change exceeds it, and one reaches it where its tan(delta) does too."""
+    point = PointLimit("loss_compliance", 0.0, 0.8, temperature=333.15)
+    limits = admissible(SHIFTED_RUBBER, point, largest_factor=3.0)
+    random, today = np.random.default_rng(2), point.value(SHIFTED_RUBBER)
+    values = [
+        point.value(changed(SHIFTED_RUBBER, limits.best(random.standard_normal(11)))) / today
+        for _ in range(40)
+    ]
+    assert max(values) <= 0.8 + 1e-6
+    assert max(values) > 0.77
+    ((row, least),) = limits.point_rows(replace(point, high=1.0))
+    assert row @ np.ones(11) == pytest.approx(least, rel=1e-12)  # today's compound is on it
+    with pytest.raises(InputError, match=r"low of a loss_compliance must be zero; got 0\.5"):
+        PointLimit("loss_compliance", 0.5, 1.0)
+
+
+def test_a_design_keeps_its_rolling_resistance_between_the_points_of_the_band():
+    """At frequencies and temperatures between those that are held, to two per cent."""
+    friction = on(ROUGH, SHIFTED_RUBBER, 1e-3, 3e5)
+    problem = DesignProblem(friction, CompoundLimits(), rolling_band(SHIFTED_RUBBER))
+    optimum = best_change(friction, problem.admissible(1.0), np.ones(11))
+    design = changed(SHIFTED_RUBBER, optimum.ratio)
+    for kelvin in (313.15, 318.15, 328.15, 338.15, 343.15):
+        for hertz in (10.0, 22.0, 50.0):
+            for quantity in ("loss_factor", "loss_compliance"):
+                point = PointLimit(quantity, 0.0, 1.0, hertz, kelvin)
+                assert point.value(design) / point.value(SHIFTED_RUBBER) <= 1.02
 
 
 def test_limits_that_contradict_one_another_are_refused():

@@ -23,10 +23,9 @@ from gripscale.experiment.design import Index, stack, variable_attributes
 from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import BASIS, STATUS
+from gripscale.model import BASIS, STATUS, UPPER_HEIGHT
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
-from gripscale.questions.vary.study import UPPER_HEIGHT
 
 DIRECT = DirectContact.name
 """Name of the model that every answer starts from."""
@@ -92,14 +91,13 @@ def best_estimate(
     samples: xr.Dataset,
     supplied: Sequence[Factor] = (),
     *,
-    upper_height: float | None = None,
     sampled: SampledErrors | None = None,
 ) -> xr.Dataset:
     """Return the best estimate of the solved rungs.
 
-    `upper_height` is that of measured lines (`gripscale.half_space.line_to_map`); None for a map.
-    `sampled` adds what is not known of the inputs to the interval. A `supplied` factor with the
-    name of a known one replaces it.
+    Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
+    adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
+    known one replaces it.
 
     `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty` and the
     relative `_half_width` of their 90 % interval, NaN without a direct contact that converged or
@@ -114,8 +112,8 @@ def best_estimate(
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if has_direct:
         factors["finite_strain"] = _finite_strain(samples, unknown)
-        if upper_height is not None:
-            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(samples, upper_height)
+        if _are_lines(samples):
+            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(samples)
         for factor in supplied:
             factors[factor.name] = factor.label, _numbers_of(factor, unknown)
     labels = [label for label, _ in factors.values()]
@@ -164,14 +162,24 @@ def _certain(sigma: xr.DataArray) -> LogError:
     return LogError(sigma, xr.full_like(sigma, math.inf))
 
 
-def _of_surface(samples: xr.Dataset, upper_height: float) -> FactorNumbers:
+def _are_lines(samples: xr.Dataset) -> bool:
+    """Return whether samples of the direct contact are lines of a surface, not a map."""
+    heights = samples.get("upper_height")
+    return heights is not None and bool(heights.sel(rung=DIRECT).notnull().any())
+
+
+def _of_surface(samples: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
-    lines = reduce.usable(samples.sel(rung=DIRECT, drop=True), "contact_fraction").mean("sample")
+    direct = samples.sel(rung=DIRECT, drop=True)
+    lines, *line = (
+        reduce.usable(direct, name).mean("sample")
+        for name in ("contact_fraction", "upper_height", "relative_load")
+    )
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
     laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio
     numbers = {}
     for name, law in zip(ESTIMATED, laws, strict=True):
-        surface = law(upper_height, lines.values)
+        surface = law(line_to_map.LineUnderLoad(*(number.values for number in line)), lines.values)
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
     return numbers
@@ -252,7 +260,7 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
         at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
         result, or the surface is too short for an interval.
     """
-    if UPPER_HEIGHT not in data:
+    if UPPER_HEIGHT not in data:  # no direct contact
         return data
     data = data.drop_dims("factor", errors="ignore")
     for prefix in ("", "static_"):
@@ -286,8 +294,7 @@ def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
     sample = sample.assign_coords(
         rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
     )
-    height = float(row[UPPER_HEIGHT])
-    best = best_estimate(sample, upper_height=None if math.isnan(height) else height)
+    best = best_estimate(sample)
     kept = best[["factor_label"]]
     for name in ("contact_fraction",) if prefix else ESTIMATED:
         value = best[f"best_{name}"]

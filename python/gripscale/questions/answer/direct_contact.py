@@ -20,7 +20,6 @@ from gripscale.core.units import in_mm
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
-from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.location import trace_variables
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
 from gripscale.model import Load
@@ -150,7 +149,6 @@ def direct_contact_totals(
     best = best_estimate(
         samples.expand_dims(rung=[DIRECT]),
         continuation_factors(case, curve),
-        upper_height=upper_height_of(case.surface),
         sampled=sampled,
     )
     if curve is not None:

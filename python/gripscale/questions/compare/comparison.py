@@ -22,7 +22,6 @@ from gripscale.experiment.design import Design, Point, solve_design, surface_num
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import Store, Task
-from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import input_doubts
 from gripscale.questions.answer import best_estimate as estimates
@@ -324,10 +323,9 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     for name in reduce.SAMPLED_QUANTITIES:
         text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
-    reach = upper_height_of(setups[0].surface)
-    best = estimates.best_estimate(samples, comparison.factors, upper_height=reach)
-    for name, text in zip(estimates.BASIS_SHARES, list(model.BASIS.values())[-2:], strict=True):
-        add(f"best_{name}", best[f"best_{name}"], text)
+    best = estimates.best_estimate(samples, comparison.factors)
+    for name in estimates.BASIS_SHARES:
+        add(f"best_{name}", best[f"best_{name}"], model.BASIS[f"total_{name}"])
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
     for name, text in _WORDS.items():

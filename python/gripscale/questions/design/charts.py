@@ -88,7 +88,7 @@ def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Pa
                        high=ends[1])
             )  # fmt: skip
     return Panel(
-        PlotAxis("change of tan δ when rolling [%]"),
+        PlotAxis("change of rolling resistance [%]"),
         PlotAxis("friction gained [%]", margin=0.1),
         marks,
     )

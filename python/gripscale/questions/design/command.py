@@ -28,9 +28,9 @@ def design_command(
     limit: Annotated[
         list[str] | None,
         option(
-            "Range of E' or tan(delta) over today's, in place of E' at 10 Hz and 20 C within 10 %: "
-            "'storage_modulus, 10 Hz, 20 C, 0.9:1.1' or 'loss_factor, 10 Hz, 0 C, 1:2'. May be "
-            "given several times.",
+            "Range of E', tan(delta) or J'' over today's, in place of E' at 10 Hz and 20 C within "
+            "10 %: 'storage_modulus, 10 Hz, 20 C, 0.9:1.1', 'loss_factor, 10 Hz, 0 C, 1:2' or "
+            "'loss_compliance, 10 Hz, 60 C, 0:1'. May be given several times.",
             metavar="LIMIT",
         ),
     ] = None,
@@ -44,7 +44,7 @@ def design_command(
     levels: Annotated[
         str | None,
         option(
-            "Largest tan(delta) when rolling over today's of each point, such as 0.8,0.9,1,1.1; by "
+            "Largest rolling resistance over today's of each point, such as 0.8,0.9,1,1.1; by "
             "default from the least that is admissible to 1.3."
         ),
     ] = None,
@@ -85,7 +85,7 @@ def design_command(
 
     def print_point(point: xr.Dataset) -> None:
         rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
-        print_wrapped(work.console, f"tan δ when rolling {rolling:+.1%}: friction {gain:+.1%}")
+        print_wrapped(work.console, f"rolling resistance {rolling:+.1%}: friction {gain:+.1%}")
 
     result = design(
         work.case,

@@ -1,7 +1,7 @@
 """Design of a compound: more friction on a measured road for a given rolling resistance.
 
 A point of the trade-off curve is the admissible compound with the most friction
-(`compound_search`) whose tan(delta) at the rolling condition is at most `level` times today's. The
+(`compound_search`) whose rolling resistance (`rolling`) is at most `level` times today's. The
 levels rise, and each is sought from today's compound and from the point before, which it admits
 too: ln mu need not be concave, and the better of the two ends counts. Friction and gain of a point
 are those of contacts solved anew, to the tolerance of a comparison (`compound_gain`). A level
@@ -30,9 +30,16 @@ from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.design.compound_gain import gain, series_derivatives, series_error
 from gripscale.questions.design.compound_limits import changed, require_shift
-from gripscale.questions.design.compound_search import DesignProblem, best_change, nearest_design
+from gripscale.questions.design.compound_search import (
+    LEAST_GAP,
+    ROLLING_LEVEL,
+    DesignProblem,
+    best_change,
+    nearest_design,
+)
 from gripscale.questions.design.design_dataset import of_change, of_compound, variable
 from gripscale.questions.design.goal_friction import GoalFriction
+from gripscale.questions.design.rolling import rolling_ratio
 from gripscale.questions.vary.inputs import identity
 from gripscale.questions.vary.rubber_comparison import at_one_temperature
 from gripscale.rubber import Rubber
@@ -77,17 +84,17 @@ def solved_point(
     contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
     error = series_error(series - reference.series)
     result = gain(friction, reference.contacts, contacts, error)
-    rolling = problem.rolling_ratio(rubber)
-    worth = np.array(list(problem.worth_of_limits(level, best.slope).values()))
+    rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
+    worth = problem.worth_of_limits(level, best.slope)
     low, high = result.interval
     searched, sought = (
         math.expm1(end.log_friction - reference.log_friction) for end in (optimum, best)
     )
     limited = float(admissible.at_bound(optimum.ratio).mean())
     numbers = {
-        "rolling_level": (level, "largest loss factor at the rolling condition over today's"),
-        "rolling_ratio": (rolling, "loss factor at the rolling condition over today's"),
-        "rolling_reached": (rolling > level * (1.0 - 1e-3), "whether the level limits friction"),
+        "rolling_level": (level, "largest rolling resistance over today's"),
+        "rolling_ratio": (rolling, "rolling resistance over today's, the worst of its band"),
+        "rolling_reached": (worth[ROLLING_LEVEL] > LEAST_GAP, "whether the level limits friction"),
         "gain": (math.expm1(result.log_ratio), "relative gain of friction"),
         "gain_low": (low, "lower end of its interval"),
         "gain_high": (high, "upper end of its interval"),
@@ -107,8 +114,8 @@ def solved_point(
     return xr.Dataset(
         {name: variable(*pair) for name, pair in numbers.items()}
         | of_compound(problem, rubber, contacts)
-        | of_change(admissible, optimum.ratio)
-        | {"limit_worth": variable(worth, text, dim="widened")}
+        | of_change(admissible, problem.rolling, optimum.ratio)
+        | {"limit_worth": variable(np.array(list(worth.values())), text, dim="widened")}
     )
 
 
@@ -138,15 +145,16 @@ def other_compounds(
         low, high = result.interval
         rolling = math.nan
         try:
-            require_shift(rubber, problem.rolling.temperature, f"the rolling resistance of {name}")
-            rolling = problem.rolling_ratio(rubber)
+            for point in problem.rolling:
+                require_shift(rubber, point.temperature, f"the rolling resistance of {name}")
+            rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
         except InputError as why:
             notes = (*notes, f"not known: {why}")
         values = {
             "compound_gain": (math.expm1(result.log_ratio), "gain of friction over today's"),
             "compound_gain_low": (low, "lower end of its interval"),
             "compound_gain_high": (high, "upper end of its interval"),
-            "compound_rolling_ratio": (rolling, "loss factor when rolling over today's"),
+            "compound_rolling_ratio": (rolling, "rolling resistance over today's"),
         }
         parts.append(xr.Dataset({name: variable(*pair) for name, pair in values.items()}))
     names = np.array(list(rubbers), dtype=object)
@@ -187,11 +195,11 @@ def stored_points(folder: Path | None, key: str) -> tuple[dict[float, xr.Dataset
 
 def rising_levels(levels: Sequence[float], problem: DesignProblem) -> list[float]:
     """Return the levels that the limits admit, rising: each admits the optimum of the last."""
-    least = problem.admissible().least_loss_factor(problem.rolling)
+    least = problem.least_level()
     reachable = sorted({float(level) for level in levels if level > least})
     if not reachable:
         raise InputError(
-            f"levels must include one above {least:.3g}, the least rolling loss factor over "
+            f"levels must include one above {least:.3g}, the least rolling resistance over "
             f"today's that the limits admit; got {', '.join(f'{level:g}' for level in levels)}"
         )
     return reachable

@@ -36,6 +36,7 @@ from gripscale.half_space.sampling_error import (
     PIECE,
     error_of_residuals,
     friction_residuals,
+    pieces_that_carry,
 )
 from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.questions.answer.intervals import LogError, combined, half_width
@@ -139,9 +140,9 @@ def _sampling(
     """
     shares = _shares(friction, before), _shares(friction, after)
     order = sorted(range(len(before)), key=lambda i: id(friction.parts[i].surface))
-    errors, freedom = [], 0
+    errors, freedom = [], 0.0
     for _, members in groupby(order, key=lambda i: id(friction.parts[i].surface)):
-        residuals = np.zeros(0)
+        residuals, carrying = np.zeros(0), math.inf
         for i in members:
             piece = PIECE * friction.parts[i].largest_wavelength
             low, high = (
@@ -149,11 +150,12 @@ def _sampling(
                 for share, contacts in zip(shares, (before, after), strict=True)
             )
             residuals = residuals + (high - low) if residuals.size else high - low
-        errors.append(error_of_residuals(residuals))
-        freedom += residuals.size - 1
+            carrying = min(carrying, pieces_that_carry(before[i], piece))
+        errors.append(error_of_residuals(residuals, carrying))
+        freedom += carrying - 1.0
     if freedom < FEWEST_PIECES - 1:
         return math.nan, math.nan
-    return math.hypot(*(error for error in errors if math.isfinite(error))), float(freedom)
+    return math.hypot(*(error for error in errors if math.isfinite(error))), freedom
 
 
 def series_derivatives(

@@ -13,6 +13,11 @@ and so all limits are linear in r too, and the admissible changes are a convex p
     low E'_0(w) <= E'(w) <= high E'_0(w)                   storage modulus
     low t_0 E'(w) <= E''(w) <= high t_0 E'(w)              loss factor, t_0 = E''_0/E'_0
     sum r_i E_i,0 <= sum E_i,0                             no stiffer glass than today's
+
+A loss compliance J'' = E''/|E*|^2 of at most c is not linear: E* then lies outside a circle of
+radius 1/2c about i/2c. The tangent where tan(delta) is t keeps it there,
+
+    sin(2 delta) E'(w) - cos(2 delta) E''(w) >= sin(delta)^2/c,    tan(delta) = t = high t_0.
 """
 
 from __future__ import annotations
@@ -35,7 +40,8 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.material import loss_shape, storage_shape
 from gripscale.rubber.shift import EDGE
 
-LIMITED_QUANTITIES = ("storage_modulus", "loss_factor")
+LIMITED_QUANTITIES = ("storage_modulus", "loss_factor", "loss_compliance")
+_SYMBOLS = dict(zip(LIMITED_QUANTITIES, ("E'", "tan δ", "J''"), strict=True))
 HANDLING = ZERO_CELSIUS + 20.0
 """Temperature of the storage modulus that is kept by default [K]."""
 _AT_LIMIT = 1e-4
@@ -47,10 +53,11 @@ class PointLimit(Checked):
 
     Parameters
     ----------
-    quantity : "storage_modulus" or "loss_factor"
-        E' or tan(delta) = E''/E'.
+    quantity : "storage_modulus", "loss_factor" or "loss_compliance"
+        E', tan(delta) = E''/E' or J'' = E''/|E*|^2.
     low, high : float
-        Range over today's value [-]; `low` may be zero and `high` infinite.
+        Range over today's value [-]; `low` may be zero, of a compliance it must, and `high`
+        infinite.
     frequency : float
         Frequency [Hz].
     temperature : float, optional
@@ -70,6 +77,8 @@ class PointLimit(Checked):
         super().__post_init__()
         if not self.low < self.high:
             raise InputError(f"low must be below high; got {self.low:g} and {self.high:g}")
+        if self.quantity == "loss_compliance" and self.low > 0.0:
+            raise InputError(f"low of a loss_compliance must be zero; got {self.low:g}")
 
     @property
     def condition(self) -> str:
@@ -99,15 +108,17 @@ class PointLimit(Checked):
         return modulus_parts(body, np.array(2.0 * math.pi * self.frequency))
 
     def value(self, rubber: Rubber) -> float:
-        """Return E' [Pa] or tan(delta) [-] of a rubber."""
+        """Return E' [Pa], tan(delta) [-] or J'' [1/Pa] of a rubber."""
         body = rubber_at(rubber, self.temperature)
         modulus = complex(body.complex_modulus(2.0 * math.pi * self.frequency))
         if self.quantity == "storage_modulus":
             return modulus.real
-        return modulus.imag / modulus.real
+        return modulus.imag / (
+            modulus.real if self.quantity == "loss_factor" else abs(modulus) ** 2
+        )
 
     def __str__(self) -> str:
-        symbol = "E'" if self.quantity == "storage_modulus" else "tan δ"
+        symbol = _SYMBOLS[self.quantity]
         return f"{symbol} at {self.condition}, {self.low:g} to {self.high:g} times today's"
 
 
@@ -249,12 +260,18 @@ class AdmissibleChanges:
         """Return rows whose product with r is at most a number, for one limit of the moduli."""
         storage, loss = point.modulus_parts(self.rubber)
         storage, loss = storage / storage.sum(), loss / storage.sum()
+        today = float(loss.sum())
         if point.quantity == "storage_modulus":
             low, high = (-storage, -point.low), (storage, point.high)
-        else:
-            today = float(loss.sum())
+        elif point.quantity == "loss_factor":
             low = point.low * today * storage - loss, 0.0
             high = loss - point.high * today * storage, 0.0
+        elif math.isfinite(point.high):
+            angle = math.atan(point.high * today)
+            least = math.sin(angle) ** 2 * (1.0 + today**2) / (point.high * today)
+            return [(math.cos(2.0 * angle) * loss - math.sin(2.0 * angle) * storage, -least)]
+        else:
+            return []
         return [low, high] if math.isfinite(point.high) else [low]
 
     @cached_property
@@ -275,9 +292,14 @@ class AdmissibleChanges:
         excess = [(matrix @ ratio - most).max(), (low - ratio).max(), (ratio - high).max()]
         return max(0.0, *map(float, excess))
 
+    @property
+    def possible(self) -> bool:
+        """Whether any change is admissible."""
+        return self.best(np.zeros(1 + self.rubber.moduli.size)) is not None
+
     def require_some(self) -> None:
         """Raise `InputError` if nothing is admissible."""
-        if self.best(np.zeros(1 + self.rubber.moduli.size)) is None:
+        if not self.possible:
             raise InputError(
                 "the limits must leave an admissible change; got limits on the moduli that "
                 "contradict one another within the largest factors"
@@ -298,20 +320,3 @@ class AdmissibleChanges:
         tight = (self.smooth_rows @ ratio > -_AT_LIMIT).reshape(-1, 2).any(axis=1)
         reached[self.neighbours[0][tight].reshape(-1)] = True
         return np.asarray(reached)
-
-    def least_loss_factor(self, point: PointLimit) -> float:
-        """Return the least ratio of a loss factor to today's [-] that the limits admit.
-
-        E''/E' over a polytope is a linear fraction: its level is moved until no admissible
-        change has a lower one (W. Dinkelbach, Manag. Sci. 13 (1967) 492).
-        """
-        storage, loss = point.modulus_parts(self.rubber)
-        self.require_some()
-        today = level = float(loss.sum() / storage.sum())
-        for _ in range(50):
-            ratio = self.best(level * storage - loss)
-            assert ratio is not None
-            before, level = level, float(loss @ ratio / (storage @ ratio))
-            if abs(level / before - 1.0) < 1e-9:
-                break
-        return level / today

@@ -30,13 +30,13 @@ from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
-from gripscale.core.units import ZERO_CELSIUS
 from gripscale.questions.design.compound_limits import (
     AdmissibleChanges,
     CompoundLimits,
     PointLimit,
 )
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
+from gripscale.questions.design.rolling import rolling_band
 from gripscale.questions.vary.inputs import surface_of
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
@@ -53,10 +53,6 @@ MOST_STEPS = 100
 MOST_HALVINGS = 6
 GIVEN_AWAY = 1e-3
 """Part of ln mu that a design gives away to stay near today's compound."""
-ROLLING = ZERO_CELSIUS + 60.0
-"""Temperature of the loss factor that stands for rolling resistance [K]."""
-FREQUENCY = 10.0
-"""Its frequency [Hz]."""
 LARGEST_FACTOR, PER_DECADE = "largest factor on a modulus", "largest change per decade"
 ROLLING_LEVEL = "rolling resistance"
 """What is limited, beside ranges of moduli."""
@@ -66,6 +62,8 @@ DOWNWARD = 4
 """Levels below today's, down to the least that the limits admit."""
 UPWARD = (1.15, 1.3)
 """Levels above today's."""
+_LEVEL_STEP = 1e-6
+"""Relative width of the interval at which the search for the least level ends."""
 NEAR_LEAST = 1.01
 """Lowest level over the least: at the least itself a single change is left."""
 
@@ -76,8 +74,8 @@ class DesignProblem:
 
     friction: GoalFriction
     limits: CompoundLimits
-    rolling: PointLimit
-    """The loss factor that stands for rolling resistance; its upper end is today's."""
+    rolling: tuple[PointLimit, ...]
+    """What stands for rolling resistance (`rolling`); each upper end is today's."""
     roads: Mapping[str, Surface] = field(default_factory=dict)
     """The roads of the goals by their names."""
 
@@ -87,13 +85,23 @@ class DesignProblem:
         return self.friction.rubber
 
     def admissible(self, level: float = math.inf) -> AdmissibleChanges:
-        """Return the changes with a rolling loss factor of at most `level` times today's."""
-        rolling = replace(self.rolling, high=level)
-        return AdmissibleChanges.of(self.rubber, self.limits, [rolling])
+        """Return the changes with a rolling resistance of at most `level` times today's."""
+        rolling = [replace(point, high=level) for point in self.rolling]
+        return AdmissibleChanges.of(self.rubber, self.limits, rolling)
 
-    def rolling_ratio(self, rubber: Rubber) -> float:
-        """Return tan(delta) of a compound at the rolling condition over today's [-]."""
-        return self.rolling.value(rubber) / self.rolling.value(self.rubber)
+    def least_level(self) -> float:
+        """Return the least rolling resistance over today's [-] that the limits admit.
+
+        The admissible levels are all above it: the interval that holds it is halved.
+        """
+        self.admissible().require_some()
+        low, high = 0.0, 1.0
+        while not self.admissible(high).possible:
+            low, high = high, 2.0 * high
+        while high - low > _LEVEL_STEP * high:
+            level = 0.5 * (low + high)
+            low, high = (low, level) if self.admissible(level).possible else (level, high)
+        return high
 
     def worth_of_limits(self, level: float, slope: Array) -> dict[str, float]:
         """Return what a tenth more room gives in ln mu [-], by what is limited, to first order.
@@ -102,7 +110,8 @@ class DesignProblem:
         both ends, a factor or the level a tenth larger.
         """
         limits, narrow = self.limits, self.admissible(level)
-        *points, rolling = narrow.points
+        count = len(narrow.points) - len(self.rolling)
+        points, rolling = list(narrow.points[:count]), narrow.points[count:]
         larger = replace(limits, largest_factor=WIDER * limits.largest_factor)
         steeper = replace(limits, factor_per_decade=WIDER * limits.factor_per_decade)
         wider = {LARGEST_FACTOR: (larger, points), PER_DECADE: (steeper, points)}
@@ -111,14 +120,14 @@ class DesignProblem:
             wider[str(point)] = (limits, [*points[:i], room, *points[i + 1 :]])
         least = _most(narrow, slope)
         worth = {
-            name: _most(AdmissibleChanges(self.rubber, room, (*ranges, rolling)), slope) - least
+            name: _most(AdmissibleChanges(self.rubber, room, (*ranges, *rolling)), slope) - least
             for name, (room, ranges) in wider.items()
         }
         return worth | {ROLLING_LEVEL: _most(self.admissible(WIDER * level), slope) - least}
 
     def default_levels(self) -> list[float]:
         """Return today's level, some down to the least that is admissible, and some above."""
-        least = NEAR_LEAST * self.admissible().least_loss_factor(self.rolling)
+        least = NEAR_LEAST * self.least_level()
         return [1.0, *np.linspace(1.0, least, DOWNWARD + 1)[1:].tolist(), *UPWARD]
 
 
@@ -259,7 +268,4 @@ def design_problem(
     named = {goal.road: (surfaces or {}).get(goal.road, goal.road) for goal in wanted}
     roads = {name: surface_of(road, case) for name, road in named.items()}
     friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers), case.load.thickness)
-    rolling = PointLimit(
-        "loss_factor", 0.0, 1.0, FREQUENCY, None if rubber.shift is None else ROLLING
-    )
-    return DesignProblem(friction, limits or CompoundLimits(), rolling.within_shift(rubber), roads)
+    return DesignProblem(friction, limits or CompoundLimits(), rolling_band(rubber), roads)

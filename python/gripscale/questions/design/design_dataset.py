@@ -21,15 +21,15 @@ from gripscale.questions.design.compound_limits import (
     modulus_parts,
 )
 from gripscale.questions.design.compound_search import (
-    FREQUENCY,
     LARGEST_FACTOR,
     PER_DECADE,
     ROLLING_LEVEL,
     DesignProblem,
 )
+from gripscale.questions.design.rolling import band_in_words
 from gripscale.rubber import Rubber
 
-WET = PointLimit("loss_factor", 0.0, 1.0, FREQUENCY, ZERO_CELSIUS)
+WET = PointLimit("loss_factor", 0.0, 1.0, 10.0, ZERO_CELSIUS)
 """The loss factor that is the rule of thumb for wet grip."""
 FREQUENCIES_PER_DECADE = 8
 """Frequencies of a stored master curve in a decade."""
@@ -42,10 +42,12 @@ def variable(
     return (dim,) if dim else (), values, variable_attributes(text, unit)
 
 
-def of_change(admissible: AdmissibleChanges, ratio: Array) -> dict[str, Any]:
+def of_change(
+    admissible: AdmissibleChanges, rolling: Sequence[PointLimit], ratio: Array
+) -> dict[str, Any]:
     """Return the change of each modulus, and of what is limited at a point of frequency."""
     today, design = admissible.rubber, changed(admissible.rubber, ratio)
-    points = admissible.points[:-1]  # the last is the rolling condition
+    points = admissible.points[: -len(rolling)]  # the last are those of rolling resistance
     limited = np.array([point.value(design) / point.value(today) for point in points])
     return {
         "modulus_ratio": variable(ratio, "modulus over today's, E_inf first", dim="term"),
@@ -64,7 +66,7 @@ def of_compound(
         problem.friction.averaged([getattr(contact, name) for contact in contacts])
         for name in ("friction_from_dissipation", "friction", "contact_fraction")
     )
-    rolling = problem.rolling.value(rubber)
+    rolling = problem.rolling[0].value(rubber)
     wet = math.nan if rubber.shift is None else WET.within_shift(rubber).value(rubber)
     text = "E_inf, and moduli of the Prony series"
     return {
@@ -74,7 +76,7 @@ def of_compound(
         "modulus": variable(moduli, text, "Pa", "term"),
         "storage": variable(storage, "storage modulus", "Pa", "frequency"),
         "loss": variable(loss, "loss modulus", "Pa", "frequency"),
-        "rolling_loss_factor": variable(rolling, "tan(delta) at the rolling condition"),
+        "rolling_loss_factor": variable(rolling, "tan(delta) at the first rolling condition"),
         "wet_loss_factor": variable(wet, "tan(delta) of the rule for wet grip"),
     }
 
@@ -96,7 +98,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     low, high = zip(*map(_excited, contacts), strict=True)
     times = np.concatenate([[math.inf], rubber.relaxation_times])
     goals = [str(goal) for goal in friction.goals]
-    limits = [str(point) for point in problem.admissible().points[:-1]]
+    limits = [str(point) for point in problem.admissible().points[: -len(problem.rolling)]]
     widened = [LARGEST_FACTOR, PER_DECADE, *limits, ROLLING_LEVEL]
     data |= {
         "excited_low": variable(min(low), "excited from", "Hz"),
@@ -113,7 +115,8 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     about = {
         "title": "Design of a compound: friction against rolling resistance",
         "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
-        "rolling_condition": problem.rolling.condition,
+        "rolling_condition": problem.rolling[0].condition,
+        "rolling_band": band_in_words(problem.rolling),
         "wet_condition": "" if rubber.shift is None else WET.within_shift(rubber).condition,
         "reference_temperature": math.nan if kelvin is None else kelvin,
         "largest_factor": problem.limits.largest_factor,

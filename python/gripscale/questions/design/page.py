@@ -59,8 +59,8 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         yield f"  for {goal}: friction {today:.3f} today, {design:.3f} designed"
     tangent = float(data.today_rolling_loss_factor)
     yield (
-        f"  rolling resistance is tan δ at {data.attrs['rolling_condition']}, "
-        f"{significant(tangent)} today"
+        f"  rolling resistance is tan δ and loss compliance at {data.attrs['rolling_band']}, the "
+        f"worst of them; tan δ is {significant(tangent)} at {data.attrs['rolling_condition']} today"
     )
     yield f"  {_what_changes(data, chosen)}"
     count = round(float(chosen.limited_share) * chosen.sizes["term"])
@@ -147,7 +147,12 @@ def design_table(data: xr.Dataset) -> Table:
 
     columns = [
         Column("rolling_loss_factor", data.rolling_loss_factor.values, "tan δ rolling"),
-        Column("rolling_change", data.rolling_ratio.values - 1.0, "change", format=unsigned_zero),
+        Column(
+            "rolling_change",
+            data.rolling_ratio.values - 1.0,
+            "rolling resistance",
+            format=unsigned_zero,
+        ),
         Column("gain", data.gain.values, "friction gained", format=change),
         Column(
             "gain_interval",
@@ -188,7 +193,7 @@ def designed_compounds_table(data: xr.Dataset) -> Table | None:
             Column(
                 "rolling_change",
                 data.compound_rolling_ratio.values - 1.0,
-                "tan δ rolling, change",
+                "rolling resistance, change",
                 format=change,
             ),
             Column("gain", data.compound_gain.values, "friction gained", format=change),

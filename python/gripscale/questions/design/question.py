@@ -104,9 +104,10 @@ def design(
     limits : CompoundLimits, optional
         How far the compound may be changed.
     levels : sequence of float, optional
-        Largest loss factors at the rolling condition over today's [-]; by default today's, four
-        down to the least that the limits admit, and 1.15 and 1.3. A level below the least is left
-        out, and one that gives no more friction than a lower one.
+        Largest rolling resistances over today's [-]: tan(delta) and loss compliance at 10 and 50 Hz
+        and 40 to 70 C, the worst of them. By default today's, four down to the least that the
+        limits admit, and 1.15 and 1.3. A level below the least is left out, and one that gives no
+        more friction than a lower one.
     rubbers : mapping, optional
         Other compounds by name, to be compared with the curve.
     roads : mapping, optional

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -38,7 +37,6 @@ from gripscale.experiment.design import (
 )
 from gripscale.experiment.solve import Bench, OnTask, Progress, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
-from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
 from gripscale.io import netcdf
 from gripscale.model import BASIS, Model, input_doubts
@@ -113,9 +111,6 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
 
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
 """Inputs that vary the waves of a surface."""
-
-UPPER_HEIGHT = "upper_height"
-"""Name of how far the measured lines reach up, which a best estimate needs."""
 
 STUDY_FILE = "study.nc"
 """The Dataset, in the folder of the study."""
@@ -319,32 +314,24 @@ class Study:
             rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
         if set(BASIS) <= set(result):
-            result = result.assign(self._measured_numbers())
+            result = result.assign(self._common_cut_off())
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
         return result.assign_attrs(self._provenance())
 
-    def _measured_numbers(self) -> dict[str, Any]:
-        """Return what a best estimate needs of the measured surfaces, and their common cut-off."""
-        heights = [upper_height_of(surface) or math.nan for surface in self.surfaces]
-        varied = any(axis.name == "surface" for axis in self.axes)
-        text = "height that 1 % of the measured lines exceed, over the rms height; NaN of a map"
-        numbers: dict[str, Any] = {
-            UPPER_HEIGHT: ("surface", heights, variable_attributes(text))
-            if varied
-            else ((), heights[0], variable_attributes(text))
-        }
+    def _common_cut_off(self) -> dict[str, Any]:
+        """Return the cut-off of all predictions by its name, if they have one."""
         direct = isinstance(self.model, DirectContact)
         cut_offs = {
             resolved_wavelength(surface) if direct else surface.cutoff_wavelength
             for surface in (point.task.surface for point in self.points)
         }
-        if len(cut_offs) == 1:
-            text = "shortest wavelength of the roughness"
-            numbers["cutoff_wavelength"] = ((), cut_offs.pop(), variable_attributes(text, "m"))
-        return numbers
+        if len(cut_offs) > 1:
+            return {}
+        text = "shortest wavelength of the roughness"
+        return {"cutoff_wavelength": ((), cut_offs.pop(), variable_attributes(text, "m"))}
 
     def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
         """Yield the index of each point on the axes, and its label."""

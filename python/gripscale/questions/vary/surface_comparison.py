@@ -41,7 +41,6 @@ from gripscale.experiment.design import (
 )
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task
-from gripscale.half_space.line_to_map import upper_height_of
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import STATUS, STATUS_WORD, Load, Model, input_doubts
 from gripscale.model import TOTALS as OF_ALL
@@ -53,7 +52,6 @@ from gripscale.questions.uncertainty.sources import SOURCES, SourceOptions
 from gripscale.questions.vary import rubber_comparison
 from gripscale.questions.vary.inputs import model_of, reading_notes, surface_of
 from gripscale.questions.vary.side_by_side import Roads
-from gripscale.questions.vary.study import UPPER_HEIGHT
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
 from gripscale.surface.texture import textures
@@ -167,8 +165,7 @@ def _best(surfaces: Mapping[str, Surface], roads: xr.Dataset) -> dict[str, xr.Da
     direct = roads.sel(model=DirectContact.name, drop=True)
     if bool((direct[STATUS] == "").any()):
         return rubber_comparison.ratios_to_first(roads.sel(model=Chain.name, drop=True), "surface")
-    heights = [upper_height_of(surface) or np.nan for surface in surfaces.values()]
-    best = with_best_estimate(direct.assign({UPPER_HEIGHT: ("surface", heights)}))
+    best = with_best_estimate(direct)
     names = [name for name in best if name in POINT_ESTIMATES]
     widths = {}
     for name in rubber_comparison.COMPARED_QUANTITIES:
