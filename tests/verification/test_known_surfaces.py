@@ -1,26 +1,42 @@
-"""An estimate of a surface from two of its lines holds the truth as often as it says."""
+"""An answer from files of two lines of a surface holds the truth as often as it says."""
 
 import pytest
 
-from tests.verification.known_surfaces import ISOTROPIC, SEEDS, bias, covered, judged, table
+from tests.verification.known_surfaces import (
+    UNSEEN,
+    Judged,
+    all_known,
+    bias,
+    by_family,
+    covered,
+    judged,
+    table,
+)
 
 pytestmark = pytest.mark.verification
 
 
-def test_nine_of_ten_intervals_hold_the_truth():
-    """Forty maps of five families, on none of which the law was fitted.
+@pytest.fixture(scope="module")
+def results() -> dict[str, list[Judged]]:
+    """136 surfaces of seventeen families, an hour of one core without the truths kept."""
+    return judged(all_known())
 
-    40 intervals of the area hold the truth and 39 of the friction; no miss is beyond 1.2
-    half-widths. Were they of exactly 90 %, fewer than 33 would hold it in 4 of 100 such tests.
-    Without the law the area is half too large. A minute of one core with the truths kept, four
-    without.
-    """
-    for name, results in judged(list(ISOTROPIC), SEEDS).items():
-        print(name, *table(results), sep="\n")
-        assert len(results) == 40
-        assert 33 <= covered(results) <= 40, name
-        assert max(r.half_widths for r in results) <= 2.0, name
-        for family in ISOTROPIC:
-            mean, width = bias([r for r in results if r.family == family])
-            # one draw of the scatter of the law from family to family, 0.12: the interval holds it
-            assert abs(mean) <= 0.5 * width, (name, family)
+
+@pytest.mark.parametrize("name", ["area", "friction"])
+def test_nine_of_ten_intervals_hold_the_truth(results: dict[str, list[Judged]], name: str) -> None:
+    members = results[name]
+    print(name, *table(members), sep="\n")
+    assert len(members) == 136
+    assert 0.85 * 136 <= covered(members) <= 0.95 * 136
+    assert max(r.half_widths for r in members) <= 2.0
+    unseen = [r for r in members if r.known.family in UNSEEN]
+    assert covered(unseen) >= 0.85 * len(unseen)
+
+
+@pytest.mark.parametrize("name", ["area", "friction"])
+def test_no_family_is_missed(results: dict[str, list[Judged]], name: str) -> None:
+    for family, members in by_family(results[name]).items():
+        assert covered(members) >= 0.75 * len(members), family
+        mean, width = bias(members)
+        # a family that the law misses by its own scatter, 0.13, is no defect
+        assert abs(mean) <= 0.6 * width, family

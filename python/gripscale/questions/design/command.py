@@ -85,7 +85,7 @@ def design_command(
 
     def print_point(point: xr.Dataset) -> None:
         rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
-        print_wrapped(work.console, f"rolling resistance {rolling:+.1%}: friction {gain:+.1%}")
+        print_wrapped(work.console, f"rolling resistance {rolling:+z.1%}: friction {gain:+.1%}")
 
     result = design(
         work.case,
