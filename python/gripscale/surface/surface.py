@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -114,7 +115,7 @@ class Measured:
     @cached_property
     def slopes(self) -> SlopeByWavelength:
         """Rms slope of the measurement down to each wavelength."""
-        return slope_by_wavelength(self._followed_heights)
+        return slope_by_wavelength(self._followed_heights, steepest=math.inf)
 
     @cached_property
     def texture(self) -> xr.Dataset:
