@@ -19,7 +19,7 @@ import json
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -140,14 +140,15 @@ def intermittent(random: np.random.Generator) -> Array:
     return np.asarray(form + envelope * fine)
 
 
-def ridges_along(random: np.random.Generator) -> Array:
-    """Gaussian waves three times as long along the sliding direction as across it."""
-    return sloped(gaussian(random, 0.8, stretch=(3.0, 1.0)), random.uniform(0.3, 0.8))
+def ridged(random: np.random.Generator, ratio: float, way: str) -> Array:
+    """Return Gaussian waves `ratio` times as long along the sliding direction as across, or back.
 
-
-def ridges_across(random: np.random.Generator) -> Array:
-    """Gaussian waves three times as long across the sliding direction as along it."""
-    return sloped(gaussian(random, 0.8, stretch=(1.0, 3.0)), random.uniform(0.5, 1.5))
+    The geometric mean of their largest lengths is `LARGEST`; the slope is that of the steep way.
+    """
+    stretch = (ratio, 1.0) if way == "along" else (1.0, ratio)
+    heights = gaussian(random, 0.8, LARGEST / ratio**0.5, stretch=stretch)
+    steep = random.uniform(0.5, 1.5)
+    return sloped(heights, steep / ratio if way == "along" else steep)
 
 
 Maker = Callable[[np.random.Generator], Array]
@@ -158,7 +159,11 @@ ISOTROPIC: dict[str, Maker] = {
     "plateau": plateau,
     "intermittent": intermittent,
 }
-RIDGED: dict[str, Maker] = {"ridges along": ridges_along, "ridges across": ridges_across}
+RATIOS = (1.5, 2.0, 3.0, 6.0)
+RIDGED: dict[str, Maker] = {
+    f"{ratio:g}:1 {way}": partial(ridged, ratio=ratio, way=way)
+    for ratio, way in product(RATIOS, ("along", "across"))
+}
 
 
 def surface(family: str, seed: int) -> HeightMap:

@@ -121,6 +121,9 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     sampling = float(data[f"best_{name}_sampling_error"])
     if math.isfinite(sampling):
         yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
+    labels = data.factor_label.values
+    if LINES_TO_SURFACE in labels:
+        yield "the step to a surface is that of a road without direction"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
@@ -128,9 +131,6 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
             f"{percent_text(float(below))} of the friction in waves shorter than {limit}, which "
             "were not measured"
         )
-    labels = data.factor_label.values
-    if LINES_TO_SURFACE in labels:
-        yield "a road without direction is assumed; ridges 3:1 change the area up to 1.7 times"
     missing = [
         str(n) for n, v in zip(labels, data[f"best_{name}_factor"], strict=True) if v.isnull()
     ]
