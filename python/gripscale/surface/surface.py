@@ -239,8 +239,9 @@ class Surface:
         of_measurement = () if self.measured is None else self.measured.findings
         if self.correlation is None:
             return of_measurement
+        ridges = [f for f in self.direction if f.severity != Severity.GOOD]
         of_waves = stack_notes(self.sines, self.correlation, self.fit)
-        return (*of_measurement, *self.direction, *of_waves, *self.extrapolated)
+        return (*of_measurement, *ridges, *of_waves, *self.extrapolated)
 
     @cached_property
     def direction(self) -> tuple[Finding, ...]:

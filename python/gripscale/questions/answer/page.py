@@ -18,6 +18,7 @@ from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.charts import named_traces, trace_charts
+from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.findings import no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.cut_off.curve import CONTINUED_TO
@@ -123,7 +124,8 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
     labels = data.factor_label.values
     if LINES_TO_SURFACE in labels:
-        yield "the step to a surface is that of a road without direction"
+        isotropic = str(data.attrs.get(ISOTROPIC, "The step to a surface takes an isotropic road"))
+        yield f"{isotropic[0].lower()}{isotropic[1:].rstrip('.')}"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
