@@ -115,20 +115,22 @@ TREAD = 8e-3
 def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
     """Return what a tread of 8 mm changes in an answer for rubber without end.
 
-    Nothing for a stated thickness, or if the changes are within the sampling error of the answer.
-    The thin rubber is solved on its first full grid: on the shipped road that is right to 1 %.
+    Nothing for a stated thickness, or if the changes are within the sampling error of the answer or
+    that of its grids. The thin rubber is solved on its first full grid: on the shipped road that is
+    right to 1 %.
     """
     if case.load.thickness is not None or not has_answer(totals):
         return []
     design = direct_contact_design(case, replace(case.load, thickness=TREAD), tolerance=None)
     assert design is not None
     thin = solve_design(design, Bench(None), reduce.sample_numbers)
-    changes, counts = {}, False
+    changes, counting = {}, False
     for name in estimated_names(totals):
         means = [reduce.usable(part, ESTIMATED[name]).mean("sample") for part in (thin, samples)]
         changes[name] = float(means[0] / means[1]) - 1.0
-        counts |= not abs(changes[name]) <= float(totals[f"best_{name}_sampling_error"])
-    if not counts or not all(map(math.isfinite, changes.values())):
+        sampling = float(totals[f"best_{name}_sampling_error"])
+        counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
+    if not counting or not all(map(math.isfinite, changes.values())):
         return []
     text = (
         f"With a tread of 8 mm on a rigid base in place of rubber without end {in_words(changes)}."
