@@ -115,13 +115,12 @@ def _rises_faster(z: Array, rises: list[float], periodic: bool) -> bool:
 def followed(surface: _Heights, steepest: float = STEEPEST, *, periodic: bool = False) -> _Heights:
     """Return a profile or map without flanks above a slope [-]; gaps stay, infinity keeps all."""
     steps = surface.step if isinstance(surface, HeightMap) else (surface.step,)
-    z = fill_gaps(surface.z, steps, periodic=periodic)
-    whole = upper_envelope(
-        z, steps, checks.positive("steepest", steepest, infinite=True), periodic=periodic
-    )
-    if whole is z:
-        return surface
-    return replace(surface, z=np.where(np.isnan(surface.z), np.nan, whole))
+    slope = checks.positive("steepest", steepest, infinite=True)
+    # only measured heights raise others: filling twice changes nothing
+    missing = np.isnan(surface.z)
+    whole = np.where(missing, np.nanmin(surface.z), surface.z)
+    z = np.where(missing, np.nan, upper_envelope(whole, steps, slope, periodic=periodic))
+    return surface if np.array_equal(z, surface.z, equal_nan=True) else replace(surface, z=z)
 
 
 def followed_lines(
