@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gripscale.core import checks
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import in_mm
 from gripscale.core.wording import CaseKey, Words
@@ -125,13 +126,15 @@ class _SlopeRatio(NamedTuple):
 
     @classmethod
     def over(cls, lag: float, along: Sequence[Profile], across: Sequence[Profile]) -> _SlopeRatio:
-        """Return the ratio at the lags nearest to one [m]."""
+        """Return the ratio at a lag [m], or at the shortest one that all profiles have."""
+        curves = [height_difference(list(lines)) for lines in (along, across)]
+        lag = max(lag, *(float(curve.lag[0]) for curve in curves))
         logs, widths = [], []
-        for lines in (along, across):
-            curve = height_difference(list(lines))
-            at = int(np.argmin(np.abs(np.log(curve.lag / lag))))
-            logs.append(0.5 * math.log(curve.value[at] / curve.lag[at] ** 2))
-            half = 0.5 * math.log(curve.upper[at] / curve.value[at])
+        for curve in curves:
+            value = np.maximum(curve.value, checks.LEAST)
+            at, lags = math.log(lag), np.log(curve.lag)
+            logs.append(0.5 * float(np.interp(at, lags, np.log(value))))
+            half = 0.5 * float(np.interp(at, lags, np.log(curve.upper / value)))
             widths.append(half if math.isfinite(half) else _WIDEST)
         return cls(lag, math.exp(logs[0] - logs[1]), math.hypot(*widths))
 
@@ -144,8 +147,8 @@ class _SlopeRatio(NamedTuple):
     def __str__(self) -> str:
         low, high = self.ends
         return (
-            f"the rms slope over {in_mm(self.lag, 2)} along sliding is {self.value:.2f} "
-            f"({low:.2f} to {high:.2f}) times that across"
+            f"the rms slope over {in_mm(self.lag, 2)} along sliding is {self.value:.3g} "
+            f"({low:.3g} to {high:.3g}) times that across"
         )
 
 
