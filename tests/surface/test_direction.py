@@ -24,9 +24,12 @@ LAGS = 0.5 * SMALLEST, 0.25 * LARGEST
 
 
 def finding(family: str, seed: int, share: float = 1.0) -> Finding:
-    """Return what two lines along and two across a known surface tell, or a share of each."""
+    """Return what two lines along and eight short ones across tell, or a share of each."""
     whole = surface(family, seed)
-    along, across = two_lines(whole, seed), [whole.line(number, "y") for number in (100, 900)]
+    along, across = (
+        two_lines(whole, seed),
+        [whole.line(number, "y") for number in range(100, 2000, 256)],
+    )
     cut = [
         [gs.Profile(p.x[: int(share * len(p))], p.z[: int(share * len(p))]) for p in lines]
         for lines in (along, across)
@@ -56,7 +59,7 @@ def test_two_profiles_across_each_other_decide(family: str, starts: str, area: f
 
 
 def test_profiles_that_are_too_short_decide_nothing():
-    told = finding("stones", 0, share=0.5)
+    told = finding("stones", 0, share=0.2)
     assert told.sentence.startswith("The profiles are too short to show ridges")
     assert told.effect > 0.1
 
