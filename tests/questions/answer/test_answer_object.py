@@ -137,6 +137,7 @@ def test_rubber_without_end_is_compared_with_a_tread(answer: gs.Answer, tmp_path
 def test_a_tread_within_the_sampling_error_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a tread of a metre nothing is said: the layer is a half-space."""
     monkeypatch.setattr(direct_contact, "TREAD", 1.0)
+    monkeypatch.setattr(direct_contact, "FELT", 0.0)
     assert tread_of(gs.answer(made())) == []
 
 
