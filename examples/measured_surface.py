@@ -21,8 +21,7 @@ def main(folder: str = "results/examples", file: str = "") -> None:
     target = Path(folder)
     target.mkdir(parents=True, exist_ok=True)
     raw = gs.read_profile(file or ROAD)
-    # the rule of ISO 13473-1: a correlation of raw heights must not hold the edges of stones
-    cleaned, report = gs.clean(raw, crop=None if file else PLATES, spikes="iso13473")
+    cleaned, report = gs.clean(raw, crop=None if file else PLATES)
     print(report)
     curve = gs.height_difference(cleaned)
     affine = gs.fit_self_affine(curve)

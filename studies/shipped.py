@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import gripscale as gs
-from gripscale.surface.low_pass import followed
 
 DATA = Path(__file__).resolve().parents[1] / "examples" / "data"
 PLATES = (0.12, 1.78)
@@ -13,9 +12,9 @@ PLATES = (0.12, 1.78)
 
 
 def road(station: int) -> gs.Profile:
-    """Return a station of the road, cleaned, without flanks that rubber cannot follow."""
+    """Return a station of the road, cleaned."""
     name = f"20211011_aylesbury_dec_station_{station}.dat"
-    return followed(gs.clean(gs.read_profile(DATA / "road" / name), crop=PLATES)[0])
+    return gs.clean(gs.read_profile(DATA / "road" / name), crop=PLATES)[0]
 
 
 def tread() -> gs.Rubber:

@@ -13,6 +13,7 @@ import gripscale as gs
 from gripscale.half_space import random_phases
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import self_affine_profile
+from gripscale.surface.low_pass import followed
 from studies.shipped import road, tread
 
 
@@ -25,7 +26,8 @@ class Studied(NamedTuple):
 
 def surfaces() -> dict[str, Studied]:
     """Return the surfaces by name."""
-    stations = [road(number) for number in (0, 1)]
+    # what rubber meets is turned upside down and worn
+    stations = [followed(road(number)) for number in (0, 1)]
     drawn = [random_phases(station, seed) for station, seed in zip(stations, (1, 2), strict=True)]
     smooth = {
         "self-affine, H = 0.7": ("self-affine 0.7", (0.7, 3e-3, 0.6e-3, 1.2, 50e-6, 11)),

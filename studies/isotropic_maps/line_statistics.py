@@ -36,6 +36,7 @@ from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
+from gripscale.surface.low_pass import followed_lines
 from gripscale.surface.profile import Profile
 from gripscale.surface.resampling import fill_gaps
 
@@ -197,8 +198,8 @@ class MeasuredLine:
 def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredLine]:
     """Return profiles as one period each, without waves longer than a map of period `length` [m].
 
-    Gaps are filled and ends joined as in the direct contact. Raises `InputError` if they are too
-    short for the map.
+    Steep flanks and gaps are filled and ends joined as in the direct contact. Raises `InputError`
+    if they are too short for the map.
     """
     total = sum(profile.length for profile in profiles)
     if total < FEWEST_PERIODS * length:
@@ -207,7 +208,7 @@ def periodic_lines(profiles: Sequence[Profile], length: float) -> list[MeasuredL
             f"{FEWEST_PERIODS * length:.4g} m; got {total:.4g} m"
         )
     lines = []
-    for profile in profiles:
+    for profile in followed_lines(profiles):
         z = fill_gaps(profile.z)
         z = z - np.linspace(z[0], z[-1], z.size)
         waves = np.fft.rfft(z)

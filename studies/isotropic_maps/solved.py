@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.half_space import solve_windows, windows
 from gripscale.surface import HeightMap
+from gripscale.surface.low_pass import followed
 from studies.isotropic_maps.line_statistics import periodic_lines
 from studies.isotropic_maps.map_factor import solve_map_and_lines
 from studies.isotropic_maps.setting import AREA, FRICTION, LENGTH, LOAD, SMALLEST, TOLERANCE
@@ -65,7 +66,7 @@ def statistics(lines: Lines, step: float) -> Numbers:
 
 def of_lines(rubber: gs.Rubber, station: int) -> OfLines:
     """Return contacts and statistics of the windows of a station."""
-    profile = road(station)
+    profile = followed(road(station))
     contacts = solve_windows(rubber, profile, LENGTH, tolerance=TOLERANCE, **LOAD)
     joined = []
     for window in windows(profile, LENGTH):

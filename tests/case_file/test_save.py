@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +66,7 @@ def assert_same(case: gs.Case, other: gs.Case) -> None:
 SURFACES = {
     "profile": line(),
     "profiles": [line(1), line(2)],
+    "across": [line(1), replace(line(2), lay="across")],
     "map": height_map(),
     "sines": SINES,
 }

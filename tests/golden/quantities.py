@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.questions import Study
-from gripscale.surface.low_pass import followed
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "examples" / "data"
@@ -70,12 +69,10 @@ def all_numbers(folder: Path) -> Numbers:
 def _inputs() -> tuple[gs.SineStack, gs.Rubber]:
     road = DATA / "road"
     profiles = [
-        followed(
-            gs.clean(
-                gs.read_profile(road / f"20211011_aylesbury_dec_station_{station}.dat"),
-                crop=(0.12, 1.78),
-            )[0]
-        )
+        gs.clean(
+            gs.read_profile(road / f"20211011_aylesbury_dec_station_{station}.dat"),
+            crop=(0.12, 1.78),
+        )[0]
         for station in (0, 1)
     ]
     sines = gs.fit_sines(gs.height_difference(profiles), scales=8, smallest_wavelength=1e-4)

@@ -89,11 +89,11 @@ def test_a_filter_on_a_map_is_that_on_its_lines(angle):
 
 def test_filters_are_derivatives_of_a_bell():
     x, k = 1e-4 * np.arange(8192), 2 * np.pi * 40 / 0.8192
-    line = periodic_lines([Profile(x, np.cos(k * x))], 0.1)[0]
+    line = periodic_lines([Profile(x, 1e-3 * np.cos(k * x))], 0.1)[0]
     for order in (BELL, SLOPE, CURVATURE):
         width = 1e-3
         rms = scaled([Term(order, width)], [line]).scale
-        expected = (k * width) ** order * np.exp(-0.5 * (k * width) ** 2) * np.sqrt(0.5)
+        expected = 1e-3 * (k * width) ** order * np.exp(-0.5 * (k * width) ** 2) * np.sqrt(0.5)
         # the straight line through the ends of the cosine, one step short of its period
         assert rms == pytest.approx(expected, rel=1e-3)
 

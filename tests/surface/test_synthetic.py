@@ -12,8 +12,8 @@ STACK = geometric_stack(1e-2, 1e-3, 3.0, 2.0, 2)
 @pytest.mark.parametrize("hurst", [0.4, 0.8, 1.0])
 def test_self_affine_profiles_have_the_curve_they_promise(hurst):
     curves = [
-        height_difference(self_affine_profile(hurst, 2e-3, 1e-3, 0.8, 5e-5, seed), max_lag=0.02)
-        for seed in range(12)
+        height_difference(line, max_lag=0.02, steepest=np.inf)
+        for line in (self_affine_profile(hurst, 2e-3, 1e-3, 0.8, 5e-5, seed) for seed in range(12))
     ]
     mean = np.mean([curve.value for curve in curves], axis=0)
     promised = 1e-6 * (1.0 - np.exp(-((curves[0].lag / 2e-3) ** (2.0 * hurst))))

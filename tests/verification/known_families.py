@@ -1,4 +1,4 @@
-"""Nine families of isotropic surfaces that no law was fitted to, and two with ridges.
+"""Nine families of isotropic surfaces that no law was fitted to, and eight with ridges.
 
 A seed draws the numbers of a surface from the ranges in its function. Waves go down to two steps.
 Vertical sides of stones and pores are `EDGE` wide, so that the heights resolve them.
@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable
+from functools import partial
+from itertools import product
 
 import numpy as np
 import scipy.fft
@@ -152,14 +154,15 @@ def rounded(heights: Array, width: float = EDGE) -> Array:
     return np.asarray(scipy.ndimage.gaussian_filter(heights, width / STEP, mode="wrap"))
 
 
-def ridges_along(random: np.random.Generator) -> Array:
-    """Gaussian waves three times as long along the sliding direction as across it."""
-    return sloped(gaussian(random, 0.8, stretch=(3.0, 1.0)), random.uniform(0.3, 0.8))
+def ridged(random: np.random.Generator, ratio: float, way: str) -> Array:
+    """Gaussian waves `ratio` times as long along the sliding direction as across, or back.
 
-
-def ridges_across(random: np.random.Generator) -> Array:
-    """Gaussian waves three times as long across the sliding direction as along it."""
-    return sloped(gaussian(random, 0.8, stretch=(1.0, 3.0)), random.uniform(0.5, 1.5))
+    The geometric mean of their largest lengths is `LARGEST`; the slope is that of the steep way.
+    """
+    stretch = (ratio, 1.0) if way == "along" else (1.0, ratio)
+    heights = gaussian(random, 0.8, LARGEST / ratio**0.5, stretch=stretch)
+    steep = random.uniform(0.5, 1.5)
+    return sloped(heights, steep / ratio if way == "along" else steep)
 
 
 FAMILIES: dict[str, Callable[[np.random.Generator], Array]] = {
@@ -173,7 +176,11 @@ FAMILIES: dict[str, Callable[[np.random.Generator], Array]] = {
     "patchwork": patchwork,
     "two scales": two_scale,
 }
-RIDGED = {"ridges along": ridges_along, "ridges across": ridges_across}
+RATIOS = (1.5, 2.0, 3.0, 6.0)
+RIDGED = {
+    f"{ratio:g}:1 {way}": partial(ridged, ratio=ratio, way=way)
+    for ratio, way in product(RATIOS, ("along", "across"))
+}
 
 
 def surface(family: str, seed: int) -> HeightMap:

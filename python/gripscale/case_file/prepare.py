@@ -150,7 +150,11 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     paths = [resolve(name) for name in surface.measured_files]
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
-        lines = [surfaces.read_profile(path, **options) for path in paths]
+        lays = surface.lay or ["along"] * len(paths)
+        lines = [
+            replace(surfaces.read_profile(path, **options), lay=lay)
+            for path, lay in zip(paths, lays, strict=True)
+        ]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]
@@ -178,7 +182,7 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
             cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
-    return surfaces.Measured(profiles, reports, None, "")
+    return surfaces.Measured.of_pairs(profiles, reports)
 
 
 OF_SWEEPS = ("temperature_step", "vertical")

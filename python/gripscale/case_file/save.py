@@ -183,7 +183,9 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
         keys["map"] = inputs.add_heights(measured.map.name or "map", measured.map)
     else:
         # heights that a question may clean otherwise are kept as they were before
-        lines = [raw for raw, _ in measured.profiles] if case.cleaning else measured.cleaned
+        read = [*measured.profiles, *measured.across]
+        lines = [raw if case.cleaning else cleaned for raw, cleaned in read]
+        keys["lay"] = [line.lay for line in lines] if measured.across else None
         reliable = {line.reliable for line in lines}
         keys["files"] = [inputs.add_heights(line.name or "profile", line) for line in lines]
     if len(reliable) > 1:

@@ -86,6 +86,9 @@ class SourceKeys(CaseTable):
 
     files: list[str] | None = Field(default=None, min_length=1)
     """Measured profiles of one road; several are pooled."""
+    lay: list[Literal["along", "across"]] | None = Field(default=None, min_length=1)
+    """How each of files lies to the sliding direction; along by default. Profiles across it show
+    whether the road has ridges, and no more."""
     map: str | None = None
     """A measured map, in place of files."""
     sines: list[WaveTable] | None = Field(default=None, min_length=1)
@@ -222,6 +225,8 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
                 "expected scales (number of waves), smallest_wavelength or cut_off (where they "
                 "end), or both"
             )
+        if self.lay is not None and len(self.lay) != len(self.files or ()):
+            raise ValueError(f"expected lay for each of files, {len(self.files or ())}")
         foreign, owner = (
             (("crop_across", "trim", "form"), "map")
             if self.map is None

@@ -41,6 +41,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm, parse_quantity
+from gripscale.surface.low_pass import STEEPEST, followed
 from gripscale.surface.profile import RESOLVED_STEPS, HeightMap, Profile
 from gripscale.surface.spectrum import (
     ArealSpectrum,
@@ -212,7 +213,9 @@ class SlopeByWavelength:
         return spectrum.rms_gradient(length if number < spectrum.wavenumber[-1] else None)
 
 
-def slope_by_wavelength(surface: Profile | Sequence[Profile] | HeightMap) -> SlopeByWavelength:
+def slope_by_wavelength(
+    surface: Profile | Sequence[Profile] | HeightMap, *, steepest: float = STEEPEST
+) -> SlopeByWavelength:
     """Return the rms slope of a measured surface down to each wavelength.
 
     They reach down to four steps of the measurement, or to the shortest wavelength that the
@@ -225,15 +228,19 @@ def slope_by_wavelength(surface: Profile | Sequence[Profile] | HeightMap) -> Slo
         As cleaned. Several profiles must have the same step (within 0.1 %). Missing heights are
         interpolated. Profiles are taken as lines on an isotropic surface; of a map the gradient is
         measured, and its lines along x are the profiles.
+    steepest : float, optional
+        Flanks above this slope [-] are filled first, since rubber does not follow them; infinity
+        keeps them.
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step
+        heights, kept = followed(surface, steepest), math.inf
         # many lines need no windows: the waves longer than a window have their slope, too
-        line = profile_spectrum(surface.lines(), window=x_step * surface.x.size)
-        areal = map_spectrum(surface.z, x_step=x_step, y_step=y_step)
+        line = profile_spectrum(heights, window=x_step * surface.x.size, steepest=kept)
+        areal = map_spectrum(heights.z, x_step=x_step, y_step=y_step, steepest=kept)
         limit = max(RESOLVED_STEPS * max(surface.step), surface.reliable or 0.0)
         return SlopeByWavelength(line, areal, limit, isotropic=False)
-    line = profile_spectrum(surface)
+    line = profile_spectrum(surface, steepest=steepest)
     profiles = [surface] if isinstance(surface, Profile) else surface
     isotropic: ArealSpectrum | None
     try:

@@ -36,7 +36,8 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.surface.profile import Profile, of_one_step
+from gripscale.surface.low_pass import STEEPEST, followed_lines
+from gripscale.surface.profile import HeightMap, Profile, of_one_step
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -111,12 +112,13 @@ class HeightDifference(Checked, eq=False):
 
 
 def height_difference(
-    profile: Profile | Sequence[Profile],
+    profile: Profile | Sequence[Profile] | HeightMap,
     *,
     top_height_fraction: float = 1.0,
     max_lag: float | None = None,
     lags_per_decade: int = 20,
     band_blocks: int = 16,
+    steepest: float = STEEPEST,
 ) -> HeightDifference:
     """Return the height difference correlation of one profile, or of several pooled.
 
@@ -140,8 +142,9 @@ def height_difference(
 
     Parameters
     ----------
-    profile : Profile or sequence of Profile
-        Cleaned profiles. Several must have the same step (within 0.1 %); their pairs are pooled.
+    profile : Profile, sequence of Profile or HeightMap
+        Cleaned profiles, or a map for its lines along x. Several must have the same step (within
+        0.1 %); their pairs are pooled.
     top_height_fraction : float, optional
         Share of each profile's heights that counts, from the highest down: 0.5 leaves out pairs
         with a point below the median height.
@@ -151,6 +154,9 @@ def height_difference(
         Lags per decade, where the step allows as many.
     band_blocks : int, optional
         Blocks in all for the confidence band.
+    steepest : float, optional
+        Flanks above this slope [-] are filled first, since rubber does not follow them; infinity
+        keeps them.
     """
     blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     sums = block_sums(
@@ -159,6 +165,7 @@ def height_difference(
         top_height_fraction=top_height_fraction,
         max_lag=max_lag,
         lags_per_decade=lags_per_decade,
+        steepest=steepest,
     )
     total, pairs = sums.squares.sum(axis=0), sums.pairs.sum(axis=0)
     value = total / pairs
@@ -214,15 +221,16 @@ class BlockSums:
 
 
 def block_sums(
-    profile: Profile | Sequence[Profile],
+    profile: Profile | Sequence[Profile] | HeightMap,
     blocks: int,
     *,
     top_height_fraction: float = 1.0,
     max_lag: float | None = None,
     lags_per_decade: int = 20,
+    steepest: float = STEEPEST,
 ) -> BlockSums:
     """Return the sums behind C_z, block by block; arguments and errors as `height_difference`."""
-    profiles = of_one_step(profile, "pooled")
+    profiles = of_one_step(followed_lines(profile, steepest), "pooled")
     per_decade = checks.whole("lags_per_decade", lags_per_decade, least=1, most=1000)
     step = float(np.mean([p.step for p in profiles]))
     shortest = min(p.length for p in profiles)

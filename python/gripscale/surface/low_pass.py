@@ -1,6 +1,7 @@
 """The roughness that rubber meets: flanks it cannot follow, and the Gaussian cut-off.
 
-All models of measured heights take them in this order.
+All models of measured heights take them in this order, and so do correlation, spectra and slopes
+of measured lines and maps. Texture by standards takes the heights as they are.
 
 The envelope of the heights z without slopes above s is the smallest surface above them that rubber
 can follow (E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837,
@@ -26,6 +27,7 @@ edges rounded by 50 um in place of a cut (`tests/half_space/test_steps.py`).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -34,7 +36,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
+from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, profile_list
 from gripscale.surface.resampling import fill_gaps
 
 STEEPEST = 4.0
@@ -73,6 +75,8 @@ def upper_envelope(
     if math.isinf(steepest):
         return z
     rises = [steepest * step for step in steps]
+    if not _rises_faster(z, rises, periodic):
+        return z
     # beyond this number of points a height raises no other
     margin = [0] * z.ndim
     if periodic:
@@ -98,11 +102,40 @@ def upper_envelope(
     return np.where(inside - z > _ROUNDING * np.ptp(z), inside, z)
 
 
-def followed(surface: _Heights) -> _Heights:
-    """Return a profile or map without the flanks that rubber cannot follow; gaps stay."""
+def _rises_faster(z: Array, rises: list[float], periodic: bool) -> bool:
+    """Return whether neighbours differ by more than the `rises` along the axes, or a diagonal."""
+    wide = np.pad(z, [(0, 1)] * z.ndim, mode="wrap") if periodic else z
+    most = [np.abs(np.diff(wide, axis=axis)).max() - rise for axis, rise in enumerate(rises)]
+    if z.ndim > 1:
+        diagonals = wide[1:, 1:] - wide[:-1, :-1], wide[1:, :-1] - wide[:-1, 1:]
+        most += [np.abs(each).max() - math.hypot(*rises) for each in diagonals]
+    return bool(max(most) > _ROUNDING * np.ptp(z))
+
+
+def followed(surface: _Heights, steepest: float = STEEPEST, *, periodic: bool = False) -> _Heights:
+    """Return a profile or map without flanks above a slope [-]; gaps stay, infinity keeps all."""
     steps = surface.step if isinstance(surface, HeightMap) else (surface.step,)
-    whole = upper_envelope(fill_gaps(surface.z, steps), steps, periodic=False)
-    return replace(surface, z=np.where(np.isnan(surface.z), np.nan, whole))
+    slope = checks.positive("steepest", steepest, infinite=True)
+    # only measured heights raise others: filling twice changes nothing
+    missing = np.isnan(surface.z)
+    whole = np.where(missing, np.nanmin(surface.z), surface.z)
+    z = np.where(missing, np.nan, upper_envelope(whole, steps, slope, periodic=periodic))
+    return surface if np.array_equal(z, surface.z, equal_nan=True) else replace(surface, z=z)
+
+
+def followed_lines(
+    surface: Profile | Sequence[Profile] | HeightMap,
+    steepest: float = STEEPEST,
+    *,
+    periodic: bool = False,
+) -> list[Profile]:
+    """Return profiles, or the lines of a map along x, without flanks above a slope [-].
+
+    Raises `InputError` if it is neither.
+    """
+    if isinstance(surface, HeightMap):
+        return followed(surface, steepest, periodic=periodic).lines()
+    return [followed(line, steepest, periodic=periodic) for line in profile_list(surface)]
 
 
 def one_period(

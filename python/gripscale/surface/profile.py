@@ -123,6 +123,9 @@ RESOLVED_STEPS = 4.0
 """Steps in the shortest wavelength that sampling resolves: with fewer, the slope of a sine is a
 tenth too small, sin(pi/n)/(pi/n) with n steps in a wavelength."""
 
+LAYS = ("along", "across")
+"""How a profile may lie to the sliding direction."""
+
 TURNED_ROUND = "distances fell from row to row: the rows were turned round"
 """Note of a profile whose rows were reversed."""
 
@@ -165,6 +168,8 @@ class Profile(Checked, eq=False):
         Changes made by reading, such as rows added where some were left out.
     doubts : tuple of Finding, optional
         Why the file may mean other heights, such as a title that says depth.
+    lay : {"along", "across"}, optional
+        Whether it lies along the sliding direction, or across it to show ridges.
     """
 
     x: Array = checked(checks.vector, unit="m")
@@ -174,6 +179,7 @@ class Profile(Checked, eq=False):
     reliable: float | None = checked(checks.positive, unit="m", default=None)
     notes: tuple[str, ...] = checked(_texts, default=())
     doubts: tuple[Finding, ...] = checked(_findings, default=())
+    lay: str = checked(checks.one_of, choices=LAYS, default="along")
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -44,7 +44,8 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.surface.profile import FEWEST_POINTS, Profile, of_one_step
+from gripscale.surface.low_pass import STEEPEST, followed_lines, upper_envelope
+from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, of_one_step
 from gripscale.surface.resampling import fill_gaps, without_line
 
 _PER_DECADE = 10
@@ -187,7 +188,11 @@ _WINDOWS = 4
 
 
 def profile_spectrum(
-    profile: Profile | Sequence[Profile], *, window: float | None = None, taper: str = "hann"
+    profile: Profile | Sequence[Profile] | HeightMap,
+    *,
+    window: float | None = None,
+    taper: str = "hann",
+    steepest: float = STEEPEST,
 ) -> ProfileSpectrum:
     """Return the one-sided power spectrum of one profile, or the mean over several.
 
@@ -199,9 +204,9 @@ def profile_spectrum(
 
     Parameters
     ----------
-    profile : Profile or sequence of Profile
-        Cleaned profiles; several must have the same step (within 0.1 %). Missing heights are
-        interpolated linearly, and their share is reported.
+    profile : Profile, sequence of Profile or HeightMap
+        Cleaned profiles, or a map for its lines along x; several must have the same step (within
+        0.1 %). Missing heights are interpolated linearly, and their share is reported.
     window : float, optional
         Length of the windows and so of the longest wave [m]; by default a quarter of the shortest
         profile, or all of it without a taper.
@@ -209,12 +214,15 @@ def profile_spectrum(
         "hann" for a measured line, whose ends do not meet: without it their jump would be spread
         over all small waves; a straight line is taken out of each window. "none" for a line that is
         a whole number of periods: only the mean is taken out.
+    steepest : float
+        Flanks above this slope [-] are filled first, since rubber does not follow them; infinity
+        keeps them.
     """
-    profiles = of_one_step(profile, "averaged")
+    periodic = checks.one_of("taper", taper, _TAPERS) == "none"
+    profiles = of_one_step(followed_lines(profile, steepest, periodic=periodic), "averaged")
     step = profiles[0].step
-    checks.one_of("taper", taper, _TAPERS)
     shortest = min(len(p) for p in profiles)
-    parts = _WINDOWS if taper == "hann" else 1
+    parts = 1 if periodic else _WINDOWS
     points = max(shortest // parts, FEWEST_POINTS)
     if window is not None:
         points = round(checks.positive("window", window, unit="m") / step)
@@ -223,7 +231,7 @@ def profile_spectrum(
                 f"window must be from {FEWEST_POINTS * step:g} m to {shortest * step:g} m long; "
                 f"got {window:g}"
             )
-    heights = [fill_gaps(p.z, periodic=taper == "none") for p in profiles]
+    heights = [fill_gaps(p.z, periodic=periodic) for p in profiles]
     weights = np.hanning(points + 1)[:-1] if taper == "hann" else np.ones(points)
     powers = []
     for z in heights:
@@ -248,6 +256,7 @@ def map_spectrum(
     y_step: float,
     taper: str = "hann",
     per_decade: int = _PER_DECADE,
+    steepest: float = STEEPEST,
 ) -> ArealSpectrum:
     """Return the power spectrum of a height map, mean over directions.
 
@@ -267,6 +276,8 @@ def map_spectrum(
         a map that is one period of its surface: only the mean is taken out.
     per_decade : int
         Points a decade of wavenumber, where there are enough rings.
+    steepest : float
+        As in `profile_spectrum`.
     """
     steps = checks.positive("x_step", x_step, unit="m"), checks.positive("y_step", y_step, unit="m")
     expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
@@ -278,8 +289,10 @@ def map_spectrum(
     if np.isnan(heights).all():
         raise InputError(f"z must have some heights; got {heights.size} points, all missing")
     each = checks.whole("per_decade", per_decade, least=1, most=1000)
-    checks.one_of("taper", taper, _TAPERS)
-    whole = fill_gaps(heights, steps, periodic=taper == "none")
+    periodic = checks.one_of("taper", taper, _TAPERS) == "none"
+    slope = checks.positive("steepest", steepest, infinite=True)
+    whole = fill_gaps(heights, steps, periodic=periodic)
+    whole = upper_envelope(whole, steps, slope, periodic=periodic)
     whole = whole - whole.mean()
     windows = [np.ones(n) for n in whole.shape]
     if taper == "hann":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -19,6 +20,7 @@ from gripscale.surface.cut_off import (
     find_cut_off,
     slope_by_wavelength,
 )
+from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.low_pass import followed
 from gripscale.surface.plausibility import (
@@ -49,13 +51,27 @@ class Measured:
     """Why there is no self-affine fit, or empty."""
     map: HeightMap | None = None
     """The map, x along the way of sliding, or None for profiles."""
+    across: list[tuple[Profile, Profile]] = field(default_factory=list)
+    """Profiles across the way of sliding as read and cleaned: they show ridges, and no more."""
 
     @classmethod
     def of(cls, measured: Sequence[Profile] | HeightMap) -> Measured:
         """Return profiles or a map as they are, neither cleaned nor fitted."""
         if isinstance(measured, HeightMap):
             return cls([], [], None, "", measured)
-        return cls([(line, line) for line in measured], [], None, "")
+        return cls.of_pairs([(line, line) for line in measured])
+
+    @classmethod
+    def of_pairs(
+        cls, pairs: Sequence[tuple[Profile, Profile]], cleaning: Sequence[CleaningReport] = ()
+    ) -> Measured:
+        """Return profiles as read and cleaned; `InputError` if all lie across sliding."""
+        along = [at for at, (line, _) in enumerate(pairs) if line.lay == "along"]
+        if not along:
+            raise InputError("surface must have a profile along sliding; got all of them across it")
+        across = [pair for pair in pairs if pair[0].lay == "across"]
+        reports = [cleaning[at] for at in along] if cleaning else []
+        return cls([pairs[at] for at in along], reports, None, "", across=across)
 
     @classmethod
     def of_map(
@@ -77,9 +93,8 @@ class Measured:
 
         Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
         """
-        pairs = [clean(line, **cleaning) for line in profiles]
-        cleaned = [(line, after) for line, (after, _) in zip(profiles, pairs, strict=True)]
-        return cls(cleaned, [report for _, report in pairs], None, "")
+        cleaned, reports = zip(*(clean(line, **cleaning) for line in profiles), strict=True)
+        return cls.of_pairs(list(zip(profiles, cleaned, strict=True)), reports)
 
     @property
     def cleaned(self) -> list[Profile]:
@@ -114,7 +129,7 @@ class Measured:
     @cached_property
     def slopes(self) -> SlopeByWavelength:
         """Rms slope of the measurement down to each wavelength."""
-        return slope_by_wavelength(self._followed_heights)
+        return slope_by_wavelength(self._followed_heights, steepest=math.inf)
 
     @cached_property
     def texture(self) -> xr.Dataset:
@@ -132,7 +147,7 @@ class Measured:
     def findings(self) -> tuple[Finding, ...]:
         """Changes made by reading, doubts, and implausible properties."""
         findings = []
-        for raw, cleaned in self.profiles:
+        for raw, cleaned in (*self.profiles, *self.across):
             changes = [Finding(Severity.WARNING, f"{n}.", topic=Topic.SURFACE) for n in raw.notes]
             implausible = profile_warnings(raw, cleaned)
             if self.map is not None:  # its lines are no profiles between plates
@@ -224,8 +239,21 @@ class Surface:
         of_measurement = () if self.measured is None else self.measured.findings
         if self.correlation is None:
             return of_measurement
+        ridges = [f for f in self.direction if f.severity != Severity.GOOD]
         of_waves = stack_notes(self.sines, self.correlation, self.fit)
-        return (*of_measurement, *of_waves, *self.extrapolated)
+        return (*of_measurement, *ridges, *of_waves, *self.extrapolated)
+
+    @cached_property
+    def direction(self) -> tuple[Finding, ...]:
+        """What profiles across sliding, or a map, tell of ridges; nothing of other surfaces."""
+        if self.measured is None:
+            return ()
+        if self.measured.map is not None:
+            finding = direction_of_map(self.measured.map)
+            return () if finding is None else (finding,)
+        lags = 0.5 * self.cutoff_wavelength, 0.25 * float(self.sines.wavelength[0])
+        across = [cleaned for _, cleaned in self.measured.across]
+        return (direction_of_profiles(self.measured.cleaned, across, lags),)
 
     @property
     def doubts(self) -> tuple[Finding, ...]:

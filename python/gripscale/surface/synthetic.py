@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -144,7 +145,8 @@ def with_profile(name: str) -> Surface:
 def synthetic_surface(name: str) -> Surface:
     """Return a synthetic surface, with its statistics as its source."""
     s = SYNTHETIC_SURFACES[name]
-    correlation = height_difference(synthetic_profile(name))
+    # the stated statistics are those of the profile with all its flanks
+    correlation = height_difference(synthetic_profile(name), steepest=math.inf)
     sines = fit_sines(correlation, scales=s.waves, smallest_wavelength=s.smallest_wavelength)
     source = (
         f"{name}: synthetic, self-affine, H = {s.hurst:g}, "

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import gripscale as gs
+from gripscale.core.finding import Finding
+from gripscale.questions.answer import direct_contact
 
 DATA = Path(__file__).parents[3] / "examples" / "data"
 ROAD = DATA / "road" / "20211011_aylesbury_dec_station_0.dat"
@@ -112,3 +115,55 @@ def test_a_bad_input_is_refused_in_one_sentence(wrong: dict[str, Any], sentence:
     with pytest.raises(gs.InputError, match=sentence) as refused:
         made(**wrong)
     assert "\n" not in str(refused.value)
+
+
+def tread_of(answer: gs.Answer) -> list[Finding]:
+    return [finding for finding in answer.findings if finding.key == "rubber.thickness"]
+
+
+def test_rubber_without_end_is_compared_with_a_tread(answer: gs.Answer, tmp_path: Path) -> None:
+    """The effect is that of the case with 8 mm of rubber, within the 5 % of both grids."""
+    (told,) = tread_of(answer)
+    thin = gs.answer(made(thickness="8 mm"))
+    assert tread_of(thin) == []
+    changes = thin.contact_fraction / answer.contact_fraction, thin.friction / answer.friction
+    assert (1.0 + told.area, 1.0 + told.friction) == pytest.approx(changes, abs=0.05)
+    assert told.area < -0.05
+    assert "With a tread of 8 mm on a rigid base" in told.sentence
+    kept = gs.load(answer.save(tmp_path / "answer.nc"))
+    assert tread_of(kept) == [told]
+
+
+def test_a_tread_within_the_sampling_error_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a tread of a metre nothing is said: the layer is a half-space."""
+    monkeypatch.setattr(direct_contact, "TREAD", 1.0)
+    monkeypatch.setattr(direct_contact, "FELT", 0.0)
+    assert tread_of(gs.answer(made())) == []
+
+
+def test_other_questions_do_not_pay_for_the_tread(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> list[Finding]:
+        raise AssertionError("a tread was solved")
+
+    monkeypatch.setattr(direct_contact, "tread_findings", refuse)
+    gs.vary(made(), speed=[0.1, 0.3])
+    gs.uncertainty(made(), samples=10)
+    with pytest.raises(AssertionError, match="a tread was solved"):
+        gs.answer(made())
+
+
+def test_profiles_across_each_other_say_that_a_road_is_isotropic() -> None:
+    """Both stations of the road, one of them taken to lie across: ridges are no finding then."""
+    other = ROAD.with_name(ROAD.name.replace("station_0", "station_1"))
+    lines = [gs.read_profile(ROAD), replace(gs.read_profile(other), lay="across")]
+    rubber = gs.read_master_curve(DMA, reference_temperature=293.15)
+    whole = {"cleaning": {"crop": (0.12, 1.78)}, "smallest_wavelength": END, "waves": WAVES}
+    answer = gs.answer(gs.Case(lines, rubber, **LOAD, **whole))
+    assert "the road is isotropic: the rms slope over 1 mm along sliding is" in "; ".join(
+        answer.basis
+    )
+    assert not any("ridges" in finding.sentence for finding in answer.findings)
+    alone = gs.answer(gs.Case(lines[:1], rubber, **LOAD, **whole))
+    assert numbers(alone) == numbers(answer)
+    first, *_ = alone.findings
+    assert "Profiles of one direction do not show ridges" in first.sentence

@@ -18,12 +18,12 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts.draw import Sheet
 from gripscale.core import provenance
-from gripscale.core.finding import Finding
+from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, trace_sheet
-from gripscale.questions.answer.findings import case_notices
+from gripscale.questions.answer.findings import FINDINGS, case_notices
 from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import answer_interval, answer_number, is_solved, no_answer
 from gripscale.questions.inputs import record
@@ -148,6 +148,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         return Answer(xr.Dataset(attrs=attrs), inputs)
     curve = direct_contact.continued_curve(case, case.load, folder)
     data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
+    attrs[FINDINGS] = to_json(direct_contact.tread_findings(case, samples, data))
     result = Answer(data.assign_attrs(attrs), inputs)
     result.curve = curve
     return result

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import xarray as xr
@@ -16,7 +17,9 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import in_mm
+from gripscale.core.wording import CaseKey, Words
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
@@ -26,11 +29,13 @@ from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import (
     DIRECT,
+    ESTIMATED,
     Factor,
     LogNormalValue,
     SampledErrors,
     best_estimate,
 )
+from gripscale.questions.answer.reliance import estimated_names, has_answer
 from gripscale.questions.cut_off.curve import (
     AREA,
     CONTINUED_TO,
@@ -38,6 +43,7 @@ from gripscale.questions.cut_off.curve import (
     at_cut_off,
     cut_off_curve,
 )
+from gripscale.questions.inputs.findings import in_words
 from gripscale.surface import HeightMap, Measured, Profile, Surface
 
 
@@ -59,17 +65,22 @@ def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
 
 
 def direct_contact_design(
-    case: Case, load: Load, label: str = "", *, traces: bool = False
+    case: Case,
+    load: Load,
+    label: str = "",
+    *,
+    tolerance: float | None = JUDGED_TO,
+    traces: bool = False,
 ) -> Design | None:
     """Return the direct contacts of the profiles of a case under a load as tasks, over `sample`.
 
     None if no profile was measured. `label` begins the names of the tasks; with `traces` the
-    answers hold the contacts as charts draw them.
+    answers hold the contacts as charts draw them. Without a `tolerance` the first full grid counts.
     """
     profiles = each_measured(case.surface)
     if not profiles:
         return None
-    direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions, traces=traces)
+    direct = DirectContact(tolerance=tolerance, conditions=case.conditions, traces=traces)
     points = [
         Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))
         for at, (name, surface) in enumerate(profiles)
@@ -92,6 +103,48 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
         return reduce.sample_numbers(predicted, task).assign(traces)
 
     return solve_design(design, Bench(None), numbers)
+
+
+ISOTROPIC = "isotropic_road"
+"""Attribute of an answer: that profiles across each other showed no ridges."""
+TREAD = 8e-3
+"""Thickness of a new tread [m]."""
+FELT = 1.75
+"""Wavelength over thickness up to which a layer is as soft as a half-space, within 5 %."""
+
+
+def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
+    """Return what a tread of 8 mm changes in an answer for rubber without end.
+
+    Nothing for a stated thickness, for waves that do not feel the base, or if the changes are
+    within the sampling error of the answer or that of its grids. The thin rubber is solved on its
+    first full grid: on the shipped road that is right to 2 %.
+    """
+    felt = float(case.surface.sines.wavelength[0]) > FELT * TREAD
+    if case.load.thickness is not None or not felt or not has_answer(totals):
+        return []
+    design = direct_contact_design(case, replace(case.load, thickness=TREAD), tolerance=None)
+    assert design is not None
+    thin = solve_design(design, Bench(None), reduce.sample_numbers)
+    changes, counting = {}, False
+    for name in estimated_names(totals):
+        means = [reduce.usable(part, ESTIMATED[name]).mean("sample") for part in (thin, samples)]
+        changes[name] = float(means[0] / means[1]) - 1.0
+        sampling = float(totals[f"best_{name}_sampling_error"])
+        counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
+    if not counting or not all(map(math.isfinite, changes.values())):
+        return []
+    text = f"With a tread of 8 mm on a rigid base, not rubber without end, {in_words(changes)}."
+    return [
+        Finding(
+            Severity.WARNING,
+            Words(text, " State ", CaseKey("thickness"), " in [rubber]."),
+            changes.get("friction", math.nan),
+            changes["contact_fraction"],
+            Topic.RUBBER,
+            "rubber.thickness",
+        )
+    ]
 
 
 def continued_curve(case: Case, load: Load, folder: str | Path | None = None) -> xr.Dataset | None:
@@ -166,6 +219,9 @@ def direct_contact_totals(
         model.cut_off_exponents_of(exponents),
         status_word=str(reduce.status_word(samples).item()),
     ).assign_attrs(case.attributes | doubts, tolerance=JUDGED_TO)
+    for finding in case.surface.direction:
+        if finding.severity == Severity.GOOD:
+            totals.attrs[ISOTROPIC] = finding.sentence
     if traces := trace_variables(samples):
         totals = totals.assign(traces.variables)
     area_term = reduce.usable(samples, "adhesive_friction").mean("sample")

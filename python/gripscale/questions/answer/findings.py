@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import xarray as xr
 
 from gripscale import model
-from gripscale.core.finding import Finding, Severity, Topic, ranked
+from gripscale.core.finding import Finding, Severity, Topic, from_json, ranked
 from gripscale.core.units import in_mm
 from gripscale.cut_off_exponents import OCTAVE
 from gripscale.questions.answer.reliance import (
@@ -33,6 +33,8 @@ from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
 
+FINDINGS = "findings_of_answer"
+"""Attribute of an answer that holds what a further solution found."""
 SMALL_CHANGE = 0.05
 """Relative change by half the cut-off that is as good as none."""
 
@@ -50,6 +52,7 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
     if data is None or not has_answer(data):
         return
     yield from (share for share in guesses(data) if share.effect <= MOST_ON_GUESSES)
+    yield from from_json(data.attrs.get(FINDINGS, ""))
     direct = direct_of(data)
     steep = float(data.get("best_steep_share", math.nan))
     if steep > WORTH_SAYING:

@@ -18,6 +18,7 @@ from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.charts import named_traces, trace_charts
+from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.findings import no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.cut_off.curve import CONTINUED_TO
@@ -121,6 +122,10 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
     sampling = float(data[f"best_{name}_sampling_error"])
     if math.isfinite(sampling):
         yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
+    labels = data.factor_label.values
+    if LINES_TO_SURFACE in labels:
+        isotropic = str(data.attrs.get(ISOTROPIC, "The step to a surface takes an isotropic road"))
+        yield f"{isotropic[0].lower()}{isotropic[1:].rstrip('.')}"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
@@ -128,9 +133,6 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
             f"{percent_text(float(below))} of the friction in waves shorter than {limit}, which "
             "were not measured"
         )
-    labels = data.factor_label.values
-    if LINES_TO_SURFACE in labels:
-        yield "a road without direction is assumed; ridges 3:1 change the area up to 1.7 times"
     missing = [
         str(n) for n, v in zip(labels, data[f"best_{name}_factor"], strict=True) if v.isnull()
     ]

@@ -1,0 +1,181 @@
+"""Whether a road has a direction: profiles along and across sliding, or the texture of a map.
+
+The step from lines to their surface takes an isotropic one (`gripscale.half_space.line_to_map`). On
+ridges it errs, by the ratio of slopes along and across the sliding direction,
+
+    rho = (C_along(l) / C_across(l))^(1/2),   l half the cut-off,
+
+from the height difference correlations C. `AREA_OVER_TRUTH` holds how much: Gaussian waves 1.5, 2,
+3 and 6 times as long one way, four maps each, 3 bar and 0.3 m/s
+(`python -m tests.verification.known_surfaces --ridges`). Frictions err by less than 20 %.
+
+The texture aspect ratio of a map, ISO 25178-2:2021, is that of the shortest and the longest way
+from the middle of its autocorrelation to where that falls to 0.2; 1 without a direction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core.units import in_mm
+from gripscale.core.wording import CaseKey, Words
+from gripscale.surface.cleaning import subtract_form
+from gripscale.surface.height_difference import height_difference
+from gripscale.surface.profile import HeightMap, Profile
+from gripscale.surface.resampling import fill_gaps
+
+_SLOPE_RATIO = np.array([0.201, 0.393, 0.567, 0.725, 1.0, 1.38, 1.76, 2.54, 4.91])
+AREA_OVER_TRUTH = np.array([2.55, 1.52, 1.29, 1.11, 1.0, 0.87, 0.86, 0.73, 0.68])
+"""Contact area from lines over that of the map, at these ratios of slopes."""
+
+_HARMLESS = 1.1
+"""Error of the area near the scatter of the step on isotropic surfaces, 8 %."""
+
+_WIDEST = math.log(10.0)
+"""Half width of the band of a profile that is too short for one."""
+
+_FALLEN = 0.2
+"""Autocorrelation to which the texture aspect ratio is measured."""
+
+_NO_DIRECTION = 0.5
+"""Texture aspect ratio above which a map counts as without direction."""
+
+_WAYS = 180
+"""Directions in which the autocorrelation is followed."""
+
+
+def area_over_truth(slope_ratio: float) -> float:
+    """Return the contact area from lines over the true one; the ends of the table beyond it."""
+    logs = np.log(_SLOPE_RATIO), np.log(AREA_OVER_TRUTH)
+    return math.exp(float(np.interp(math.log(slope_ratio), *logs)))
+
+
+def direction_of_profiles(
+    along: Sequence[Profile], across: Sequence[Profile], lags: tuple[float, float]
+) -> Finding:
+    """Return what profiles along and across sliding tell of ridges.
+
+    Their slopes are compared over two lags [m], of the cut-off and of the large waves. A ratio
+    counts where it differs from 1 by more than its 95 % band, from the blocks of the profiles. One
+    that changes the area less than the step from lines to a surface errs does not.
+    """
+    if not across:
+        return _unknown_direction()
+    ratios = [_SlopeRatio.over(lag, along, across) for lag in lags]
+    counting = [ratio for ratio in ratios if abs(math.log(ratio.value)) > ratio.half_width]
+    slopes = ratios[0]
+    if all(map(_harmless, (*slopes.ends, *(ratio.value for ratio in counting)))):
+        return Finding(Severity.GOOD, f"The road is isotropic: {slopes}.", topic=Topic.SURFACE)
+    if counting:
+        worst = max(counting, key=lambda ratio: abs(math.log(area_over_truth(ratio.value))))
+        return _warning(f"The road has ridges: {worst}", area_over_truth(worst.value))
+    error = max(map(area_over_truth, slopes.ends), key=lambda error: abs(math.log(error)))
+    return _warning(f"The profiles are too short to show ridges: {slopes}", error)
+
+
+def direction_of_map(surface: HeightMap) -> Finding | None:
+    """Return that lines of a map do not stand for it, where its texture has a direction."""
+    aspect = texture_aspect_ratio(surface)
+    if not aspect < _NO_DIRECTION:
+        return None
+    text = (
+        f"The map has a direction (texture aspect ratio {aspect:.2f}, 1 without): its direct "
+        "contact holds, chain and theories take its lines for those of an isotropic surface."
+    )
+    return Finding(Severity.WARNING, text, topic=Topic.SURFACE)
+
+
+def texture_aspect_ratio(surface: HeightMap) -> float:
+    """Return the texture aspect ratio Str [-] of a map; NaN where it is flat or too small.
+
+    The autocorrelation is that of the heights over their plane, without wrapping round. Where it
+    does not fall to 0.2 within half the map, the way ends there.
+    """
+    level = subtract_form(surface, order=1)[0]
+    z, (dx, dy) = fill_gaps(level.z, level.step), level.step
+    nx, ny = z.shape
+    # without wrapping round: with as many zeros beyond either end
+    correlation = np.fft.irfft2(np.abs(np.fft.rfft2(z, [2 * nx, 2 * ny])) ** 2, [2 * nx, 2 * ny])
+    if not correlation[0, 0] > 0.0:
+        return math.nan
+    away = np.linspace(0.0, min((nx // 2 - 1) * dx, (ny // 2 - 1) * dy), max(nx, ny))
+    lengths = []
+    for angle in np.linspace(0.0, np.pi, _WAYS, endpoint=False):
+        i = np.rint(away * np.cos(angle) / dx).astype(int)
+        j = np.rint(away * np.sin(angle) / dy).astype(int)
+        pairs = (nx - np.abs(i)) * (ny - np.abs(j))
+        fallen = correlation[i, j] / pairs < _FALLEN * correlation[0, 0] / z.size
+        lengths.append(away[np.argmax(fallen)] if fallen.any() else away[-1])
+    return float(min(lengths) / max(lengths))
+
+
+class _SlopeRatio(NamedTuple):
+    """Ratio of slopes along and across sliding."""
+
+    lag: float
+    """[m]"""
+    value: float
+    half_width: float
+    """Of its 95 % band, in its logarithm."""
+
+    @classmethod
+    def over(cls, lag: float, along: Sequence[Profile], across: Sequence[Profile]) -> _SlopeRatio:
+        """Return the ratio at a lag [m], or at the shortest one that all profiles have."""
+        curves = [height_difference(list(lines)) for lines in (along, across)]
+        lag = max(lag, *(float(curve.lag[0]) for curve in curves))
+        logs, widths = [], []
+        for curve in curves:
+            value = np.maximum(curve.value, checks.LEAST)
+            at, lags = math.log(lag), np.log(curve.lag)
+            logs.append(0.5 * float(np.interp(at, lags, np.log(value))))
+            half = 0.5 * float(np.interp(at, lags, np.log(curve.upper / value)))
+            widths.append(half if math.isfinite(half) else _WIDEST)
+        return cls(lag, math.exp(logs[0] - logs[1]), math.hypot(*widths))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Ends of the band."""
+        factor = math.exp(self.half_width)
+        return self.value / factor, self.value * factor
+
+    def __str__(self) -> str:
+        low, high = self.ends
+        return (
+            f"the rms slope over {in_mm(self.lag, 2)} along sliding is {self.value:.3g} "
+            f"({low:.3g} to {high:.3g}) times that across"
+        )
+
+
+def _harmless(slope_ratio: float) -> bool:
+    return abs(math.log(area_over_truth(slope_ratio))) < math.log(_HARMLESS)
+
+
+def _unknown_direction() -> Finding:
+    along, across = AREA_OVER_TRUTH[[2, 1, 0]], 1.0 / AREA_OVER_TRUTH[-1]
+    sentence = Words(
+        "Profiles of one direction do not show ridges. Waves 2, 3 and 6 times as long along "
+        "sliding as across it make the area {:.1f}, {:.1f} and {:.1f} times too large; as long "
+        "across it, up to {:.1f} times too small. A second profile, with ".format(*along, across),
+        CaseKey("lay", "across"),
+        ", decides.",
+    )
+    return Finding(
+        Severity.WARNING,
+        sentence,
+        area=1.0 / float(AREA_OVER_TRUTH[0]) - 1.0,
+        topic=Topic.SURFACE,
+        key="surface.lay",
+    )
+
+
+def _warning(sentence: str, error: float) -> Finding:
+    """Return a warning that the area from lines is `error` times the true one."""
+    way = "large" if error > 1.0 else "small"
+    text = f"{sentence}. The area from lines may be {max(error, 1.0 / error):.2f} times too {way}."
+    return Finding(Severity.WARNING, text, area=1.0 / error - 1.0, topic=Topic.SURFACE)
