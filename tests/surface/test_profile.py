@@ -1,8 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.surface import Profile
+from gripscale.surface import Measured, Profile
 
 X = 1e-4 * np.arange(20)
 Z = np.sin(np.arange(20.0))
@@ -81,3 +83,14 @@ def test_the_shortest_wavelength_carried_is_four_steps_or_what_the_instrument_sa
 def test_a_bad_profile_is_refused_by_name(x, z, says):
     with pytest.raises(InputError, match=says):
         Profile(x, z)
+
+
+def test_the_same_measurement_counts_once():
+    """Twice the same line would halve the error from the sampling of the road."""
+    x = 1e-3 * np.arange(50)
+    first, second = (Profile(x, np.sin(k * x), name=f"station {k}") for k in (300, 400))
+    Measured.of([first, second])
+    with pytest.raises(
+        InputError, match=r"heights of profile 1 again as profile 3 \(station 300\)"
+    ):
+        Measured.of([first, second, replace(first)])

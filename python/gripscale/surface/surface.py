@@ -65,7 +65,19 @@ class Measured:
     def of_pairs(
         cls, pairs: Sequence[tuple[Profile, Profile]], cleaning: Sequence[CleaningReport] = ()
     ) -> Measured:
-        """Return profiles as read and cleaned; `InputError` if all lie across sliding."""
+        """Return profiles as read and cleaned.
+
+        Raises `InputError` if all lie across sliding, or one is there twice: twice the same lines
+        would halve the sampling error, and the same along and across show no ridges.
+        """
+        first: dict[bytes, int] = {}
+        for number, (line, _) in enumerate(pairs, start=1):
+            same = first.setdefault(line.z.tobytes(), number)
+            if same != number:
+                raise InputError(
+                    f"profiles must be different measurements; got the heights of profile {same} "
+                    f"again as profile {number} ({line.name or 'without a name'})"
+                )
         along = [at for at, (line, _) in enumerate(pairs) if line.lay == "along"]
         if not along:
             raise InputError("surface must have a profile along sliding; got all of them across it")
