@@ -288,10 +288,11 @@ class GridSequence:
     def _expected(self, response: Response, height: Array) -> Array:
         """Return the start p + S dh - s g from the last contact."""
         assert self.last is not None
-        fields = [self.last.contact.pressure, self.last.contact.gap, self.last.height]
+        pressure, gap = self.last.contact.pressure, self.last.contact.gap
         if self.last.height.shape != height.shape:
-            fields = [doubled(values) for values in fields]
-        pressure, gap, before = fields
+            pressure, gap = doubled(pressure), doubled(gap)
+        # not the heights of the last grid, doubled: S would press their kinks flat
+        before = self.heights.on(height.shape, self.last.level.cut_off)
         opening = _OPENING / response.smallest_compliance * np.maximum(gap, 0.0)
         return np.asarray(pressure - opening + response.pressure(height - before))
 
