@@ -162,9 +162,7 @@ class ClosedGap:
 
 def is_lossy_line(response: Response) -> bool:
     """Return whether E is that of a line of very lossy rubber."""
-    if len(response.grid.shape) > 1:
-        return False
-    return bool(np.median(np.abs(np.angle(response.compliance[1:]))) > LOSSY)
+    return len(response.grid.shape) == 1 and abs(response.loss_angle) > LOSSY
 
 
 class PointsInContact:

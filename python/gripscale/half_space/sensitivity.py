@@ -360,7 +360,8 @@ class ContactFractionDifferences:
         response = Response.with_compliance(compliance, self.contact.grid, 1)
         start = self.contact.pressure * (pressure / self.contact.pressure.mean())
         solved = solve_grid(response, self.contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
-        return math.log(grid_contact_fraction(solved.active, solved.gap))
+        fraction = grid_contact_fraction(solved.active, solved.gap, response.loss_angle)
+        return math.log(fraction)
 
 
 def contact_sensitivity(
