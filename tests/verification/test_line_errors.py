@@ -103,6 +103,14 @@ def ratios(line: Line, tolerance: float | None) -> tuple[float, ...] | None:
 
 @pytest.mark.parametrize("tolerance", [None, 0.05])
 def test_stated_errors_hold_on_lines(tolerance):
+    """Loss angles to 1.0, 2 to 100 % of contact; two minutes of one core.
+
+    Within the error, tolerance 0.05: area 95 of 100 (elastic 32 of 34, tread 33 of 33, lossy 30 of
+    33), at most 2.4 times it; both frictions 100. Without a tolerance, where the frictions agree:
+    79, 79 and 84 of 84. Above 0.9 of contact 10 of 11. The estimates were chosen on other seeds.
+    With n = 3/2 at both ends of a contact, and without the terms of new borders and dissipation:
+    area 87 of 100 (lossy 25 of 33) and 74 of 84, friction from traction 96 and 71.
+    """
     lines = [Line.of(seed) for seed in range(LINES)]
     rows = [(line.kind, ratios(line, tolerance)) for line in lines]
     for kind in RUBBERS:

@@ -374,7 +374,7 @@ def contact_sensitivity(
     """Return the derivatives of the friction of a direct contact by all of its inputs.
 
     One linear system is solved, whatever the number of inputs. The friction is that from the
-    contact traction. Under conditions the rubber of each scale keeps its strain and its temperature
+    energy lost. Under conditions the rubber of each scale keeps its strain and its temperature
     rise: the effect of an input on them is left out (`settled` in the attributes).
 
     Parameters
