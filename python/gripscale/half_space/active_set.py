@@ -96,12 +96,12 @@ before the iteration ends."""
 def _across_gaps(active: Mask) -> scipy.sparse.csr_array:
     """Return E on a periodic line: linear across each open gap."""
     closed, point = np.flatnonzero(active), np.arange(active.size)
-    left = (np.cumsum(active) - 1) % len(closed)
-    right = (left + ~active) % len(closed)  # itself in contact
-    before = (point - closed[left] - 1) % active.size + 1
-    after = (closed[right] - point) % active.size
+    lower = (np.cumsum(active) - 1) % len(closed)
+    upper = (lower + ~active) % len(closed)  # itself in contact
+    before = (point - closed[lower] - 1) % active.size + 1
+    after = (closed[upper] - point) % active.size
     share = np.where(active, 0.0, before / (before + after))
-    ends = np.stack([left, right], axis=1).astype(np.int32).reshape(-1)
+    ends = np.stack([lower, upper], axis=1).astype(np.int32).reshape(-1)
     weights = np.stack([1.0 - share, share], axis=1).astype(np.float32).reshape(-1)
     starts = np.arange(0, ends.size + 1, 2, dtype=np.int32)
     return scipy.sparse.csr_array((weights, ends, starts), shape=(active.size, len(closed)))
