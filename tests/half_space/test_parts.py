@@ -12,7 +12,7 @@ import gripscale as gs
 from gripscale.half_space import active_set
 from gripscale.half_space.active_set import FAR, LOSSY
 from gripscale.half_space.grid import Grid, doubled, resampled
-from gripscale.half_space.grid_sequence import GridRecord, errors
+from gripscale.half_space.grid_sequence import GridRecord, errors, grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.surface import self_affine_profile
 
@@ -162,6 +162,25 @@ def test_errors_follow_from_the_changes():
 def test_two_frictions_apart_and_borders_between_points_are_errors():
     same, apart, border = records({}, {"friction_from_dissipation": 0.056}, {"border_error": 0.003})
     assert errors([same, same]) == (0.0, 0.0)
-    assert errors([same, apart]) == pytest.approx((0.0, 0.006))
+    assert errors([same, apart]) == pytest.approx((0.0, 0.006 + 0.4 * 0.006))
     assert errors([same, border]) == pytest.approx((0.003, 0.0))
     assert np.isnan(errors([same])).all()
+
+
+def test_borders_that_a_grid_adds_are_an_error():
+    """Four times the borders: 0.5 sqrt(borders)/points stays where the points double."""
+    few, many = records(
+        {"border_error": 0.001},
+        {"border_error": 0.001, "points": 128, "contact_fraction": 0.12},
+    )
+    assert errors([few, many])[0] == pytest.approx(np.hypot((0.4 + 0.75) * 0.02, 0.001))
+
+
+@pytest.mark.parametrize("loss_angle", [0.0, 0.8, -0.8])
+def test_a_contact_ends_where_the_opening_of_lossy_rubber_begins(loss_angle):
+    """A gap of (distance)^(3/2) at one end and (distance)^(3/2 + 2/pi loss angle) at the other."""
+    x = np.arange(32.0)
+    lower, upper = (1.5 + 2.0 / np.pi * max(0.0, side * loss_angle) for side in (-1, 1))
+    gap = np.maximum(10.3 - x, 0.0) ** lower + np.maximum(x - 20.6, 0.0) ** upper
+    found = grid_contact_fraction(gap == 0.0, gap, loss_angle)
+    assert found == pytest.approx((20.6 - 10.3) / 32)
