@@ -23,7 +23,7 @@ from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
 from gripscale._kernel import LineFilter
 from gripscale.half_space import RoughContact, response
-from gripscale.surface import HeightMap, Profile
+from gripscale.surface import HeightMap, Profile, self_affine_profile
 
 DATA = Path(__file__).parents[1] / "examples/data"
 SPACING = 1e-4
@@ -55,6 +55,17 @@ def tread() -> gs.Rubber:
     return gs.fit_prony(gs.read_master_curve(DATA / "rubber/measured_dma.txt"))
 
 
+def lossy() -> gs.Rubber:
+    """Return a rubber with a loss angle of 1.0 at all frequencies."""
+    times = np.geomspace(1e-9, 1e1, 41)
+    return gs.Rubber(1e5, 2e5 * (times / 1e-3) ** (-2.0 / np.pi), times, bulk_modulus=1e13)
+
+
+def self_affine() -> Profile:
+    """Return a line of 65,536 points, H = 0.8 below 20 mm."""
+    return self_affine_profile(0.8, 0.02, 1e-3, 1.6384, 2.5e-5, seed=1)
+
+
 def run(console: Console, *, large: bool = False) -> None:
     """Print the table."""
     rubber, rows = tread(), []
@@ -81,6 +92,13 @@ def run(console: Console, *, large: bool = False) -> None:
             )
         )
         rows.append([f"road, {tolerance or 'none'}", *cells])
+    for kind, surface in () if large else (("line", self_affine()), ("map", isotropic_map(512))):
+        cells = _measured(
+            lambda surface=surface: gs.solve_rough_contact(
+                lossy(), surface, pressure=2e5, speed=0.3, periodic=True, tolerance=None
+            )
+        )
+        rows.append([f"{kind}, loss angle 1.0, none", *cells])
     show(
         console,
         "Direct contact, tread rubber, 3 bar",

@@ -16,6 +16,12 @@ from tests.samples import ZENER
 
 WAVELENGTH, AMPLITUDE, RELAXED, TIME = 1e-3, 1e-5, 3e6, 1e-2
 SLOPE = 2.0 * np.pi * AMPLITUDE / WAVELENGTH
+TIMES = np.geomspace(1e-9, 1e1, 41)
+
+
+def lossy(exponent: float) -> gs.Rubber:
+    """A rubber with E* nearly as (i w)^exponent: its loss angle is exponent pi/2 everywhere."""
+    return gs.Rubber(1e5, 2e5 * (TIMES / 1e-3) ** -exponent, TIMES, bulk_modulus=1e13)
 
 
 def sine(points: int = 256) -> Profile:

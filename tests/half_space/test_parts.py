@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 import scipy.fft
 
+import gripscale as gs
 from gripscale.half_space import active_set
-from gripscale.half_space.active_set import FAR, Extension
+from gripscale.half_space.active_set import FAR, LOSSY
 from gripscale.half_space.grid import Grid, doubled, resampled
-from gripscale.half_space.grid_sequence import GridRecord, errors
+from gripscale.half_space.grid_sequence import GridRecord, errors, grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
+from gripscale.surface import self_affine_profile
 
-from .rough_cases import ZENER, isotropic_map, on_grid
+from .rough_cases import ZENER, isotropic_map, lossy, on_grid
 
+TWO_CONTACTS = np.array([True, True, False, False, False, True, False, True])
 RECORD = GridRecord(64, 1e-3, 0.1, 0.0, 0.05, 0.05, 5, 50, True, False, 400)
 
 
@@ -51,20 +54,45 @@ def test_iterations_and_elimination_close_the_same_gap(monkeypatch):
 
 def test_a_gap_is_carried_to_the_points_beside_the_contact():
     """Weights 1/distance^2 on a line and 1/distance^3 on a map, and FAR of nothing beyond."""
-    line = Extension.of(np.array([True, True, False, False, False, True, False, True]))
-    np.testing.assert_array_equal(line.around, [2, 4, 6])
+    line = active_set._around_contacts(TWO_CONTACTS)
     np.testing.assert_allclose(
-        line.weights @ np.array([2.0, 3.0, 5.0, 7.0]),
-        [3 / (1 + FAR), 5 / (1 + FAR), (5 + 7) / (2 + FAR)],
+        line @ np.array([2.0, 3.0, 5.0, 7.0]),
+        [2, 3, 3 / (1 + FAR), 0, 5 / (1 + FAR), 5, (5 + 7) / (2 + FAR), 7],
         rtol=1e-6,
     )
     active = np.zeros((4, 5), dtype=bool)
     active[0, 0] = active[1, 0] = True
-    found = Extension.of(active)
-    assert len(found.around) == 10  # over both edges of the map
-    beside = np.flatnonzero(found.around == 4)[0]  # (0, 4), next to (0, 0) and (1, 0)
+    extended = active_set._around_contacts(active) @ np.array([2.0, 3.0])
+    assert np.count_nonzero(extended) == 12  # over both edges of the map
     wanted = (2.0 + 3.0 / 2**1.5) / (1 + 1 / 2**1.5 + FAR)
-    assert (found.weights @ np.array([2.0, 3.0]))[beside] == pytest.approx(wanted, rel=1e-6)
+    assert extended[4] == pytest.approx(wanted, rel=1e-6)  # (0, 4), next to (0, 0) and (1, 0)
+
+
+def test_a_gap_of_a_lossy_line_is_linear_between_its_ends():
+    extended = active_set._across_gaps(TWO_CONTACTS) @ np.array([2.0, 3.0, 7.0, 9.0])
+    np.testing.assert_allclose(extended, [2, 3, 4, 5, 6, 7, 8, 9], rtol=1e-6)
+    one = active_set._across_gaps(np.array([False, True, False]))
+    np.testing.assert_allclose(one @ np.array([4.0]), 4.0)
+    around = active_set._across_gaps(np.array([False, True, False, False, True, False]))
+    np.testing.assert_allclose(around @ np.array([1.0, 4.0]), [2, 1, 2, 3, 4, 3], rtol=1e-6)
+
+
+def test_lossy_lines_take_few_products(monkeypatch):
+    """Loss angle 1.0 on a line of 4096 points; the contact does not depend on the extension."""
+    rubber = lossy(2.0 / np.pi)
+    line = self_affine_profile(0.8, 0.02, 3e-4, 0.4, 5e-5, seed=1)
+    contacts = {}
+    for limit in (LOSSY, np.inf):
+        monkeypatch.setattr(active_set, "LOSSY", limit)
+        contacts[limit] = gs.solve_rough_contact(
+            rubber, line, pressure=1e5, speed=0.3, smallest_wavelength=2e-4, tolerance=None
+        )
+    across, around = contacts[LOSSY], contacts[np.inf]
+    assert across.converged
+    assert across.contact_fraction == pytest.approx(around.contact_fraction, rel=1e-4)
+    assert across.friction == pytest.approx(around.friction, rel=1e-5)
+    products = [sum(grid.products for grid in contact.grids) for contact in (across, around)]
+    assert products[0] < 0.5 * products[1]
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.3])
@@ -134,6 +162,25 @@ def test_errors_follow_from_the_changes():
 def test_two_frictions_apart_and_borders_between_points_are_errors():
     same, apart, border = records({}, {"friction_from_dissipation": 0.056}, {"border_error": 0.003})
     assert errors([same, same]) == (0.0, 0.0)
-    assert errors([same, apart]) == pytest.approx((0.0, 0.006))
+    assert errors([same, apart]) == pytest.approx((0.0, 0.006 + 0.4 * 0.006))
     assert errors([same, border]) == pytest.approx((0.003, 0.0))
     assert np.isnan(errors([same])).all()
+
+
+def test_borders_that_a_grid_adds_are_an_error():
+    """Four times the borders: 0.5 sqrt(borders)/points stays where the points double."""
+    few, many = records(
+        {"border_error": 0.001},
+        {"border_error": 0.001, "points": 128, "contact_fraction": 0.12},
+    )
+    assert errors([few, many])[0] == pytest.approx(np.hypot((0.4 + 0.75) * 0.02, 0.001))
+
+
+@pytest.mark.parametrize("loss_angle", [0.0, 0.8, -0.8])
+def test_a_contact_ends_where_the_opening_of_lossy_rubber_begins(loss_angle):
+    """A gap of (distance)^(3/2) at one end and (distance)^(3/2 + 2/pi loss angle) at the other."""
+    x = np.arange(32.0)
+    lower, upper = (1.5 + 2.0 / np.pi * max(0.0, side * loss_angle) for side in (-1, 1))
+    gap = np.maximum(10.3 - x, 0.0) ** lower + np.maximum(x - 20.6, 0.0) ** upper
+    found = grid_contact_fraction(gap == 0.0, gap, loss_angle)
+    assert found == pytest.approx((20.6 - 10.3) / 32)

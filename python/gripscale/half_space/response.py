@@ -217,6 +217,14 @@ class Response:
         """|K| of the stiffest wave of the grid [m/Pa]."""
         return float(1.0 / np.abs(self.stiffness).max())
 
+    @cached_property
+    def loss_angle(self) -> float:
+        """Loss angle, median of the waves [rad]; positive in a slide towards +x.
+
+        On a line it is that of four points in a wave.
+        """
+        return float(-np.median(np.angle(self.compliance.reshape(-1)[1:])))
+
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
         if time.monotonic() > self.deadline:

@@ -360,7 +360,8 @@ class ContactFractionDifferences:
         response = Response.with_compliance(compliance, self.contact.grid, 1)
         start = self.contact.pressure * (pressure / self.contact.pressure.mean())
         solved = solve_grid(response, self.contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
-        return math.log(grid_contact_fraction(solved.active, solved.gap))
+        fraction = grid_contact_fraction(solved.active, solved.gap, response.loss_angle)
+        return math.log(fraction)
 
 
 def contact_sensitivity(
@@ -373,7 +374,7 @@ def contact_sensitivity(
     """Return the derivatives of the friction of a direct contact by all of its inputs.
 
     One linear system is solved, whatever the number of inputs. The friction is that from the
-    contact traction. Under conditions the rubber of each scale keeps its strain and its temperature
+    energy lost. Under conditions the rubber of each scale keeps its strain and its temperature
     rise: the effect of an input on them is left out (`settled` in the attributes).
 
     Parameters

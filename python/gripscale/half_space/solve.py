@@ -128,13 +128,13 @@ def solve_rough_contact(
         Active-set iterations allowed on each grid.
     time_limit : float, optional
         Time [s] after which the status is "time limit" and the numbers are those of the last grid
-        that was solved. Contacts of very lossy rubber take minutes.
+        that was solved. Lines of very lossy rubber take minutes on grids above 131,072 points.
     on_grid : callable, optional
         Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
         at the next return from compiled code; only these records remain of a stopped solution.
     on_iteration : callable, optional
         Called within a grid after each iteration, with its number and that of the points to change
-        sides; both begin anew with each grid. Very lossy maps take minutes on a grid.
+        sides; both begin anew with each grid.
     conditions : Conditions, optional
         Temperature, softening, heat and area term. Softening and heat are iterated with the
         contact.

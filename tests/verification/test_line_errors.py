@@ -1,0 +1,125 @@
+"""Stated errors of lines against grids four times finer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+import scipy.fft
+
+import gripscale as gs
+from gripscale.half_space.grid import Grid
+from gripscale.surface import Profile
+from gripscale.surface.low_pass import transmission
+from tests.half_space.rough_cases import lossy
+from tests.samples import MEASURED_DMA
+
+pytestmark = pytest.mark.verification
+
+LINES, LENGTH, STEP = 100, 0.1024, 1e-4
+SHORTEST = 8 * STEP
+SURFACES, RUBBERS = ("self-affine", "stones", "plateaus"), ("elastic", "tread", "lossy")
+FRICTION_THAT_COUNTS = 1e-3
+
+
+@dataclass(frozen=True)
+class Line:
+    """A random rubber on a random line; every second line is eight times as long."""
+
+    kind: str
+    rubber: gs.Rubber
+    surface: Profile
+    pressure: float
+    speed: float
+
+    @classmethod
+    def of(cls, seed: int) -> Line:
+        """Return a line of rms slope 0.05 to 1 down to `SHORTEST`, H 0.5 to 1, any load."""
+        random = np.random.default_rng(seed)
+        kind = RUBBERS[seed // 3 % 3]
+        z = _heights(random, SURFACES[seed % 3], 8 if seed % 2 else 1)
+        grid = Grid(z.shape, (z.size * STEP,))
+        passed = scipy.fft.rfft(z) * transmission(grid.wavenumber, SHORTEST)
+        slope = 10 ** random.uniform(-1.3, 0.0)
+        z *= slope / np.sqrt(np.mean(grid.slope(scipy.fft.irfft(passed, z.size)) ** 2))
+        rubber = {
+            "elastic": gs.Rubber(10 ** random.uniform(5.5, 7.0)),
+            "tread": gs.fit_prony(gs.read_master_curve(MEASURED_DMA)),
+            "lossy": lossy(random.uniform(0.3, 1.0) * 2.0 / np.pi),
+        }[kind]
+        speed = 10 ** random.uniform(-2.0, 1.0)
+        modulus = abs(complex(rubber.plane_strain_modulus(2.0 * np.pi * speed / 1e-3)))
+        pressure = modulus * slope * 10 ** random.uniform(-2.2, 0.0)
+        return cls(kind, rubber, Profile(STEP * np.arange(z.size), z), float(pressure), speed)
+
+    def solve(self, **more):
+        return gs.solve_rough_contact(
+            self.rubber,
+            self.surface,
+            pressure=self.pressure,
+            speed=self.speed,
+            periodic=True,
+            smallest_wavelength=SHORTEST,
+            **more,
+        )
+
+
+def _heights(random: np.random.Generator, surface: str, longer: int):
+    """Return heights of unit size: self-affine, with round stones on them, or cut flat."""
+    points = longer * round(LENGTH / STEP)
+    length = points * STEP
+    q = Grid((points,), (length,)).wavenumber
+    hurst, corner = random.uniform(0.5, 1.0), 2 * np.pi / LENGTH * 10 ** random.uniform(0.3, 1.0)
+    amplitude = np.where(q > 0.0, np.maximum(q, corner) ** -(hurst + 0.5), 0.0)
+    z = scipy.fft.irfft(amplitude * scipy.fft.rfft(random.standard_normal(points)), points)
+    z /= z.std()
+    if surface == "plateaus":
+        return np.minimum(z, random.uniform(-0.5, 0.8))
+    if surface == "stones":
+        number = longer * int(random.integers(5, 15))
+        middle = random.uniform(0.0, length, number)
+        radius = length / number * random.uniform(0.5, 1.2, number)
+        x = STEP * np.arange(points)
+        apart = np.abs((x[:, None] - middle + length / 2) % length - length / 2)
+        tops = np.sqrt(np.maximum(radius**2 - apart**2, 0.0)).max(axis=1)
+        return 0.3 * z + random.uniform(1.0, 4.0) * tops / radius.mean()
+    return z
+
+
+def ratios(line: Line, tolerance: float | None) -> tuple[float, ...] | None:
+    """Return contact fraction, and off over stated: area, both frictions; None for full contact."""
+    coarse = line.solve(tolerance=tolerance)
+    if coarse.full_contact or coarse.status != "converged":
+        return None
+    points = 4 * coarse.grid.points
+    fine = line.solve(tolerance=1e-5, start=coarse, most_points=points)
+    area = (coarse.contact_fraction - fine.contact_fraction) / coarse.contact_fraction_error
+    allowed = max(coarse.friction_error, 0.02 * FRICTION_THAT_COUNTS)
+    truth = fine.friction_from_dissipation
+    frictions = np.array([coarse.friction, coarse.friction_from_dissipation])
+    return coarse.contact_fraction, area, *((frictions - truth) / allowed)
+
+
+@pytest.mark.parametrize("tolerance", [None, 0.05])
+def test_stated_errors_hold_on_lines(tolerance):
+    """Loss angles to 1.0, 2 to 100 % of contact; two minutes of one core.
+
+    Within the error, tolerance 0.05: area 95 of 100 (elastic 32 of 34, tread 33 of 33, lossy 30 of
+    33), at most 2.4 times it; both frictions 100. Without a tolerance, where the frictions agree:
+    79, 79 and 84 of 84. Above 0.9 of contact 10 of 11. The estimates were chosen on other seeds.
+    With n = 3/2 at both ends of a contact, and without the terms of new borders and dissipation:
+    area 87 of 100 (lossy 25 of 33) and 74 of 84, friction from traction 96 and 71.
+    """
+    lines = [Line.of(seed) for seed in range(LINES)]
+    rows = [(line.kind, ratios(line, tolerance)) for line in lines]
+    for kind in RUBBERS:
+        off = np.array([row for name, row in rows if name == kind and row is not None])
+        inside, worst = (np.abs(off[:, 1:]) <= 1.0).sum(axis=0), np.abs(off[:, 1:]).max(axis=0)
+        print(tolerance, kind, len(off), "inside", inside, "worst", worst.round(2))
+    off = np.array([row for _, row in rows if row is not None])
+    print("area", np.quantile(off[:, 0], [0.0, 0.5, 1.0]).round(3), "above 0.9")
+    print((off[:, 0] > 0.9).sum(), (np.abs(off[off[:, 0] > 0.9, 1]) <= 1.0).sum())
+    assert len(off) > 0.8 * LINES
+    assert np.all(np.mean(np.abs(off[:, 1:]) <= 1.0, axis=0) >= 0.9)
+    assert np.abs(off[:, 1:]).max() <= 2.5
