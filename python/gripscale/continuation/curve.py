@@ -7,13 +7,21 @@ quantile of its magnitude: steep edges, of which there are few, do not decide it
 gets a slope that is r times that of the octave above. r comes from
 
 - the faces themselves (`OwnFaces`): the last measured octave is withheld, continued in the same way
-  and solved; with r_1 the ratio that gives its true friction, r = sqrt(r_1);
+  and solved; with r_1 the ratio that gives its true friction, r = r_1^(3/4);
 - a finer measurement of a face of a stone (`FinerMeasurement`): the slopes of its octaves;
 - a stated Hurst exponent (`HurstExponent`): r = 2^(1 - H).
 
-The square root is a compromise between constant slope and the last measured octave: the ratio of
-one octave says only half of the next. Withheld octaves of measured and synthetic surfaces show how
-far a continuation errs: see `BAND`.
+The power 3/4 is a compromise between constant slope and the last measured octave: the ratio of one
+octave is not quite that of the next. A number y, from y_0 where the measurement ends, has n octaves
+below it a 90 % band of
+
+    ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2).
+
+What continuation adds is wrong by a share b of it, and a surface may change its kind (a). r_2 is
+the ratio of the octave before the last. Where r_1 and r_2 are far apart (`UNFORETOLD`) the
+roughness changes its kind where it is measured: the faces foretell no octave, and the curve ends
+with the measurement. The constants come from withheld octaves of synthetic surfaces, see
+docs/below-measurement.md.
 """
 
 from __future__ import annotations
@@ -39,6 +47,7 @@ from gripscale.continuation.roughness import (
     Roughness,
     as_roughness,
     slope_on_faces,
+    whole_slope,
 )
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask
@@ -50,25 +59,28 @@ from gripscale.half_space.grid import nearest
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.model import STATUS, Load, OnProgress
+from gripscale.model import STATUS, TOTALS, Load, OnProgress, predicted_answer
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, Surface
 
 DOWN_TO = 10e-6
 """Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
 
-BAND = 0.20
-"""Half width of the 90 % band of a number one octave below the measurement, relative to it.
-Measured on withheld octaves, see docs/below-measurement.md."""
+BAND_OF_OCTAVE = 0.07
+"""a, half width of the 90 % band of the logarithm of a number for each octave [-]."""
 
-_BAND_GROWTH = 0.5
-"""Power of the octaves below the measurement that the band grows with."""
+BAND_OF_GROWTH = 0.6
+"""b, the same over the logarithm of what continuation adds [-]."""
+
+UNFORETOLD = 0.55
+"""Largest |ln(r_1 / r_2)| of faces that foretell an octave."""
 
 QUANTILE_90 = 1.645
 """Half width of the 90 % interval of a Gaussian over its standard deviation."""
 
-RATIO_LIMIT = 0.3
-"""Largest |ln r_1|: an octave that rolls off faster is the end of an instrument's band."""
+_POWER = 0.75
+_LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
+"""ln r that a withheld octave is tried with; r_1 is interpolated between them."""
 
 MOST_OCTAVES = 8
 _LEAST_STEP = 0.05
@@ -90,6 +102,13 @@ class Withheld:
     """Relative error of the friction coefficient [-]."""
     slope_ratio: float
     """r_1, the slope over that of the octave above that gives the true friction [-]."""
+    slope_ratio_above: float
+    """r_2, the same of the octave above; NaN where the line is too short to try it."""
+
+    @property
+    def foretells(self) -> bool:
+        """Whether both octaves have slopes alike enough to foretell the next."""
+        return not abs(math.log(self.slope_ratio / self.slope_ratio_above)) > UNFORETOLD
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,10 +163,20 @@ class ContactByCutOff:
         """Octaves of each step below the measurement."""
         return np.maximum(np.log2(self.resolved / self.wavelength), 0.0)
 
+    def band(self, name: str) -> Array:
+        """Return the half width of the 90 % band of the logarithm of a number at each step [-]."""
+        octaves, values = self.octaves_below, self.values(name)
+        resolved = values[octaves == 0.0][-1]
+        growth = np.log(values / resolved) if resolved > 0.0 else np.zeros(values.size)
+        width = np.hypot(BAND_OF_OCTAVE * octaves, BAND_OF_GROWTH * growth)
+        return np.where(octaves > 0.0, width, 0.0)
+
     @property
-    def band(self) -> Array:
-        """Half width of the 90 % band of each step, relative to its number."""
-        return BAND * self.octaves_below**_BAND_GROWTH
+    def refusal(self) -> str:
+        """Why the lines were not continued; empty if they were, or if all was measured."""
+        if self.withheld is None or self.withheld.foretells:
+            return ""
+        return unforetold(self.resolved, self.withheld.slope_ratio, self.withheld.slope_ratio_above)
 
     def values(self, name: str) -> Array:
         """Return a number of `RoughContact` at each step, averaged by length."""
@@ -167,9 +196,9 @@ class ContactByCutOff:
         data = {"measured": over(self.octaves_below == 0.0, "1", "whether all waves were measured")}
         for name, text in _CURVES.items():
             data[name] = over(self.values(name), "1", text)
-        for name in ("contact_fraction", "friction_from_dissipation"):
+        for name in _BANDS.values():
             for end, sign in (("lower", -1.0), ("upper", 1.0)):
-                values = self.values(name) * np.exp(sign * np.arcsinh(self.band))
+                values = self.values(name) * np.exp(sign * self.band(name))
                 data[f"{name}_{end}"] = over(values, "1", f"{end} end of the 90 % band")
         data["octave_slope"] = over(
             [step.slope for step in self.steps], "1", "slope of the last octave on the faces"
@@ -203,6 +232,9 @@ _CURVES = {
 }
 """Numbers of `RoughContact` over the cut-off."""
 
+_BANDS = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
+"""Numbers of an answer, and their curves with a band."""
+
 FACTS = {
     "resolved": "shortest wavelength that was measured",
     "slope_ratio": "slope of a continued octave over that of the octave above",
@@ -210,8 +242,19 @@ FACTS = {
     "withheld_contact_fraction_error": "relative error of the withheld octave, contact fraction",
     "withheld_friction_error": "relative error of the withheld octave, friction",
     "withheld_slope_ratio": "slope ratio that gives the friction of the withheld octave",
+    "withheld_slope_ratio_above": "slope ratio that gives the friction of the octave above it",
 }
 """What a Dataset holds of a continuation, as far as it is known."""
+
+
+def unforetold(resolved: float, last: float, above: float) -> str:
+    """Return why roughness is not continued below a wavelength [m], with r_1 and r_2."""
+    return (
+        f"The roughness is not continued below {in_mm(resolved, 3)}, where the measurement ends: the "
+        f"slopes of its last two octaves are {last:.2f} and {above:.2f} times those of the octave "
+        f"above. Ratios more than {math.exp(UNFORETOLD):.2g} times apart foretell no octave: state "
+        "a Hurst exponent, or measure a face of a stone finer."
+    )
 
 
 def cut_off_at(slope: float, wavelength: Array, slopes: Array) -> float:
@@ -295,8 +338,7 @@ def contact_by_cut_off(
         slope = math.nan
         if steps:
             slope = slope_on_faces(periodic, steps[-1].faces, 2.0 * cut_off, cut_off)
-        shorter = [line.down_to(cut_off) for line in periodic]
-        steps.append(solver.step(shorter, float(cut_off), slope))
+        steps.append(solver.step(periodic, float(cut_off), slope))
     if last >= resolved:
         return ContactByCutOff(tuple(steps), resolved, math.nan, None, math.nan)
     if len(steps) < 3:
@@ -347,7 +389,10 @@ class _Solver:
         """Return the contacts with another octave, whose slope on the faces is `slope`."""
         longest = step.wavelength
         octaves = [intermittency.octave(line, longest, shortest, random) for line in step.lines]
-        scale = slope / slope_on_faces(octaves, step.faces, longest, shortest)
+        # what the line holds beyond its measurement, the flanks of edges, is a part of it
+        known = slope_on_faces(step.lines, step.faces, longest, shortest)
+        rest = math.sqrt(max(slope**2 - known**2, 0.0))
+        scale = rest / whole_slope(octaves, step.faces)
         lines = [
             replace(line, waves=line.waves + scale * octave.waves)
             for line, octave in zip(step.lines, octaves, strict=True)
@@ -373,7 +418,10 @@ def _continued(
         ratio = 2.0 ** (1.0 - source.hurst)
     else:
         withheld = _withheld(replace(solver, on_contact=None), steps, random)
-        ratio = 1.0 if withheld is None else math.sqrt(withheld.slope_ratio)
+        ratio = 1.0 if withheld is None else withheld.slope_ratio**_POWER
+        if withheld is not None and not withheld.foretells:
+            return ContactByCutOff(tuple(steps), resolved, math.nan, withheld, overlap)
+    here = replace(here, lines=tuple(line.resolved_to(resolved) for line in here.lines))
     while here.wavelength > last:
         shortest = 0.5 * here.wavelength
         if shortest < last * (1.0 + _LEAST_STEP):
@@ -425,29 +473,40 @@ def _overlap(finer: FinerMeasurement, steps: Sequence[CutOffContact], last: floa
 def _withheld(
     solver: _Solver, steps: Sequence[CutOffContact], random: np.random.Generator
 ) -> Withheld | None:
-    """Return how the last measured octave is found from those above; None without friction."""
+    """Return how the last two measured octaves are found from those above; None if not at all."""
+    last, above = (_octave_again(solver, part, random) for part in (steps, steps[:-1]))
+    if last is None:
+        return None
+    return replace(last, slope_ratio_above=math.nan if above is None else above.slope_ratio)
+
+
+def _octave_again(
+    solver: _Solver, steps: Sequence[CutOffContact], random: np.random.Generator
+) -> Withheld | None:
+    """Return how the last octave of measured steps is found; None with few, or no friction."""
     above, true = steps[-2], steps[-1]
     mu = true.mean("friction_from_dissipation")
     if not (len(steps) > 3 and mu > 0.0 and above.slope > 0.0):
         return None
-    faces = steps[-3].faces
-    intermittency = Intermittency.of(above.lines, faces, above.wavelength, random)
+    intermittency = Intermittency.of(above.lines, steps[-3].faces, above.wavelength, random)
+    start = replace(above, lines=tuple(line.resolved_to(above.wavelength) for line in above.lines))
     seed = random.integers(2**32)
-    logs = np.array([-RATIO_LIMIT, 0.0, RATIO_LIMIT])
     tried = [
         solver.next_step(
-            above,
+            start,
             intermittency,
             above.slope * math.exp(log),
             true.wavelength,
             np.random.default_rng(seed),  # the same waves, steeper or less steep
         )
-        for log in logs
+        for log in _LOG_RATIOS
     ]
-    errors = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
-    ratio = math.exp(float(np.interp(0.0, errors, logs))) if np.all(np.diff(errors) > 0) else 1.0
-    area = tried[1].mean("contact_fraction") / true.mean("contact_fraction")
-    return Withheld(area - 1.0, math.expm1(errors[1]), ratio)
+    frictions = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
+    # where the flanks of edges are all there is, less steep waves change nothing
+    ratio = math.exp(float(np.interp(0.0, np.maximum.accumulate(frictions), _LOG_RATIOS)))
+    same = int(np.flatnonzero(_LOG_RATIOS == 0.0)[0])
+    area = tried[same].mean("contact_fraction") / true.mean("contact_fraction")
+    return Withheld(area - 1.0, math.expm1(frictions[same]), ratio, math.nan)
 
 
 class ContinuedContact(DirectContact):
@@ -496,10 +555,13 @@ class ContinuedContact(DirectContact):
         answer = self._answer(curve.steps[-1].contacts, surface, load)
         if answer[STATUS].item() != "converged":
             return answer
-        error = float(np.arcsinh(curve.band[-1])) / QUANTILE_90
-        for name in ("contact_fraction", "friction"):
+        for name, curve_name in _BANDS.items():
+            error = float(curve.band(curve_name)[-1]) / QUANTILE_90
             about = answer[f"{name}_error"].attrs
             answer[f"{name}_error"] = (error * answer[name]).assign_attrs(about)
+        if curve.refusal:
+            nothing = dict.fromkeys(TOTALS, math.nan)
+            answer = predicted_answer(answer, nothing, curve.refusal, self.name, load)
         # `friction` without a dimension is that of the last cut-off
         data = curve.to_dataset().drop_vars("status")
         return answer.merge(

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.continuation.curve import FACTS, cut_off_at
+from gripscale.continuation.curve import FACTS, cut_off_at, unforetold
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
@@ -65,6 +66,14 @@ def contact_curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
         return kept
     curves = [str(name) for name in answer if answer[name].dims == ("cut_off",)]
     return kept.merge(answer[[*curves, *(name for name in FACTS if name in answer)]])
+
+
+def refusals(data: xr.Dataset) -> Iterator[Finding]:
+    """Yield why a curve ends where the measurement ends, if more was asked for."""
+    if "withheld_slope_ratio" in data and bool(data.curve_measured[-1]):
+        names = ("resolved", "withheld_slope_ratio", "withheld_slope_ratio_above")
+        text = unforetold(*(float(data[name]) for name in names))
+        yield Finding(Severity.DOUBT, text, topic=Topic.SURFACE, key="below_measurement.hurst")
 
 
 def at_cut_off(data: xr.Dataset, name: str, length: float) -> float:

@@ -31,6 +31,7 @@ from gripscale.questions.cut_off.curve import (
     SLOPE_IN_CONTACT,
     at_cut_off,
     cut_off_curve,
+    refusals,
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
@@ -72,7 +73,7 @@ class CutOff(Result):
         )
         lead = f"for {load}; direct contact of the measured surface, without factors"
         if bool(data.curve_measured[-1]):
-            return [lead]
+            return [lead, *(finding.sentence for finding in refusals(data))]
         measured = ", ".join(
             f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
             for name, curve in self._curves
@@ -83,7 +84,12 @@ class CutOff(Result):
     @property
     def failure(self) -> str:
         sentence = str(self.data[STATUS].item())
-        return "" if sentence == CONVERGED else sentence
+        return "" if sentence == CONVERGED or "cut_off" in self.data.dims else sentence
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        refused = () if self.failure else tuple(refusals(self.data))
+        return (*refused, *super().findings)
 
     def parts(self) -> Iterator[str | Table]:
         if not self.failure:
@@ -219,7 +225,8 @@ def cut_off(
     CutOff
         Over `cut_off`: the curves of `gripscale.continuation.contact_by_cut_off` with the prefix
         `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
-        The totals are those of the last cut-off.
+        The totals are those of the last cut-off; not numbers where the faces foretell no octave
+        below the measurement, at which the curves then end (`findings`).
 
     Raises
     ------
