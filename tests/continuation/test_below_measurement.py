@@ -103,8 +103,8 @@ def test_a_line_whose_last_octaves_disagree_is_not_continued():
     found = contact_by_cut_off(tread(), line, down_to=0.2e-3, **LOAD)
     assert found.wavelength[-1] == pytest.approx(0.8e-3)
     assert re.match(
-        r"The roughness is not continued below 0\.8 mm: withheld, the last two measured octaves "
-        r"have slopes 1\.\d\d and 0\.\d\d times",
+        r"The roughness is not continued below 0\.8 mm, where the measurement ends: the slopes of "
+        r"its last two octaves are 1\.\d\d and 0\.\d\d times",
         found.refusal,
     )
     surface = Surface(THREE_SINES, "", measured=Measured.of([line]))

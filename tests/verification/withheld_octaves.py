@@ -23,10 +23,10 @@ NUMBERS = ("friction_from_dissipation", "contact_fraction")
 
 @dataclass(frozen=True)
 class Line:
-    """A line with the speed it is slid at [m/s]."""
+    """Profiles of a surface with the speed they are slid at [m/s]."""
 
     name: str
-    profile: gs.Profile
+    profiles: tuple[gs.Profile, ...]
     speed: float = SPEED
 
 
@@ -52,12 +52,12 @@ class Withheld:
 def measured_lines() -> list[Line]:
     """Return the two stations of the shipped road, and a machined surface of another instrument."""
     folder = ROOT / "examples" / "data" / "road"
-    lines = [
-        Line(f"road, station {s}", _clean(folder / f"20211011_aylesbury_dec_station_{s}.dat"))
-        for s in (0, 1)
-    ]
+    files = [folder / f"20211011_aylesbury_dec_station_{s}.dat" for s in (0, 1)]
     machined = gs.read_profile(ROOT / "examples" / "data" / "surfaces" / "mitutoyo_2_mock.xlsx")
-    return [*lines, Line("machined", gs.clean(machined)[0], speed=0.01)]
+    return [
+        Line("road", tuple(_clean(file) for file in files)),
+        Line("machined", (gs.clean(machined)[0],), speed=0.01),
+    ]
 
 
 def _clean(path: object) -> gs.Profile:
@@ -69,7 +69,7 @@ def synthetic_lines(families: Iterable[str], seeds: Iterable[int]) -> Iterator[L
     numbers = list(seeds)
     for family in families:
         for seed in numbers:
-            yield Line(family, family_line(family, seed))
+            yield Line(family, (family_line(family, seed),))
 
 
 def coarser(line: gs.Profile, octaves: int) -> gs.Profile:
@@ -87,15 +87,16 @@ def coarser(line: gs.Profile, octaves: int) -> gs.Profile:
     return gs.Profile(length / points * np.arange(points), resampled(waves, z.shape, (points,)))
 
 
-def judged(lines: Iterable[Line], octaves: tuple[int, ...] = (1, 2, 3)) -> Iterator[Withheld]:
+def judged(surfaces: Iterable[Line], octaves: tuple[int, ...] = (1, 2, 3)) -> Iterator[Withheld]:
     """Yield contact and friction of lines whose last octaves were withheld, over the true ones."""
-    for line in lines:
+    for line in surfaces:
         load = {"pressure": PRESSURE, "speed": line.speed}
-        fine = coarser(line.profile, 0)
-        limit = fine.resolution_limit
+        fine = [coarser(profile, 0) for profile in line.profiles]
+        limit = max(profile.resolution_limit for profile in fine)
         true = contact_by_cut_off(tread(), fine, down_to=limit, **load)
         for count in octaves:
-            found = contact_by_cut_off(tread(), coarser(fine, count), down_to=limit, **load)
+            lines = [coarser(profile, count) for profile in fine]
+            found = contact_by_cut_off(tread(), lines, down_to=limit, **load)
             first, second = (
                 math.log(found.values(name)[-1] / true.values(name)[-1]) for name in NUMBERS
             )

@@ -7,20 +7,22 @@ quantile of its magnitude: steep edges, of which there are few, do not decide it
 gets a slope that is r times that of the octave above. r comes from
 
 - the faces themselves (`OwnFaces`): the last measured octave is withheld, continued in the same way
-  and solved; with r_1 the ratio that gives its true friction, r = r_1^(3/4);
+  and solved; with r_1 the ratio that gives its true friction, and r_H = 2^(1 - H) that of the usual
+  Hurst exponent, each octave keeps a share c of what the one above had beyond it,
+
+      ln r_(k+1) = ln r_H + c (ln r_k - ln r_H);
+
 - a finer measurement of a face of a stone (`FinerMeasurement`): the slopes of its octaves;
 - a stated Hurst exponent (`HurstExponent`): r = 2^(1 - H).
 
-The power 3/4 is a compromise between constant slope and the last measured octave: the ratio of one
-octave is not quite that of the next. A number y, from y_0 where the measurement ends, has n octaves
-below it a 90 % band of
+A number y, from y_0 where the measurement ends, has n octaves below it a 90 % band of
 
     ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2).
 
 What continuation adds is wrong by a share b of it, and a surface may change its kind (a). r_2 is
 the ratio of the octave before the last. Where r_1 and r_2 are far apart (`UNFORETOLD`) the
 roughness changes its kind where it is measured: the faces foretell no octave, and the curve ends
-with the measurement. The constants come from withheld octaves of synthetic surfaces, see
+with the measurement. The constants come from withheld octaves of measured and synthetic lines, see
 docs/below-measurement.md.
 """
 
@@ -47,7 +49,6 @@ from gripscale.continuation.roughness import (
     Roughness,
     as_roughness,
     slope_on_faces,
-    whole_slope,
 )
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask
@@ -66,10 +67,10 @@ from gripscale.surface import Profile, Surface
 DOWN_TO = 10e-6
 """Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
 
-BAND_OF_OCTAVE = 0.07
+BAND_OF_OCTAVE = 0.10
 """a, half width of the 90 % band of the logarithm of a number for each octave [-]."""
 
-BAND_OF_GROWTH = 0.6
+BAND_OF_GROWTH = 0.40
 """b, the same over the logarithm of what continuation adds [-]."""
 
 UNFORETOLD = 0.55
@@ -78,7 +79,13 @@ UNFORETOLD = 0.55
 QUANTILE_90 = 1.645
 """Half width of the 90 % interval of a Gaussian over its standard deviation."""
 
-_POWER = 0.75
+PERSISTENCE = 0.75
+"""c, share of ln r of an octave, beyond that of `USUAL_HURST`, that the next octave has [-]."""
+
+USUAL_HURST = 0.8
+"""Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
+doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is."""
+
 _LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
 """ln r that a withheld octave is tried with; r_1 is interpolated between them."""
 
@@ -146,7 +153,7 @@ class ContactByCutOff:
     resolved: float
     """Shortest wavelength that was measured [m]."""
     slope_ratio: float
-    """r, slope of a continued octave over that of the octave above [-]; NaN with a finer
+    """r of the last continued octave, its slope over that of the octave above [-]; NaN with a finer
     measurement, which has a slope for each."""
     withheld: Withheld | None
     """How well the last measured octave is found from those above; None where it was not tried."""
@@ -237,7 +244,7 @@ _BANDS = {"contact_fraction": "contact_fraction", "friction": "friction_from_dis
 
 FACTS = {
     "resolved": "shortest wavelength that was measured",
-    "slope_ratio": "slope of a continued octave over that of the octave above",
+    "slope_ratio": "slope of the last continued octave over that of the octave above",
     "overlap": "slope of the faces over that of the finer measurement",
     "withheld_contact_fraction_error": "relative error of the withheld octave, contact fraction",
     "withheld_friction_error": "relative error of the withheld octave, friction",
@@ -250,10 +257,10 @@ FACTS = {
 def unforetold(resolved: float, last: float, above: float) -> str:
     """Return why roughness is not continued below a wavelength [m], with r_1 and r_2."""
     return (
-        f"The roughness is not continued below {in_mm(resolved, 3)}, where the measurement ends: the "
-        f"slopes of its last two octaves are {last:.2f} and {above:.2f} times those of the octave "
-        f"above. Ratios more than {math.exp(UNFORETOLD):.2g} times apart foretell no octave: state "
-        "a Hurst exponent, or measure a face of a stone finer."
+        f"The roughness is not continued below {in_mm(resolved, 3)}, where the measurement ends: "
+        f"the slopes of its last two octaves are {last:.2f} and {above:.2f} times those of the "
+        f"octave above. Ratios more than {math.exp(UNFORETOLD):.2g} times apart foretell nothing: "
+        "state a Hurst exponent, or measure a face of a stone finer."
     )
 
 
@@ -392,7 +399,7 @@ class _Solver:
         # what the line holds beyond its measurement, the flanks of edges, is a part of it
         known = slope_on_faces(step.lines, step.faces, longest, shortest)
         rest = math.sqrt(max(slope**2 - known**2, 0.0))
-        scale = rest / whole_slope(octaves, step.faces)
+        scale = rest / slope_on_faces(octaves, step.faces, math.inf, 0.0)
         lines = [
             replace(line, waves=line.waves + scale * octave.waves)
             for line, octave in zip(step.lines, octaves, strict=True)
@@ -411,16 +418,18 @@ def _continued(
     here = steps[-1]
     resolved = here.wavelength
     intermittency = Intermittency.of(here.lines, steps[-2].faces, resolved, random)
-    ratio, withheld, overlap = math.nan, None, math.nan
+    ratio = usual = 2.0 ** (1.0 - USUAL_HURST)
+    withheld, overlap = None, math.nan
     if isinstance(source, FinerMeasurement):
-        overlap = _overlap(source, steps, last)
+        overlap, ratio = _overlap(source, steps, last), math.nan
     elif isinstance(source, HurstExponent):
-        ratio = 2.0 ** (1.0 - source.hurst)
+        ratio = usual = 2.0 ** (1.0 - source.hurst)
     else:
         withheld = _withheld(replace(solver, on_contact=None), steps, random)
-        ratio = 1.0 if withheld is None else withheld.slope_ratio**_POWER
-        if withheld is not None and not withheld.foretells:
+    if withheld is not None:
+        if not withheld.foretells:
             return ContactByCutOff(tuple(steps), resolved, math.nan, withheld, overlap)
+        ratio = withheld.slope_ratio
     here = replace(here, lines=tuple(line.resolved_to(resolved) for line in here.lines))
     while here.wavelength > last:
         shortest = 0.5 * here.wavelength
@@ -429,6 +438,7 @@ def _continued(
         if isinstance(source, FinerMeasurement):
             slope = _finer_slope(source, steps, shortest)
         else:
+            ratio = usual * (ratio / usual) ** PERSISTENCE
             # a part of an octave has its part of the mean square slope
             slope = here.slope * ratio * math.sqrt(math.log2(here.wavelength / shortest))
         here = solver.next_step(here, intermittency, slope, shortest, random)
@@ -504,9 +514,10 @@ def _octave_again(
     frictions = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
     # where the flanks of edges are all there is, less steep waves change nothing
     ratio = math.exp(float(np.interp(0.0, np.maximum.accumulate(frictions), _LOG_RATIOS)))
-    same = int(np.flatnonzero(_LOG_RATIOS == 0.0)[0])
-    area = tried[same].mean("contact_fraction") / true.mean("contact_fraction")
-    return Withheld(area - 1.0, math.expm1(frictions[same]), ratio, math.nan)
+    same = tried[_LOG_RATIOS.tolist().index(0.0)]
+    area = same.mean("contact_fraction") / true.mean("contact_fraction")
+    friction = same.mean("friction_from_dissipation") / mu
+    return Withheld(area - 1.0, friction - 1.0, ratio, math.nan)
 
 
 class ContinuedContact(DirectContact):

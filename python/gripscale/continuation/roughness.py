@@ -94,19 +94,15 @@ class PeriodicLine:
     def resolved_to(self, shortest: float) -> PeriodicLine:
         """Return the line as points measure it, four in a wave of `shortest` [m].
 
-        Between these points Akima's cubic (J. ACM 17 (1970) 589, doi:10.1145/321607.321609) does
-        not overshoot beside a step, as waves up to `shortest` alone would.
+        Between them lies a monotone cubic (F. N. Fritsch & J. Butland, SIAM J. Sci. Stat. Comput. 5
+        (1984) 300, doi:10.1137/0905021): waves that end at `shortest` overshoot beside a step.
         """
         stride = round(shortest / RESOLVED_STEPS * self.points / self.length)
-        at, z = (
-            np.arange(0, self.points, stride),
-            scipy.fft.irfft(self.waves, self.points)[::stride],
-        )
-        ends = slice(-_MARGIN, None), slice(None, _MARGIN)
-        nodes = np.concatenate([at[ends[0]] - self.points, at, at[ends[1]] + self.points])
-        values = np.concatenate([z[ends[0]], z, z[ends[1]]])
-        fine = scipy.interpolate.PchipInterpolator(nodes, values)(np.arange(self.points))
-        return replace(self, waves=np.asarray(scipy.fft.rfft(fine)))
+        at = np.arange(0, self.points, stride)
+        z = scipy.fft.irfft(self.waves, self.points)[at]
+        period, node = np.divmod(np.arange(-_MARGIN, at.size + _MARGIN), at.size)
+        curve = scipy.interpolate.PchipInterpolator(at[node] + period * self.points, z[node])
+        return replace(self, waves=np.asarray(scipy.fft.rfft(curve(np.arange(self.points)))))
 
     def slope(self, longest: float, shortest: float) -> Array:
         """Return the slope [-] of the waves between two wavelengths [m], shape (points,)."""
@@ -155,11 +151,6 @@ def slope_on_faces(
     return typical_slope(np.concatenate(slopes))
 
 
-def whole_slope(lines: Sequence[PeriodicLine], faces: Sequence[Mask]) -> float:
-    """Return the slope [-] of all waves on the faces of all lines."""
-    return slope_on_faces(lines, faces, math.inf, 0.0)
-
-
 @dataclass(frozen=True)
 class Intermittency:
     """How the local amplitude of an octave follows that of the octave above."""
@@ -187,9 +178,8 @@ class Intermittency:
             alone.append(np.stack([noise.amplitude(*ends[:2]), noise.amplitude(*ends[1:])]))
         (above, below), chance = np.hstack(faces_only), np.cov(np.hstack(alone))
         # octaves share the waves of their common end, those of noise as well
-        coupling = float(
-            np.cov(above, below)[0, 1] / above.var(ddof=1) - chance[0, 1] / chance[0, 0]
-        )
+        common = chance[0, 1] / chance[0, 0]
+        coupling = float(np.cov(above, below)[0, 1] / above.var(ddof=1) - common)
         rest = float(np.var(below - coupling * above) - chance[1, 1])
         return cls(coupling, math.sqrt(max(rest, 0.0)))
 

@@ -17,7 +17,7 @@ from gripscale.case import Case
 from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
-from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
+from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.line_to_map import upper_height_of
@@ -37,6 +37,7 @@ from gripscale.questions.cut_off.curve import (
     CONTINUED_TO,
     FRICTION,
     at_cut_off,
+    continuation_doubts,
     cut_off_curve,
     refusals,
 )
@@ -157,12 +158,12 @@ def direct_contact_totals(
         upper_height=upper_height_of(case.surface),
         sampled=sampled,
     )
-    refused = [] if curve is None else list(refusals(curve))
-    if curve is not None and not refused:
+    if curve is not None and not any(refusals(curve)):
         best[CONTINUED_TO] = case.below_measurement.down_to
     end = resolved_wavelength(case.surface)
     best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
-    doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units, refused)
+    of_curve = [] if curve is None else list(continuation_doubts(curve))
+    doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units, of_curve)
     totals = model.predicted_answer(
         best,
         {f"total_{name}": value for name, value in means.items()},

@@ -31,7 +31,7 @@ from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
-from gripscale.questions.cut_off.curve import refusals
+from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
 from gripscale.questions.words import SYMBOLS
 from gripscale.report.elements import Page
@@ -173,9 +173,9 @@ def compare(
         extrapolation and a wave excites the rubber beyond the measured band, or other than one
         input of numbers is varied.
     """
-    refused: list[Finding] = []
+    doubtful: list[Finding] = []
     if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:
-        refused = list(refusals(curve))
+        doubtful = list(continuation_doubts(curve))
         factors = [*continuation_factors(case, curve), *factors]
     with bench_in(folder, workers, client, on_task) as bench:
         ladder = solved_ladder(
@@ -193,8 +193,8 @@ def compare(
     data = ladder.data
     if doubts := friction_doubts(ladder.measured, case.load.speed):
         data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
-    if refused:
-        data = data.assign_attrs({INPUT_DOUBTS: to_json([*input_doubts_of(data), *refused])})
+    if doubtful:
+        data = data.assign_attrs({INPUT_DOUBTS: to_json([*input_doubts_of(data), *doubtful])})
     result = Comparison(data)
     result.ladder = ladder
     return result

@@ -30,6 +30,7 @@ from gripscale.questions.cut_off.curve import (
     FRICTION,
     SLOPE_IN_CONTACT,
     at_cut_off,
+    continuation_doubts,
     cut_off_curve,
     refusals,
 )
@@ -60,6 +61,8 @@ class CutOff(Result):
             for name, curve in self._curves
         )
         level = f" ({_LEVEL} bands)" if below else ""
+        if any(refusals(data)):
+            level = ", where the measurement ends: it foretells no octave"
         lead = f"Answer: {numbers} with roughness down to {in_mm(self._end, 3)}{level}"
         return [lead, *(f"  {line}" for line in self.basis)]
 
@@ -73,7 +76,7 @@ class CutOff(Result):
         )
         lead = f"for {load}; direct contact of the measured surface, without factors"
         if bool(data.curve_measured[-1]):
-            return [lead, *(finding.sentence for finding in refusals(data))]
+            return [lead]
         measured = ", ".join(
             f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
             for name, curve in self._curves
@@ -88,8 +91,8 @@ class CutOff(Result):
 
     @property
     def findings(self) -> Sequence[Finding]:
-        refused = () if self.failure else tuple(refusals(self.data))
-        return (*refused, *super().findings)
+        doubts = () if self.failure else continuation_doubts(self.data)
+        return (*doubts, *super().findings)
 
     def parts(self) -> Iterator[str | Table]:
         if not self.failure:
@@ -186,9 +189,13 @@ def _source(data: xr.Dataset) -> str:
             else "; no wavelength is measured by both"
         )
         return f"with the slopes of the finer measurement{compared}"
-    text = f"with slopes {significant(float(data.slope_ratio), 3)} times as steep each octave"
+    ends = [data.get("withheld_slope_ratio", data.slope_ratio), data.slope_ratio]
+    first, end = (significant(float(ratio), 3) for ratio in ends)
+    text = f"with slopes {end} times those of the octave above"
+    if first != end:
+        text += f" in the last octave, {first} times in the last measured one"
     if "withheld_friction_error" not in data:
-        return f"{text}, as stated or as the octaves above"
+        return f"{text}, as stated or as usual"
     errors = ", ".join(
         f"{words} {change(float(data[f'withheld_{name}_error']))}"
         for name, words in (("friction", "friction"), ("contact_fraction", "contact area"))
