@@ -396,9 +396,9 @@ class _Solver:
         """Return the contacts with another octave, whose slope on the faces is `slope`."""
         longest = step.wavelength
         octaves = [intermittency.octave(line, longest, shortest, random) for line in step.lines]
-        # what the line holds beyond its measurement, the flanks of edges, is a part of it
-        known = slope_on_faces(step.lines, step.faces, longest, shortest)
-        rest = math.sqrt(max(slope**2 - known**2, 0.0))
+        # the line itself holds a part of it: flanks of edges, and waves near its end
+        part = slope_on_faces(step.lines, step.faces, longest, shortest)
+        rest = math.sqrt(max(slope**2 - part**2, 0.0))
         scale = rest / slope_on_faces(octaves, step.faces, math.inf, 0.0)
         lines = [
             replace(line, waves=line.waves + scale * octave.waves)
