@@ -67,7 +67,7 @@ from gripscale.surface import Profile, Surface
 DOWN_TO = 10e-6
 """Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
 
-BAND_OF_OCTAVE = 0.10
+BAND_OF_OCTAVE = 0.11
 """a, half width of the 90 % band of the logarithm of a number for each octave [-]."""
 
 BAND_OF_GROWTH = 0.40
@@ -289,7 +289,7 @@ def contact_by_cut_off(
     """Return contact and friction of measured lines, solved with one cut-off after the other.
 
     Cut-offs are an octave apart. Above the shortest wavelength that the lines resolve, the waves
-    are measured; below, they are continued and the numbers have a `band`.
+    are measured; below, they are continued and the numbers have a `band`, but for a `refusal`.
 
     Parameters
     ----------
@@ -512,7 +512,6 @@ def _octave_again(
         for log in _LOG_RATIOS
     ]
     frictions = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
-    # where the flanks of edges are all there is, less steep waves change nothing
     ratio = math.exp(float(np.interp(0.0, np.maximum.accumulate(frictions), _LOG_RATIOS)))
     same = tried[_LOG_RATIOS.tolist().index(0.0)]
     area = same.mean("contact_fraction") / true.mean("contact_fraction")
