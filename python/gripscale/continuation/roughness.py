@@ -44,8 +44,8 @@ LONGEST_SHARE = 0.25
 """Longest wavelength of a line that counts, over the length of the line."""
 
 _MOST_ABOVE = 1.25
-"""Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6
-intermittent surfaces lose a tenth of their friction, with 2.5 surfaces with edges gain a third."""
+"""Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6 or
+2.5 stones with sharp edges and cascades change their friction by 3 % at most."""
 
 _LEAST = 1e-100
 _MARGIN = 3
