@@ -1,7 +1,7 @@
 """Families of lines whose last octaves are withheld: what the bands are measured on and judged by.
 
 A seed draws the numbers of a line from the ranges in the function of its family. Bands were chosen
-on the families of `FITTED`; those of `JUDGES` were never fitted to.
+on the families of `FITTED` and judged on those of `JUDGES`.
 """
 
 from __future__ import annotations

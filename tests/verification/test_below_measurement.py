@@ -1,7 +1,8 @@
 """Octaves that were withheld and continued: the band holds the truth as often as it says.
 
-The constants were chosen on the families of `FITTED` with seeds below 7. `JUDGES` had a part in one:
-with a = 0.10 they and new seeds held the friction of one octave 46 times of 54, and it became 0.11.
+The constants were chosen on the families of `FITTED` with seeds below 7. `JUDGES` had a part in
+one: with a = 0.10 they and new seeds held the friction of one octave 46 times of 54, and a became
+0.11.
 `python -m pytest -m verification -s` prints the table.
 """
 
