@@ -46,14 +46,17 @@ class Doubtful(Protocol):
 
 
 def input_doubts(
-    inputs: Iterable[Doubtful], loads: Iterable[Load], units: Mapping[str, str]
+    inputs: Iterable[Doubtful],
+    loads: Iterable[Load],
+    units: Mapping[str, str],
+    others: Iterable[Finding] = (),
 ) -> dict[str, str]:
     """Return the attribute `INPUT_DOUBTS` of an answer; nothing without a doubt.
 
     It is on surfaces and of a rubber, the `inputs`, and under loads, which are shown in the stated
-    `units` of their quantities.
+    `units` of their quantities; `others` are doubts about what was made of them.
     """
-    of_inputs = [doubt for each in inputs for doubt in each.doubts]
+    of_inputs = [*(doubt for each in inputs for doubt in each.doubts), *others]
     doubts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
     return {INPUT_DOUBTS: to_json(doubts)} if doubts else {}
 

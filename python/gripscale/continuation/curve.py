@@ -7,13 +7,23 @@ quantile of its magnitude: steep edges, of which there are few, do not decide it
 gets a slope that is r times that of the octave above. r comes from
 
 - the faces themselves (`OwnFaces`): the last measured octave is withheld, continued in the same way
-  and solved; with r_1 the ratio that gives its true friction, r = sqrt(r_1);
+  and solved; with r_1 the ratio that gives its true friction, and r_H = 2^(1 - H) that of the usual
+  Hurst exponent, each octave keeps a share c of what the one above had beyond it,
+
+      ln r_(k+1) = ln r_H + c (ln r_k - ln r_H);
+
 - a finer measurement of a face of a stone (`FinerMeasurement`): the slopes of its octaves;
 - a stated Hurst exponent (`HurstExponent`): r = 2^(1 - H).
 
-The square root is a compromise between constant slope and the last measured octave: the ratio of
-one octave says only half of the next. Withheld octaves of measured and synthetic surfaces show how
-far a continuation errs: see `BAND`.
+A number y, from y_0 where the measurement ends, has n octaves below it a 90 % band of
+
+    ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2).
+
+What continuation adds is wrong by a share b of it, and a surface may change its kind (a). r_2 is
+the ratio of the octave before the last. Where r_1 and r_2 are far apart (`UNFORETOLD`) the
+roughness changes its kind where it is measured: the faces foretell no octave, and the curve ends
+with the measurement. The constants come from withheld octaves of measured and synthetic lines, see
+docs/below-measurement.md.
 """
 
 from __future__ import annotations
@@ -50,25 +60,34 @@ from gripscale.half_space.grid import nearest
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.model import STATUS, Load, OnProgress
+from gripscale.model import STATUS, TOTALS, Load, OnProgress, predicted_answer
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, Surface
 
 DOWN_TO = 10e-6
 """Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
 
-BAND = 0.20
-"""Half width of the 90 % band of a number one octave below the measurement, relative to it.
-Measured on withheld octaves, see docs/below-measurement.md."""
+BAND_OF_OCTAVE = 0.11
+"""a, half width of the 90 % band of the logarithm of a number for each octave [-]."""
 
-_BAND_GROWTH = 0.5
-"""Power of the octaves below the measurement that the band grows with."""
+BAND_OF_GROWTH = 0.40
+"""b, the same over the logarithm of what continuation adds [-]."""
+
+UNFORETOLD = 0.55
+"""Largest |ln(r_1 / r_2)| of faces that foretell an octave."""
 
 QUANTILE_90 = 1.645
 """Half width of the 90 % interval of a Gaussian over its standard deviation."""
 
-RATIO_LIMIT = 0.3
-"""Largest |ln r_1|: an octave that rolls off faster is the end of an instrument's band."""
+PERSISTENCE = 0.75
+"""c, share of ln r of an octave, beyond that of `USUAL_HURST`, that the next octave has [-]."""
+
+USUAL_HURST = 0.8
+"""Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
+doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is."""
+
+_LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
+"""ln r that a withheld octave is tried with; r_1 is interpolated between them."""
 
 MOST_OCTAVES = 8
 _LEAST_STEP = 0.05
@@ -90,6 +109,13 @@ class Withheld:
     """Relative error of the friction coefficient [-]."""
     slope_ratio: float
     """r_1, the slope over that of the octave above that gives the true friction [-]."""
+    slope_ratio_above: float
+    """r_2, the same of the octave above; NaN where the line is too short to try it."""
+
+    @property
+    def foretells(self) -> bool:
+        """Whether both octaves have slopes alike enough to foretell the next."""
+        return not abs(math.log(self.slope_ratio / self.slope_ratio_above)) > UNFORETOLD
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +153,7 @@ class ContactByCutOff:
     resolved: float
     """Shortest wavelength that was measured [m]."""
     slope_ratio: float
-    """r, slope of a continued octave over that of the octave above [-]; NaN with a finer
+    """r of the last continued octave, its slope over that of the octave above [-]; NaN with a finer
     measurement, which has a slope for each."""
     withheld: Withheld | None
     """How well the last measured octave is found from those above; None where it was not tried."""
@@ -144,10 +170,20 @@ class ContactByCutOff:
         """Octaves of each step below the measurement."""
         return np.maximum(np.log2(self.resolved / self.wavelength), 0.0)
 
+    def band(self, name: str) -> Array:
+        """Return the half width of the 90 % band of the logarithm of a number at each step [-]."""
+        octaves, values = self.octaves_below, self.values(name)
+        resolved = values[octaves == 0.0][-1]
+        growth = np.log(values / resolved) if resolved > 0.0 else np.zeros(values.size)
+        width = np.hypot(BAND_OF_OCTAVE * octaves, BAND_OF_GROWTH * growth)
+        return np.where(octaves > 0.0, width, 0.0)
+
     @property
-    def band(self) -> Array:
-        """Half width of the 90 % band of each step, relative to its number."""
-        return BAND * self.octaves_below**_BAND_GROWTH
+    def refusal(self) -> str:
+        """Why the lines were not continued; empty if they were, or if all was measured."""
+        if self.withheld is None or self.withheld.foretells:
+            return ""
+        return unforetold(self.resolved, self.withheld.slope_ratio, self.withheld.slope_ratio_above)
 
     def values(self, name: str) -> Array:
         """Return a number of `RoughContact` at each step, averaged by length."""
@@ -167,9 +203,9 @@ class ContactByCutOff:
         data = {"measured": over(self.octaves_below == 0.0, "1", "whether all waves were measured")}
         for name, text in _CURVES.items():
             data[name] = over(self.values(name), "1", text)
-        for name in ("contact_fraction", "friction_from_dissipation"):
+        for name in _BANDS.values():
             for end, sign in (("lower", -1.0), ("upper", 1.0)):
-                values = self.values(name) * np.exp(sign * np.arcsinh(self.band))
+                values = self.values(name) * np.exp(sign * self.band(name))
                 data[f"{name}_{end}"] = over(values, "1", f"{end} end of the 90 % band")
         data["octave_slope"] = over(
             [step.slope for step in self.steps], "1", "slope of the last octave on the faces"
@@ -203,15 +239,29 @@ _CURVES = {
 }
 """Numbers of `RoughContact` over the cut-off."""
 
+_BANDS = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
+"""Numbers of an answer, and their curves with a band."""
+
 FACTS = {
     "resolved": "shortest wavelength that was measured",
-    "slope_ratio": "slope of a continued octave over that of the octave above",
+    "slope_ratio": "slope of the last continued octave over that of the octave above",
     "overlap": "slope of the faces over that of the finer measurement",
     "withheld_contact_fraction_error": "relative error of the withheld octave, contact fraction",
     "withheld_friction_error": "relative error of the withheld octave, friction",
     "withheld_slope_ratio": "slope ratio that gives the friction of the withheld octave",
+    "withheld_slope_ratio_above": "slope ratio that gives the friction of the octave above it",
 }
 """What a Dataset holds of a continuation, as far as it is known."""
+
+
+def unforetold(resolved: float, last: float, above: float) -> str:
+    """Return why roughness is not continued below a wavelength [m], with r_1 and r_2."""
+    return (
+        f"The roughness is not continued below {in_mm(resolved, 3)}, where the measurement ends: "
+        f"the slopes of its last two octaves are {last:.2f} and {above:.2f} times those of the "
+        f"octave above. Ratios more than {math.exp(UNFORETOLD):.2g} times apart foretell nothing: "
+        "state a Hurst exponent, or measure a face of a stone finer."
+    )
 
 
 def cut_off_at(slope: float, wavelength: Array, slopes: Array) -> float:
@@ -239,7 +289,7 @@ def contact_by_cut_off(
     """Return contact and friction of measured lines, solved with one cut-off after the other.
 
     Cut-offs are an octave apart. Above the shortest wavelength that the lines resolve, the waves
-    are measured; below, they are continued and the numbers have a `band`.
+    are measured; below, they are continued and the numbers have a `band`, but for a `refusal`.
 
     Parameters
     ----------
@@ -295,8 +345,7 @@ def contact_by_cut_off(
         slope = math.nan
         if steps:
             slope = slope_on_faces(periodic, steps[-1].faces, 2.0 * cut_off, cut_off)
-        shorter = [line.down_to(cut_off) for line in periodic]
-        steps.append(solver.step(shorter, float(cut_off), slope))
+        steps.append(solver.step(periodic, float(cut_off), slope))
     if last >= resolved:
         return ContactByCutOff(tuple(steps), resolved, math.nan, None, math.nan)
     if len(steps) < 3:
@@ -347,7 +396,10 @@ class _Solver:
         """Return the contacts with another octave, whose slope on the faces is `slope`."""
         longest = step.wavelength
         octaves = [intermittency.octave(line, longest, shortest, random) for line in step.lines]
-        scale = slope / slope_on_faces(octaves, step.faces, longest, shortest)
+        # the line itself holds a part of it: flanks of edges, and waves near its end
+        part = slope_on_faces(step.lines, step.faces, longest, shortest)
+        rest = math.sqrt(max(slope**2 - part**2, 0.0))
+        scale = rest / slope_on_faces(octaves, step.faces, math.inf, 0.0)
         lines = [
             replace(line, waves=line.waves + scale * octave.waves)
             for line, octave in zip(step.lines, octaves, strict=True)
@@ -366,14 +418,19 @@ def _continued(
     here = steps[-1]
     resolved = here.wavelength
     intermittency = Intermittency.of(here.lines, steps[-2].faces, resolved, random)
-    ratio, withheld, overlap = math.nan, None, math.nan
+    ratio = usual = 2.0 ** (1.0 - USUAL_HURST)
+    withheld, overlap = None, math.nan
     if isinstance(source, FinerMeasurement):
-        overlap = _overlap(source, steps, last)
+        overlap, ratio = _overlap(source, steps, last), math.nan
     elif isinstance(source, HurstExponent):
-        ratio = 2.0 ** (1.0 - source.hurst)
+        ratio = usual = 2.0 ** (1.0 - source.hurst)
     else:
         withheld = _withheld(replace(solver, on_contact=None), steps, random)
-        ratio = 1.0 if withheld is None else math.sqrt(withheld.slope_ratio)
+    if withheld is not None:
+        if not withheld.foretells:
+            return ContactByCutOff(tuple(steps), resolved, math.nan, withheld, overlap)
+        ratio = withheld.slope_ratio
+    here = replace(here, lines=tuple(line.resolved_to(resolved) for line in here.lines))
     while here.wavelength > last:
         shortest = 0.5 * here.wavelength
         if shortest < last * (1.0 + _LEAST_STEP):
@@ -381,6 +438,7 @@ def _continued(
         if isinstance(source, FinerMeasurement):
             slope = _finer_slope(source, steps, shortest)
         else:
+            ratio = usual * (ratio / usual) ** PERSISTENCE
             # a part of an octave has its part of the mean square slope
             slope = here.slope * ratio * math.sqrt(math.log2(here.wavelength / shortest))
         here = solver.next_step(here, intermittency, slope, shortest, random)
@@ -425,29 +483,40 @@ def _overlap(finer: FinerMeasurement, steps: Sequence[CutOffContact], last: floa
 def _withheld(
     solver: _Solver, steps: Sequence[CutOffContact], random: np.random.Generator
 ) -> Withheld | None:
-    """Return how the last measured octave is found from those above; None without friction."""
+    """Return how the last two measured octaves are found from those above; None if not at all."""
+    last, above = (_octave_again(solver, part, random) for part in (steps, steps[:-1]))
+    if last is None:
+        return None
+    return replace(last, slope_ratio_above=math.nan if above is None else above.slope_ratio)
+
+
+def _octave_again(
+    solver: _Solver, steps: Sequence[CutOffContact], random: np.random.Generator
+) -> Withheld | None:
+    """Return how the last octave of measured steps is found; None with few, or no friction."""
     above, true = steps[-2], steps[-1]
     mu = true.mean("friction_from_dissipation")
     if not (len(steps) > 3 and mu > 0.0 and above.slope > 0.0):
         return None
-    faces = steps[-3].faces
-    intermittency = Intermittency.of(above.lines, faces, above.wavelength, random)
+    intermittency = Intermittency.of(above.lines, steps[-3].faces, above.wavelength, random)
+    start = replace(above, lines=tuple(line.resolved_to(above.wavelength) for line in above.lines))
     seed = random.integers(2**32)
-    logs = np.array([-RATIO_LIMIT, 0.0, RATIO_LIMIT])
     tried = [
         solver.next_step(
-            above,
+            start,
             intermittency,
             above.slope * math.exp(log),
             true.wavelength,
             np.random.default_rng(seed),  # the same waves, steeper or less steep
         )
-        for log in logs
+        for log in _LOG_RATIOS
     ]
-    errors = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
-    ratio = math.exp(float(np.interp(0.0, errors, logs))) if np.all(np.diff(errors) > 0) else 1.0
-    area = tried[1].mean("contact_fraction") / true.mean("contact_fraction")
-    return Withheld(area - 1.0, math.expm1(errors[1]), ratio)
+    frictions = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
+    ratio = math.exp(float(np.interp(0.0, np.maximum.accumulate(frictions), _LOG_RATIOS)))
+    same = tried[_LOG_RATIOS.tolist().index(0.0)]
+    area = same.mean("contact_fraction") / true.mean("contact_fraction")
+    friction = same.mean("friction_from_dissipation") / mu
+    return Withheld(area - 1.0, friction - 1.0, ratio, math.nan)
 
 
 class ContinuedContact(DirectContact):
@@ -496,10 +565,13 @@ class ContinuedContact(DirectContact):
         answer = self._answer(curve.steps[-1].contacts, surface, load)
         if answer[STATUS].item() != "converged":
             return answer
-        error = float(np.arcsinh(curve.band[-1])) / QUANTILE_90
-        for name in ("contact_fraction", "friction"):
+        for name, curve_name in _BANDS.items():
+            error = float(curve.band(curve_name)[-1]) / QUANTILE_90
             about = answer[f"{name}_error"].attrs
             answer[f"{name}_error"] = (error * answer[name]).assign_attrs(about)
+        if curve.refusal:
+            nothing = dict.fromkeys(TOTALS, math.nan)
+            answer = predicted_answer(answer, nothing, curve.refusal, self.name, load)
         # `friction` without a dimension is that of the last cut-off
         data = curve.to_dataset().drop_vars("status")
         return answer.merge(

@@ -8,16 +8,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import gripscale as gs
 from gripscale import surface as surfaces
+from gripscale.case import BelowMeasurement
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface, prepare_rubber
 from gripscale.continuation import HurstExponent, contact_by_cut_off
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
-from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off
+from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off, continuation_doubts
 from gripscale.questions.cut_off.question import cut_off
 from gripscale.questions.page_of_folder import write_report
 from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
+from tests.verification.families import tread
+from tests.verification.line_families import family_line
+from tests.verification.withheld_octaves import coarser
 
 SURFACE = 'files = ["road.txt"]\nscales = 3\ncut_off = "0.5 mm"'
 RUBBER = 'file = "dma.txt"\nterms = 6'
@@ -80,7 +85,8 @@ def test_a_second_call_solves_nothing(folder, data):
 
 def test_command_and_page_lead_with_the_answer(folder, shell: Shell):
     out = folder / "command"
-    result = shell("cut-off", folder / "case.toml", "--down-to", "0.2 mm", "--output", out)
+    options = ("--down-to", "0.2 mm", "--hurst", 0.8, "--output", out)
+    result = shell("cut-off", folder / "case.toml", *options)
     lines = [line for line in result.stdout.splitlines() if line]
     answer = next(i for i, line in enumerate(lines) if line.startswith("Answer: μ = "))
     assert answer <= 3
@@ -114,6 +120,33 @@ def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data)
     assert (folder / "below" / "cut_off.nc").is_file()
     assert (folder / "below" / "figures" / "cut_off.png").is_file()
     assert not (folder / "case" / "cut_off.nc").exists()
+
+
+def test_an_answer_on_roughness_that_is_not_foretold_says_so():
+    """Fine roughness has just begun where the measurement ends."""
+    line = coarser(family_line("two_scales", 0), 2)
+    case = gs.Case(
+        line,
+        tread(),
+        pressure=3e5,
+        speed=0.3,
+        smallest_wavelength=0.8e-3,
+        below_measurement=BelowMeasurement(0.2e-3),
+    )
+    curve = cut_off(case)
+    assert curve.failure == ""
+    assert "roughness down to 0.8 mm, where the measurement ends: it foretells" in curve.lines[0]
+    assert "The roughness is not continued below 0.8 mm" in curve.findings[0].sentence
+    answer = gs.answer(case)
+    assert not answer.reliable
+    assert "none to rely on. The roughness is not continued below 0.8 mm" in answer.lines[0]
+    assert "continued" not in answer.basis[1]
+
+
+def test_a_road_that_is_measured_coarsely_hides_its_microtexture(data):
+    assert not list(continuation_doubts(data))
+    coarse = data.assign(resolved=1.2e-3)
+    assert ["below 0.5 mm" in doubt.sentence for doubt in continuation_doubts(coarse)] == [True]
 
 
 def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, monkeypatch):

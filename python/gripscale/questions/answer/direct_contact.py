@@ -20,7 +20,7 @@ from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import in_mm
 from gripscale.core.wording import CaseKey, Words
-from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
+from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import trace_variables
@@ -41,7 +41,9 @@ from gripscale.questions.cut_off.curve import (
     CONTINUED_TO,
     FRICTION,
     at_cut_off,
+    continuation_doubts,
     cut_off_curve,
+    refusals,
 )
 from gripscale.questions.inputs.findings import in_words
 from gripscale.surface import HeightMap, Measured, Profile, Surface
@@ -150,14 +152,15 @@ def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[
 def continued_curve(case: Case, load: Load, folder: str | Path | None = None) -> xr.Dataset | None:
     """Return the contact against the cut-off, if the case continues its roughness; else None.
 
-    A `folder` keeps the solution. Raises `InputError` if it has no result.
+    It ends where the measurement ends if that foretells no octave (`refusals`). A `folder` keeps
+    the solution. Raises `InputError` if it has no result.
     """
     if case.below_measurement.down_to is None:
         return None
     with bench_in(folder) as bench:
         curve = cut_off_curve(case, load, bench)
     status = curve[model.STATUS].item()
-    if status != CONVERGED:
+    if "cut_off" not in curve.dims:
         raise InputError(f"roughness below the measurement has no result: {status}")
     return curve
 
@@ -165,16 +168,18 @@ def continued_curve(case: Case, load: Load, folder: str | Path | None = None) ->
 def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
     """Return the factor of the roughness of a `continued_curve` below the cut-off of its case.
 
-    Its error is that of the continuation; none without a curve.
+    Its error is that of the continuation; none without a curve, or one that was refused.
     """
-    if curve is None:
+    if curve is None or any(refusals(curve)):
         return []
     cut_off = resolved_wavelength(case.surface)
-    sigma = math.log(float(curve[f"{AREA}_upper"][-1] / curve[AREA][-1])) / QUANTILE_90
 
     def grown(name: str) -> LogNormalValue:
-        ratio = float(curve[name][-1]) / at_cut_off(curve, name, cut_off)
-        return LogNormalValue(ratio if math.isfinite(ratio) else 1.0, sigma)
+        end, upper = float(curve[name][-1]), float(curve[f"{name}_upper"][-1])
+        ratio = end / at_cut_off(curve, name, cut_off)
+        if not math.isfinite(ratio):  # no friction at rest
+            return LogNormalValue(1.0, 0.0)
+        return LogNormalValue(ratio, math.log(upper / end) / QUANTILE_90)
 
     end = in_mm(float(curve.cut_off[-1]), 3)
     label = f"roughness continued from {in_mm(cut_off, 3)} to {end}"
@@ -204,11 +209,12 @@ def direct_contact_totals(
         continuation_factors(case, curve),
         sampled=sampled,
     )
-    if curve is not None:
+    if curve is not None and not any(refusals(curve)):
         best[CONTINUED_TO] = case.below_measurement.down_to
     end = resolved_wavelength(case.surface)
     best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
-    doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units)
+    of_curve = [] if curve is None else list(continuation_doubts(curve))
+    doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units, of_curve)
     totals = model.predicted_answer(
         best,
         {f"total_{name}": value for name, value in means.items()},

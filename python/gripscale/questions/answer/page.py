@@ -124,7 +124,9 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
     labels = data.factor_label.values
     if LINES_TO_SURFACE in labels:
-        isotropic = str(data.attrs.get(ISOTROPIC, "The step to a surface assumes an isotropic road"))
+        isotropic = str(
+            data.attrs.get(ISOTROPIC, "The step to a surface assumes an isotropic road")
+        )
         yield f"{isotropic[0].lower()}{isotropic[1:].rstrip('.')}"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:

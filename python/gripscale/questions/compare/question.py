@@ -22,6 +22,7 @@ from gripscale.experiment.measured_friction import (
 )
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Table, significant
+from gripscale.model import INPUT_DOUBTS, input_doubts_of
 from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.findings import answer_notices
@@ -30,6 +31,7 @@ from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
+from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
 from gripscale.questions.words import SYMBOLS
 from gripscale.report.elements import Page
@@ -171,8 +173,10 @@ def compare(
         extrapolation and a wave excites the rubber beyond the measured band, or other than one
         input of numbers is varied.
     """
-    if vary is None:
-        factors = [*continuation_factors(case, continued_curve(case, case.load, folder)), *factors]
+    doubtful: list[Finding] = []
+    if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:
+        doubtful = list(continuation_doubts(curve))
+        factors = [*continuation_factors(case, curve), *factors]
     with bench_in(folder, workers, client, on_task) as bench:
         ladder = solved_ladder(
             case,
@@ -189,6 +193,8 @@ def compare(
     data = ladder.data
     if doubts := friction_doubts(ladder.measured, case.load.speed):
         data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
+    if doubtful:
+        data = data.assign_attrs({INPUT_DOUBTS: to_json([*input_doubts_of(data), *doubtful])})
     result = Comparison(data)
     result.ladder = ladder
     return result

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.continuation.curve import FACTS, cut_off_at
+from gripscale.continuation.curve import FACTS, cut_off_at, unforetold
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import in_mm
 from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
@@ -25,6 +26,8 @@ FRICTION, AREA = "curve_friction_from_dissipation", "curve_contact_fraction"
 SLOPE_IN_CONTACT = "curve_slope_in_contact"
 CONTACT_SLOPE = 1.0
 """Rms slope in contact of the rule that ends the roughness where small strain ends."""
+MICROTEXTURE = 0.5e-3
+"""Longest wavelength of the microtexture of a road [m] (ISO 13473-1)."""
 RMS_SLOPES = {"surface": 1.3, "profile": 1.0}
 """Usual slopes at which the roughness is cut off: see docs/cut-off.md."""
 
@@ -65,6 +68,28 @@ def contact_curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
         return kept
     curves = [str(name) for name in answer if answer[name].dims == ("cut_off",)]
     return kept.merge(answer[[*curves, *(name for name in FACTS if name in answer)]])
+
+
+def refusals(data: xr.Dataset) -> Iterator[Finding]:
+    """Yield why a curve ends where the measurement ends, if more was asked for."""
+    if "withheld_slope_ratio" in data and bool(data.curve_measured[-1]):
+        names = ("resolved", "withheld_slope_ratio", "withheld_slope_ratio_above")
+        text = unforetold(*(float(data[name]) for name in names))
+        yield Finding(Severity.DOUBT, text, topic=Topic.SURFACE, key="below_measurement.hurst")
+
+
+def continuation_doubts(data: xr.Dataset) -> Iterator[Finding]:
+    """Yield `refusals`, and that a road that is measured too coarsely hides its microtexture."""
+    yield from refusals(data)
+    end = float(data.resolved)
+    if end > MICROTEXTURE and not bool(data.curve_measured[-1]):
+        yield Finding(
+            Severity.DOUBT,
+            f"The measured roughness ends at {in_mm(end, 3)}. The microtexture of a road, below "
+            f"{in_mm(MICROTEXTURE, 3)}, does not follow from longer waves: of the shipped road, "
+            "measured to 1.2 mm and continued, half of the friction is found, outside of the band.",
+            topic=Topic.SURFACE,
+        )
 
 
 def at_cut_off(data: xr.Dataset, name: str, length: float) -> float:

@@ -30,7 +30,9 @@ from gripscale.questions.cut_off.curve import (
     FRICTION,
     SLOPE_IN_CONTACT,
     at_cut_off,
+    continuation_doubts,
     cut_off_curve,
+    refusals,
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
@@ -59,6 +61,8 @@ class CutOff(Result):
             for name, curve in self._curves
         )
         level = f" ({_LEVEL} bands)" if below else ""
+        if any(refusals(data)):
+            level = ", where the measurement ends: it foretells no octave"
         lead = f"Answer: {numbers} with roughness down to {in_mm(self._end, 3)}{level}"
         return [lead, *(f"  {line}" for line in self.basis)]
 
@@ -83,7 +87,12 @@ class CutOff(Result):
     @property
     def failure(self) -> str:
         sentence = str(self.data[STATUS].item())
-        return "" if sentence == CONVERGED else sentence
+        return "" if sentence == CONVERGED or "cut_off" in self.data.dims else sentence
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        doubts = () if self.failure else continuation_doubts(self.data)
+        return (*doubts, *super().findings)
 
     def parts(self) -> Iterator[str | Table]:
         if not self.failure:
@@ -180,9 +189,13 @@ def _source(data: xr.Dataset) -> str:
             else "; no wavelength is measured by both"
         )
         return f"with the slopes of the finer measurement{compared}"
-    text = f"with slopes {significant(float(data.slope_ratio), 3)} times as steep each octave"
+    ends = [data.get("withheld_slope_ratio", data.slope_ratio), data.slope_ratio]
+    first, end = (significant(float(ratio), 3) for ratio in ends)
+    text = f"with slopes {end} times those of the octave above"
+    if first != end:
+        text += f" in the last octave, {first} times in the last measured one"
     if "withheld_friction_error" not in data:
-        return f"{text}, as stated or as the octaves above"
+        return f"{text}, as stated or as usual"
     errors = ", ".join(
         f"{words} {change(float(data[f'withheld_{name}_error']))}"
         for name, words in (("friction", "friction"), ("contact_fraction", "contact area"))
@@ -219,7 +232,8 @@ def cut_off(
     CutOff
         Over `cut_off`: the curves of `gripscale.continuation.contact_by_cut_off` with the prefix
         `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
-        The totals are those of the last cut-off.
+        The totals are those of the last cut-off; not numbers where the faces foretell no octave
+        below the measurement, at which the curves then end (`findings`).
 
     Raises
     ------
