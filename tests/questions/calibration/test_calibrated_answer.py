@@ -20,6 +20,7 @@ from gripscale.conditions import (
     GaussianStress,
     InterfacialShearStress,
 )
+from gripscale.continuation import HurstExponent
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.io.table import significant
@@ -159,7 +160,7 @@ def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> 
 def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
     load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05}
     line = self_affine_profile(0.8, 3e-3, 8e-4, length=0.15, step=2e-4, seed=1)
-    continued = BelowMeasurement(down_to=4e-4)
+    continued = BelowMeasurement(4e-4, HurstExponent(0.8))  # the line is too short to foretell it
 
     def answered(law: InterfacialShearStress) -> gs.Answer:
         return gs.answer(
