@@ -216,11 +216,55 @@ def test_sensitivity_of_a_layer_is_that_of_solved_differences(name: str) -> None
     assert value == pytest.approx(difference, abs=0.03)
 
 
+STIFFENED = ("ln_storage", "ln_loss", "ln_modulus", "ln_bulk_modulus")
+
+
+def test_derivatives_of_equal_layers_sum_to_those_of_one() -> None:
+    """Moduli of both layers together are those of the rubber; speed is that of the stack."""
+    line, load = rough_line(), LOAD | {"tolerance": 0.02}
+    one = gs.half_space.contact_sensitivity(
+        gs.solve_rough_contact(CAP, line, thickness=8e-3, **load)
+    )
+    stack = gs.solve_rough_contact(gs.Layers([(CAP, 3e-3), (CAP, 5e-3)]), line, **load)
+    upper, lower = (gs.half_space.contact_sensitivity(stack, layer=number) for number in (0, 1))
+    for name in STIFFENED:
+        key = f"d_ln_friction_d_{name}"
+        np.testing.assert_allclose(upper[key] + lower[key], one[key], rtol=1e-5, atol=1e-6)
+    key = "d_ln_friction_d_ln_speed"
+    assert float(upper[key]) == pytest.approx(float(one[key]), rel=1e-5)
+    assert float(lower[key]) == pytest.approx(float(one[key]), rel=1e-5)
+
+
+@pytest.mark.parametrize("layer", [0, 1])
+def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer: int) -> None:
+    """Cap or base stiffer by a factor. On 2048 points borders still err by 0.011, on 8192 by 0.003."""
+    line, load = rough_line(), LOAD | {"tolerance": 1e-3}
+    contact = gs.solve_rough_contact(gs.Layers([(CAP, 1e-3), (BASE, 5e-3)]), line, **load)
+    derivative = gs.half_space.contact_sensitivity(contact, layer=layer)
+    value = float(derivative["d_ln_friction_d_ln_modulus"].sum())
+    assert derivative.sizes["term"] == (3, 2)[layer]
+    step = 0.02
+
+    def friction(by: float) -> float:
+        rubbers = [CAP, BASE]
+        old, factor = rubbers[layer], np.exp(by)
+        rubbers[layer] = gs.Rubber(
+            old.equilibrium_modulus * factor, old.moduli * factor, old.relaxation_times, BULK
+        )
+        layers = gs.Layers(list(zip(rubbers, (1e-3, 5e-3), strict=True)))
+        solved = gs.solve_rough_contact(layers, line, start=contact, **load)
+        return float(solved.friction_from_dissipation)
+
+    difference = np.log(friction(step) / friction(-step)) / (2.0 * step)
+    assert value == pytest.approx(difference, abs=0.02)
+    assert abs(value) > 0.1
+
+
 def test_what_layers_do_not_have_is_refused() -> None:
     line, layers = rough_line(), gs.Layers([(CAP, 3e-3), (BASE, 5e-3)])
     contact = gs.solve_rough_contact(layers, line, **LOAD)
-    with pytest.raises(InputError, match=r"one rubber.*2 layers"):
-        gs.half_space.contact_sensitivity(contact)
+    with pytest.raises(InputError, match="layer must be a whole number from 0 to 1; got 2"):
+        gs.half_space.contact_sensitivity(contact, layer=2)
     with pytest.raises(InputError, match=r"thickness must be None with Layers.*0\.01"):
         gs.solve_rough_contact(layers, line, thickness=0.01, **LOAD)
     with pytest.raises(InputError, match="thickness must be greater than zero"):

@@ -106,6 +106,10 @@ class HalfSpace:
         compression = layer_theory.shear_and_compression(young, bulk)[1]
         return layer_theory.thickness_factor(_without_mean(grid) * self.thickness, compression)
 
+    def of_layer(self, layer: int) -> HalfSpace:
+        """Return one layer of a stack as a half-space; of one rubber itself."""
+        return self if self.layers is None else self._of_layers[layer]
+
     @cached_property
     def _of_layers(self) -> list[HalfSpace]:
         """Each layer as a half-space, which keeps its moduli on lines."""
@@ -122,21 +126,36 @@ class HalfSpace:
             self.layers.thicknesses,
         )
 
+    def _log_stack(self, grid: Grid, layer: int, stiffer: float, denser: float) -> ComplexArray:
+        """Return ln K of a stack with changed logarithms of E* and B of one layer."""
+        assert self.layers is not None
+        moduli = [each.young_modulus(grid) for each in self._of_layers]
+        bulk = [rubber.bulk_modulus for rubber in self.layers.rubbers]
+        moduli[layer] = moduli[layer] * math.exp(stiffer)
+        bulk[layer] *= math.exp(denser)
+        heights = self.layers.thicknesses
+        return np.log(layer_theory.stack_compliance(_without_mean(grid), moduli, bulk, heights)[0])
+
     def losses_by_layer(self, grid: Grid) -> Array:
         """Return what of Im K [m/Pa] each layer of a stack loses, shape (layers, *spectrum)."""
         losses = np.where(grid.own_opposite, 0.0, self._stack(grid)[1])
         return np.asarray(losses)
 
-    def log_modulus_by(self, grid: Grid) -> tuple[ComplexArray, ComplexArray]:
+    def log_modulus_by(self, grid: Grid, layer: int = 0) -> tuple[ComplexArray, ComplexArray]:
         """Return d ln M / d ln E* and d ln M / d ln B [-], B being the bulk modulus, of each wave.
 
-        Raises `InputError` for a stack, whose M depends on the moduli of all layers.
+        E* and B are those of one layer of a stack, where the derivatives are differences.
         """
         if self.layers is not None:
-            raise InputError(
-                "derivatives by moduli must be those of one rubber, a half-space or one layer; got "
-                f"{len(self.layers)} layers: solve the contact again with a changed layer"
+            by_modulus, by_bulk = (
+                (self._log_stack(grid, layer, *step) - self._log_stack(grid, layer, *back))
+                / (2.0 * _LAYER_STEP)
+                for step, back in (
+                    ((_LAYER_STEP, 0.0), (-_LAYER_STEP, 0.0)),
+                    ((0.0, _LAYER_STEP), (0.0, -_LAYER_STEP)),
+                )
             )
+            return np.asarray(-by_modulus), np.asarray(-by_bulk)
         shear, bulk = self.young_modulus(grid) / 3.0, 3.0 * self.rubber.bulk_modulus
         by_modulus = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
         by_bulk = bulk / (bulk + shear) - bulk / (bulk + 4.0 * shear)
@@ -268,6 +287,8 @@ class Response:
         return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
 
 
+_LAYER_STEP = 1e-4
+"""Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8."""
 _LEAST, _MOST = 1e-12, 1e15
 """Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single
 precision, where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit."""

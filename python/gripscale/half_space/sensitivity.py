@@ -63,6 +63,7 @@ from gripscale.half_space.grid_sequence import grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
+from gripscale.theory.layers import Layers
 
 ADJOINT_TOLERANCE = 1e-8
 """Residual of the adjoint system over its right side, both as pressures. Five digits of the
@@ -97,6 +98,8 @@ class FrictionAdjoint:
     """Multipliers of a solved contact, and the derivatives of its friction from dissipation."""
 
     contact: RoughContact = field(repr=False)
+    layer: int
+    """Of a stack, whose moduli count."""
     multiplier: Array = field(repr=False)
     """N p_0 lam, shape of the grid [Pa / m]."""
     rigid: float
@@ -107,7 +110,7 @@ class FrictionAdjoint:
     """Of the linear system, relative [-]."""
 
     @classmethod
-    def of(cls, contact: RoughContact) -> FrictionAdjoint:
+    def of(cls, contact: RoughContact, layer: int = 0) -> FrictionAdjoint:
         """Return the multipliers of a contact that slides."""
         grid = contact.grid
         response = Response.of(contact.body, grid, 1)
@@ -126,7 +129,8 @@ class FrictionAdjoint:
         multiplier = np.zeros(grid.points)
         multiplier[where] = closed.pressure
         rigid = float(np.mean(right - closed.displacement[where]))
-        return cls(contact, multiplier.reshape(grid.shape), rigid, closed.products, closed.missing)
+        field = multiplier.reshape(grid.shape)
+        return cls(contact, layer, field, rigid, closed.products, closed.missing)
 
     @property
     def by_height(self) -> Array:
@@ -154,9 +158,9 @@ class FrictionAdjoint:
 
     def by_log_terms(self) -> Array:
         """Return d mu / d ln E_i [-] of the Prony moduli, the equilibrium modulus first."""
-        contact, (_, relative) = self.contact, relative_change(self.contact)
+        contact, (_, relative) = self.contact, relative_change(self.contact, self.layer)
         scales = contact.by_scale
-        rubber = contact.rubber if scales is None else scales.rubber
+        rubber = contact.body.of_layer(self.layer).rubber if scales is None else scales.rubber
 
         def young_modulus(terms: slice) -> ComplexArray:
             with warnings.catch_warnings():
@@ -179,8 +183,8 @@ class FrictionAdjoint:
         """Return the derivatives of ln mu; those of E' and E'' by band."""
         contact = self.contact
         friction = contact.friction_from_dissipation
-        storage, loss = modulus_changes(contact)
-        scalars = scalar_changes(contact)
+        storage, loss = modulus_changes(contact, self.layer)
+        scalars = scalar_changes(contact, self.layer)
         by = {name: float(self.by_modulus(change).sum()) for name, change in scalars.items()}
         return {
             "temperature": math.nan,
@@ -206,6 +210,10 @@ def half_space_of(
     Under conditions each scale keeps its strain and its own temperature rise.
     """
     rubber, scales = contact.rubber, contact.by_scale
+    sliding = contact.speed if speed is None else speed
+    if contact.layers is not None:
+        layers = [(_warmed(each, warmer), height) for each, height in contact.layers]
+        return HalfSpace(layers[0][0], sliding, layers=Layers(layers))
     if warmer and rubber.reference_temperature is not None:
         kelvin = rubber.reference_temperature + warmer
         if contact.scales is None or contact.conditions is None:
@@ -218,30 +226,35 @@ def half_space_of(
                 warming=contact.scales.warming,
                 strain=contact.scales.strain,
             ).rubber
-    sliding = contact.speed if speed is None else speed
     return HalfSpace(rubber, sliding, by_scale=scales, thickness=contact.thickness)
 
 
-def modulus_changes(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
+def _warmed(rubber: Rubber, by: float) -> Rubber:
+    """Return a rubber, warmer by some degrees [K] if it has a shift."""
+    kelvin = rubber.reference_temperature
+    return rubber if not by or kelvin is None or rubber.shift is None else rubber.at(kelvin + by)
+
+
+def modulus_changes(contact: RoughContact, layer: int = 0) -> tuple[ComplexArray, ComplexArray]:
     """Return dln M / dln E' and dln M / dln E'' of each wave [-], over the half spectrum."""
-    modulus, relative = relative_change(contact)
+    modulus, relative = relative_change(contact, layer)
     return relative * modulus.real, relative * 1j * modulus.imag
 
 
-def relative_change(contact: RoughContact) -> tuple[ComplexArray, ComplexArray]:
-    """Return E* [Pa] and dln M / dE* [1/Pa] of each wave, over the half spectrum."""
-    grid = contact.grid
-    modulus = np.broadcast_to(contact.body.young_modulus(grid), grid.spectrum_shape)
-    return modulus, contact.body.log_modulus_by(grid)[0] / modulus
+def relative_change(contact: RoughContact, layer: int = 0) -> tuple[ComplexArray, ComplexArray]:
+    """Return E* [Pa] of a layer and dln M / dE* [1/Pa] of each wave, over the half spectrum."""
+    grid, body = contact.grid, contact.body
+    modulus = np.broadcast_to(body.of_layer(layer).young_modulus(grid), grid.spectrum_shape)
+    return modulus, body.log_modulus_by(grid, layer)[0] / modulus
 
 
-def scalar_changes(contact: RoughContact) -> dict[str, ComplexArray]:
+def scalar_changes(contact: RoughContact, layer: int = 0) -> dict[str, ComplexArray]:
     """Return the derivatives of ln M of each wave by speed, bulk modulus and temperature [1/K].
 
-    Over the half spectrum, by the end of their name in a Dataset; without a shift there is none by
-    temperature.
+    Over the half spectrum, by the end of their name in a Dataset; without a shift of every rubber
+    there is none by temperature. The bulk modulus is that of a layer.
     """
-    grid, rubber = contact.grid, contact.rubber
+    grid = contact.grid
 
     def difference(low: HalfSpace, high: HalfSpace, step: float) -> ComplexArray:
         change = np.log(high.modulus(grid) / low.modulus(grid)) / (2.0 * step)
@@ -251,12 +264,13 @@ def scalar_changes(contact: RoughContact) -> dict[str, ComplexArray]:
         half_space_of(contact, speed=contact.speed * math.exp(by))
         for by in (-SPEED_STEP, SPEED_STEP)
     )
-    stiffening = contact.body.log_modulus_by(grid)[1]
+    stiffening = contact.body.log_modulus_by(grid, layer)[1]
     changes = {
         "ln_speed": difference(slow, fast, SPEED_STEP),
         "ln_bulk_modulus": np.broadcast_to(stiffening, grid.spectrum_shape),
     }
-    if rubber.shift is not None and rubber.reference_temperature is not None:
+    rubbers = contact.body.rubbers
+    if all(each.shift is not None and each.reference_temperature is not None for each in rubbers):
         cold, warm = (
             half_space_of(contact, warmer=by) for by in (-TEMPERATURE_STEP, TEMPERATURE_STEP)
         )
@@ -305,6 +319,7 @@ class ContactFractionDifferences:
     """Derivatives of the contact fraction, from contacts on the same grid with other inputs."""
 
     contact: RoughContact
+    layer: int = 0
 
     @cached_property
     def compliance(self) -> ComplexArray:
@@ -322,10 +337,10 @@ class ContactFractionDifferences:
                 ]
             )
             for name, change in zip(
-                ("ln_storage", "ln_loss"), modulus_changes(contact), strict=True
+                ("ln_storage", "ln_loss"), modulus_changes(contact, self.layer), strict=True
             )
         }
-        scalars = scalar_changes(contact)
+        scalars = scalar_changes(contact, self.layer)
         return {
             "temperature": math.nan,
             **moduli,
@@ -370,6 +385,7 @@ def contact_sensitivity(
     bands_per_decade: int = 2,
     contact_fraction: bool = False,
     reference_temperature: float | None = None,
+    layer: int = 0,
 ) -> xr.Dataset:
     """Return the derivatives of the friction of a direct contact by all of its inputs.
 
@@ -389,6 +405,9 @@ def contact_sensitivity(
     reference_temperature : float, optional
         Temperature that the frequencies are shifted to [K], such as that of a master curve; the
         rubber's before the contact by default.
+    layer : int
+        Of a stack, the layer whose moduli count, zero for that in contact. Speed and temperature
+        are those of all layers.
 
     Returns
     -------
@@ -405,26 +424,23 @@ def contact_sensitivity(
     Raises
     ------
     InputError
-        If the contact is at rest, has no friction, is of several layers, or is something else; if
-        the rubber has no shift to the reference temperature.
+        If the contact is at rest, has no friction or not this layer, or is something else; if the
+        rubber has no shift to the reference temperature.
     """
     checks.instance("contact", contact, RoughContact)
-    if contact.layers is not None:
-        raise InputError(
-            "contact must be of one rubber, a half-space or one layer, for derivatives by its "
-            f"moduli; got {len(contact.layers)} layers: solve it again with a changed layer"
-        )
+    checks.whole("layer", layer, least=0, most=len(contact.body.rubbers) - 1)
+    rubber = contact.body.of_layer(layer).rubber
     if contact.speed == 0.0 or not contact.friction_from_dissipation > 0.0:
         raise InputError(
             "contact must slide with friction above zero for the derivatives of its logarithm; got "
             f"speed {contact.speed:g} m/s and friction {contact.friction_from_dissipation:.3g}"
         )
     per_decade = checks.whole("bands_per_decade", bands_per_decade, least=1, most=100)
-    adjoint = FrictionAdjoint.of(contact)
+    adjoint = FrictionAdjoint.of(contact, layer)
     shift = 1.0
     if reference_temperature is not None:
-        reference = contact.rubber.at(reference_temperature)
-        shift = float(contact.rubber.relaxation_times[0] / reference.relaxation_times[0])
+        reference = rubber.at(reference_temperature)
+        shift = float(rubber.relaxation_times[0] / reference.relaxation_times[0])
     bands = Bands.of(contact, per_decade, shift)
     axes = ("x", "y")[: contact.height.ndim]
     friction_text = "friction coefficient from the energy lost"
@@ -439,7 +455,7 @@ def contact_sensitivity(
     }
     derivatives = {"friction": adjoint.log_derivatives(bands)}
     if contact_fraction:
-        differences = ContactFractionDifferences(contact)
+        differences = ContactFractionDifferences(contact, layer)
         derivatives["contact_fraction"] = differences.log_derivatives(bands)
     for quantity, by in derivatives.items():
         for name, value in by.items():
@@ -455,7 +471,7 @@ def contact_sensitivity(
     data["d_friction_d_height"] = labelled(
         axes, adjoint.by_height, "1/m", "d friction / d height of a point", _SOURCE
     )
-    times = [math.inf, *contact.rubber.relaxation_times]
+    times = [math.inf, *rubber.relaxation_times]
     coordinates = {
         "frequency": labelled("frequency", bands.centre, "rad/s", "centre of the band", _SOURCE),
         **{axis: labelled(axis, getattr(contact, axis), "m", axis, "input") for axis in axes},
@@ -466,7 +482,7 @@ def contact_sensitivity(
         "status": str(contact.status),
         "bands_per_decade": per_decade,
         "settled": int(contact.by_scale is not None),
-        "rubber": f"{contact.rubber.name}; {contact.rubber.source}".strip("; "),
+        "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
         "nominal_pressure": contact.nominal_pressure,
         "speed": contact.speed,
     }
