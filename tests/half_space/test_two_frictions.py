@@ -35,7 +35,7 @@ def test_an_answer_keeps_the_numbers_and_the_status_of_the_contact() -> None:
     load = {"pressure": case.pressure, "speed": case.speed}
     alone = gs.solve_rough_contact(case.rubber, case.surface, **load, **options)
     model = DirectContact(**options)
-    surface = Surface(None, "", measured=Measured.of([case.surface]))
+    surface = Surface(None, "", measured=Measured.of(case.surface))
     answer = model.predict(case.rubber, surface, Load(case.pressure, case.speed, footprint=0.1))
     assert float(answer.total_friction) == alone.friction
     assert answer.status.values.tolist() == ["frictions disagree"]

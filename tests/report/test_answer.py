@@ -61,7 +61,7 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
     assert "for 3 bar and 0.3 m/s, roughness down to 0.1 mm" in text
     assert "finite strain, assumed (1 ± 5.0 %)" in text
     assert "step from lines to a surface (μ × 0.950, A_r/A_0 × 0.680)" in text
-    assert "a road without direction is assumed" in text
+    assert "the step to a surface assumes an isotropic road" in text
     assert "errors of the inputs are not in the interval" in text
     assert [line.strip() for line in below] == list(basis_lines(answered()))
 

@@ -77,8 +77,8 @@ def test_another_cut_off(results, tangent):
     # the exponent is that of the last octave, of a road of a few waves
     assert tangent.change(changed) == pytest.approx(expected, rel=0.5)
     assert tangent.change(changed) < 0.0
-    # one point of a contact of 43
-    assert tangent.area_change(changed) == pytest.approx(area, abs=0.025)
+    # one point of a contact of 43, and the part of a step at its ends
+    assert tangent.area_change(changed) == pytest.approx(area, abs=0.03)
     assert tangent.area_change(changed) > 0.0
 
 

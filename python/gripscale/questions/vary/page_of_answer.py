@@ -186,7 +186,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     if steep > WORTH_NAMING:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
-        yield "a road without direction is assumed"
+        yield "the step to a surface assumes an isotropic road"
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"
     if AREA_TERM in data:
