@@ -68,7 +68,7 @@ def on_grid(rubber, surface, *, pressure, speed, shape, shortest):
 
 @dataclass(frozen=True)
 class RandomCase:
-    """A random rubber on a random surface, taken as one period with all its waves."""
+    """A random rubber on a random surface, taken as one period with all its waves or a cut-off."""
 
     seed: int
     rubber: gs.Rubber

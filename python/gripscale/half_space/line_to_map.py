@@ -77,7 +77,8 @@ FRICTION_LAW = RatioLaw(-0.392, 0.149, 0.0216, 0.095, 0.023)
 """Scatter: between that about the law and that of families which a law of the others misses."""
 FULL_CONTACT_FRICTION = 1.11
 FREEDOM = 6
-"""Degrees of freedom of the scatter: eight families less the two numbers of the law."""
+"""Degrees of freedom of the scatter: eight families less constant and slope. The third number is
+known from several loads on each surface."""
 
 
 LOAD_SENSITIVITY = 0.08

@@ -116,25 +116,20 @@ class HalfSpace:
         assert self.layers is not None
         return [HalfSpace(rubber, self.speed) for rubber in self.layers.rubbers]
 
-    def _stack(self, grid: Grid) -> tuple[ComplexArray, Array]:
-        """Return K(q) [m/Pa] of a stack, and what of Im K each layer loses."""
-        assert self.layers is not None
-        return layer_theory.stack_compliance(
-            _without_mean(grid),
-            [layer.young_modulus(grid) for layer in self._of_layers],
-            [rubber.bulk_modulus for rubber in self.layers.rubbers],
-            self.layers.thicknesses,
-        )
+    def _stack(
+        self, grid: Grid, layer: int = 0, *, stiffer: float = 0.0, denser: float = 0.0
+    ) -> tuple[ComplexArray, Array]:
+        """Return K(q) [m/Pa] of a stack, and what of Im K each layer loses.
 
-    def _log_stack(self, grid: Grid, layer: int, stiffer: float, denser: float) -> ComplexArray:
-        """Return ln K of a stack with changed logarithms of E* and B of one layer."""
+        One layer may have other logarithms of E* and of the bulk modulus.
+        """
         assert self.layers is not None
         moduli = [each.young_modulus(grid) for each in self._of_layers]
         bulk = [rubber.bulk_modulus for rubber in self.layers.rubbers]
         moduli[layer] = moduli[layer] * math.exp(stiffer)
         bulk[layer] *= math.exp(denser)
         heights = self.layers.thicknesses
-        return np.log(layer_theory.stack_compliance(_without_mean(grid), moduli, bulk, heights)[0])
+        return layer_theory.stack_compliance(_without_mean(grid), moduli, bulk, heights)
 
     def losses_by_layer(self, grid: Grid) -> Array:
         """Return what of Im K [m/Pa] each layer of a stack loses, shape (layers, *spectrum)."""
@@ -147,15 +142,15 @@ class HalfSpace:
         E* and B are those of one layer of a stack, where the derivatives are differences.
         """
         if self.layers is not None:
-            by_modulus, by_bulk = (
-                (self._log_stack(grid, layer, *step) - self._log_stack(grid, layer, *back))
-                / (2.0 * _LAYER_STEP)
-                for step, back in (
-                    ((_LAYER_STEP, 0.0), (-_LAYER_STEP, 0.0)),
-                    ((0.0, _LAYER_STEP), (0.0, -_LAYER_STEP)),
+
+            def change(name: str) -> ComplexArray:
+                low, high = (
+                    self._stack(grid, layer, **{name: step})[0]
+                    for step in (-_LAYER_STEP, _LAYER_STEP)
                 )
-            )
-            return np.asarray(-by_modulus), np.asarray(-by_bulk)
+                return np.asarray(np.log(low / high) / (2.0 * _LAYER_STEP))
+
+            return change("stiffer"), change("denser")
         shear, bulk = self.young_modulus(grid) / 3.0, 3.0 * self.rubber.bulk_modulus
         by_modulus = 1.0 + shear / (bulk + shear) - 4.0 * shear / (bulk + 4.0 * shear)
         by_bulk = bulk / (bulk + shear) - bulk / (bulk + 4.0 * shear)

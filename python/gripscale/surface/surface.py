@@ -22,7 +22,7 @@ from gripscale.surface.cut_off import (
 )
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
-from gripscale.surface.low_pass import followed
+from gripscale.surface.low_pass import followed, followed_lines
 from gripscale.surface.plausibility import (
     extrapolation_notes,
     profile_warnings,
@@ -129,9 +129,7 @@ class Measured:
     @cached_property
     def _followed_heights(self) -> list[Profile] | HeightMap:
         heights = self.heights
-        if isinstance(heights, HeightMap):
-            return followed(heights)
-        return [followed(line) for line in heights]
+        return followed(heights) if isinstance(heights, HeightMap) else followed_lines(heights)
 
     @property
     def surfaces(self) -> list[Profile] | list[HeightMap]:

@@ -62,6 +62,8 @@ ASSUMED_FINITE_STRAIN = Factor(
 """Where these rungs were not solved: what windows and blocks of other roads showed."""
 LINES_TO_SURFACE = "step from lines to a surface"
 """Label of the factor from measured lines to the isotropic surface they lie on."""
+ISOTROPY_ASSUMED = "the step to a surface assumes an isotropic road"
+"""What an answer with this factor rests on, where nothing tells of ridges."""
 FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
 """A factor on each estimated quantity, with its error."""
 

@@ -16,7 +16,7 @@ from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
-from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.best_estimate import ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.findings import no_answer_notices
@@ -124,9 +124,7 @@ def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
         yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
     labels = data.factor_label.values
     if LINES_TO_SURFACE in labels:
-        isotropic = str(
-            data.attrs.get(ISOTROPIC, "The step to a surface assumes an isotropic road")
-        )
+        isotropic = str(data.attrs.get(ISOTROPIC, ISOTROPY_ASSUMED))
         yield f"{isotropic[0].lower()}{isotropic[1:].rstrip('.')}"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:

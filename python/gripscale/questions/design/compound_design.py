@@ -114,7 +114,7 @@ def solved_point(
     return xr.Dataset(
         {name: variable(*pair) for name, pair in numbers.items()}
         | of_compound(problem, rubber, contacts)
-        | of_change(admissible, problem.rolling, optimum.ratio)
+        | of_change(admissible, optimum.ratio)
         | {"limit_worth": variable(np.array(list(worth.values())), text, dim="widened")}
     )
 

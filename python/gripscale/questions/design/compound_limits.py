@@ -211,19 +211,21 @@ class AdmissibleChanges:
     rubber: Rubber = field(repr=False)
     limits: CompoundLimits
     points: tuple[PointLimit, ...] = ()
+    """Ranges of the moduli."""
+    rolling: tuple[PointLimit, ...] = ()
+    """Limits of rolling resistance."""
 
     @classmethod
     def of(
-        cls, rubber: Rubber, limits: CompoundLimits, further: Sequence[PointLimit] = ()
+        cls, rubber: Rubber, limits: CompoundLimits, rolling: Sequence[PointLimit] = ()
     ) -> AdmissibleChanges:
-        """Return the changes within `limits` and `further` limits on moduli."""
+        """Return the changes within `limits` and those of rolling resistance."""
         points = limits.points
         if points is None:
             kelvin = None if rubber.shift is None else HANDLING
             points = (PointLimit("storage_modulus", 0.9, 1.1, temperature=kelvin),)
-        return cls(
-            rubber, limits, tuple(point.within_shift(rubber) for point in (*points, *further))
-        )
+        reached = tuple(point.within_shift(rubber) for point in points)
+        return cls(rubber, limits, reached, tuple(rolling))
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -279,8 +281,9 @@ class AdmissibleChanges:
         """Rows and what their product with r must not exceed: all limits but the bounds."""
         rubber = self.rubber
         glass = np.concatenate([[rubber.equilibrium_modulus], rubber.moduli])
+        ranges = (*self.points, *self.rolling)
         parts = [(row, 0.0) for row in self.smooth_rows]
-        parts += [pair for point in self.points for pair in self.point_rows(point)]
+        parts += [pair for point in ranges for pair in self.point_rows(point)]
         parts.append((glass / rubber.glassy_modulus, 1.0))
         matrix, most = zip(*parts, strict=True)
         return np.array(matrix), np.array(most)

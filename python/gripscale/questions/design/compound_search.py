@@ -110,17 +110,16 @@ class DesignProblem:
         both ends, a factor or the level a tenth larger.
         """
         limits, narrow = self.limits, self.admissible(level)
-        count = len(narrow.points) - len(self.rolling)
-        points, rolling = list(narrow.points[:count]), narrow.points[count:]
+        points = narrow.points
         larger = replace(limits, largest_factor=WIDER * limits.largest_factor)
         steeper = replace(limits, factor_per_decade=WIDER * limits.factor_per_decade)
         wider = {LARGEST_FACTOR: (larger, points), PER_DECADE: (steeper, points)}
         for i, point in enumerate(points):
             room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
-            wider[str(point)] = (limits, [*points[:i], room, *points[i + 1 :]])
+            wider[str(point)] = (limits, (*points[:i], room, *points[i + 1 :]))
         least = _most(narrow, slope)
         worth = {
-            name: _most(AdmissibleChanges(self.rubber, room, (*ranges, *rolling)), slope) - least
+            name: _most(replace(narrow, limits=room, points=ranges), slope) - least
             for name, (room, ranges) in wider.items()
         }
         return worth | {ROLLING_LEVEL: _most(self.admissible(WIDER * level), slope) - least}

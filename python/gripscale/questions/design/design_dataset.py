@@ -42,13 +42,10 @@ def variable(
     return (dim,) if dim else (), values, variable_attributes(text, unit)
 
 
-def of_change(
-    admissible: AdmissibleChanges, rolling: Sequence[PointLimit], ratio: Array
-) -> dict[str, Any]:
+def of_change(admissible: AdmissibleChanges, ratio: Array) -> dict[str, Any]:
     """Return the change of each modulus, and of what is limited at a point of frequency."""
     today, design = admissible.rubber, changed(admissible.rubber, ratio)
-    points = admissible.points[: -len(rolling)]  # the last are those of rolling resistance
-    limited = np.array([point.value(design) / point.value(today) for point in points])
+    limited = np.array([point.value(design) / point.value(today) for point in admissible.points])
     return {
         "modulus_ratio": variable(ratio, "modulus over today's, E_inf first", dim="term"),
         "limited_ratio": variable(limited, "limited modulus over today's", dim="limit"),
@@ -98,7 +95,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     low, high = zip(*map(_excited, contacts), strict=True)
     times = np.concatenate([[math.inf], rubber.relaxation_times])
     goals = [str(goal) for goal in friction.goals]
-    limits = [str(point) for point in problem.admissible().points[: -len(problem.rolling)]]
+    limits = [str(point) for point in problem.admissible().points]
     widened = [LARGEST_FACTOR, PER_DECADE, *limits, ROLLING_LEVEL]
     data |= {
         "excited_low": variable(min(low), "excited from", "Hz"),

@@ -13,7 +13,7 @@ from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
 from gripscale.model import STATUS, STEEP_SHARE, input_doubts_of
-from gripscale.questions.answer.best_estimate import AREA_TERM, LINES_TO_SURFACE
+from gripscale.questions.answer.best_estimate import AREA_TERM, ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
@@ -186,7 +186,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     if steep > WORTH_NAMING:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
-        yield "the step to a surface assumes an isotropic road"
+        yield ISOTROPY_ASSUMED
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"
     if AREA_TERM in data:
