@@ -23,7 +23,17 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.charts.chart import Bars, CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.chart import (
+    Bars,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    PlotAxis,
+    Series,
+    ShadedBand,
+    ValueMap,
+)
 from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
@@ -33,6 +43,7 @@ from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.sensitivity.charts import sensitivity_figure
+from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import transmission
 from gripscale.theory import Persson
 from gripscale.theory.half_plane import HalfPlane
@@ -56,6 +67,8 @@ STRETCH = 60.0
 """Length of the road under the draped rubber [mm]."""
 SENSITIVITY_SPEEDS = [0.003, 0.3, 30.0]
 """Of the derivatives over the speed [m/s]."""
+MAP_STEP, MAP_POINTS = 1e-4, 256
+"""Step [m] and points along a side of the map of the line and its map."""
 CONDITIONS = ROOT / "examples" / "conditions" / "case.toml"
 
 
@@ -261,6 +274,77 @@ def _draped_panel(trace: xr.Dataset, ends: tuple[float, float], room: float) -> 
     return Panel(along, PlotAxis("height $z$ [mm]", low=low, high=top), marks)
 
 
+def isotropic_heights() -> Array:
+    """Return a self-affine Gaussian map (H = 0.8) of rms height 0.5 mm."""
+    along, across = np.fft.fftfreq(MAP_POINTS, MAP_STEP), np.fft.rfftfreq(MAP_POINTS, MAP_STEP)
+    number = np.hypot(along[:, None], across)
+    longest = 2.0 / (MAP_POINTS * MAP_STEP)
+    amplitude = np.where(number > 0.0, np.maximum(number, longest) ** -1.8, 0.0)
+    shape = (MAP_POINTS, MAP_POINTS)
+    noise = np.fft.rfft2(np.random.default_rng(3).standard_normal(shape))
+    heights = np.fft.irfft2(amplitude * noise, s=shape)
+    return np.asarray(0.5e-3 * heights / heights.std())
+
+
+def line_and_map(shipped: Shipped) -> Figure:
+    """Draw the contact of a map, and its rubber along a line beside that of the line alone."""
+    x, heights = MAP_STEP * np.arange(MAP_POINTS, dtype=np.float64), isotropic_heights()
+    row, length = MAP_POINTS // 2, MAP_POINTS * MAP_STEP / MILLI
+    load = shipped.case.load
+    alone, whole = (
+        gs.solve_rough_contact(
+            shipped.rubber,
+            surface,
+            pressure=load.pressure,
+            speed=load.speed,
+            smallest_wavelength=4.0 * MAP_STEP,
+            periodic=True,
+        )
+        for surface in (Profile(x, heights[:, row]), HeightMap(x, x, heights))
+    )
+    assert whole.y is not None
+    section = int(np.argmin(np.abs(whole.y - row * MAP_STEP)))
+    surface = whole.height[:, section]
+    x_map, y_map = whole.x / MILLI, whole.y / MILLI
+    marks: list[Mark] = [
+        ShadedBand(x_map, np.full(x_map.size, 0.1), surface / MILLI, FAINT, "surface", alpha=1.0)
+    ]
+    lines = (
+        (alone.x, alone.height + alone.gap, alone.pressure, ORANGE, "rubber on the line alone"),
+        (whole.x, (whole.height + whole.gap)[:, section], whole.pressure[:, section], BLUE,
+         "rubber on the map"),
+    )  # fmt: skip
+    for place, rubber, pressure, colour, label in lines:
+        # a line has a mean height of its own
+        level = 0.0 if colour == BLUE else float(surface.mean() - alone.height.mean())
+        z = (rubber + level) / MILLI
+        touching = np.where(pressure > 0.0, z, np.nan)
+        width = 1.6 if colour == BLUE else 4.0
+        marks += [
+            Series(place / MILLI, z, colour, label, width=1.0),
+            Series(place / MILLI, touching, colour, width=width),
+        ]
+    field = np.where(whole.pressure > 0.0, whole.pressure / MEGA, np.nan)
+    across = CrossLine(float(y_map[section]), INK, "", "dashed")
+    along = PlotAxis("distance $x$ [mm]", low=0.0, high=length)
+    panels = [
+        Panel(
+            along,
+            PlotAxis("$y$ [mm]", low=0.0, high=length),
+            [ValueMap(x_map, y_map, field.T, "contact pressure [MPa]"), across],
+            title=f"the map touches {100.0 * whole.contact_fraction:.1f} %",
+            to_scale=True,
+        ),
+        Panel(
+            along,
+            PlotAxis("height $z$ along the dashed line [mm]", low=0.1),
+            marks,
+            title=f"the line alone touches {100.0 * alone.contact_fraction:.1f} %",
+        ),
+    ]
+    return Sheet(panels, height=3.4).on_paper()
+
+
 def sensitivity(shipped: Shipped) -> Figure:
     """Draw the master curve, and below it what each decade of it is worth."""
     return sensitivity_figure(shipped.sensitivity)
@@ -348,6 +432,7 @@ PICTURES = (
     road,
     cut_off,
     draped,
+    line_and_map,
     sensitivity,
     speeds,
     conditions,
