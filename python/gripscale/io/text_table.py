@@ -3,11 +3,11 @@
 - A sheet of an Excel file (.xlsx) is read as a text whose cells are parted by tabs.
 - UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean
   binary data.
-- Lines that begin with #, % or ! are comments. Titles may stand in one.
+- Lines that begin with #, % or ! are comments, but for #NV and the like. Titles may stand in one.
 - Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
   of all cells of a line. That line is the first row; every later line must have as many cells.
 - The decimal sign is the point or, where commas do not part the cells, the comma; not both.
-- Empty cells, nan, n/a, - and the like are missing values.
+- Empty cells and the words of `MISSING` are missing values; a minus may be the longer sign.
 - The last line above the rows that names as many columns holds the titles. A unit stands in
   brackets, behind a slash or a blank, or in a line of units.
 """
@@ -38,12 +38,21 @@ from gripscale.core.wording import CaseKey, Words
 Line = tuple[int, str]
 """A line with its number in the file, from 1."""
 
-MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
+MISSING = {
+    *("", "nan", "na", "n/a", "n.a.", "n. a.", "n.v.", "n.b.", "k.a.", "k. a.", "null", "none"),
+    *("-", "--", "---", "–", "—", "bad", "#nv", "#n/v", "#na", "#n/a"),
+    *("#num!", "#zahl!", "#value!", "#wert!", "#div/0!", "#ref!", "#bezug!", "#name?", "#null!"),
+}
+"""What marks a missing value, in small letters; German and English Excel have words of errors."""
+MISSING_MARKS = "an empty cell, NaN, n/a, - or #NV marks a missing value"
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 SEPARATORS = ("\t", ";", ",", None)
 """Separators of the cells of a line, in the order they are tried; None: blanks."""
 _COMMENT = ("#", "%", "!")
+_NO_COMMENT = re.compile(
+    rf"({'|'.join(re.escape(word) for word in MISSING if word.startswith('#'))})\s*[\t;, ]", re.I
+)
 
 
 def parse_number(cell: str) -> float | None:
@@ -67,7 +76,8 @@ def is_row_of(cells: list[str]) -> bool:
 
 def is_comment(line: str) -> bool:
     """Return whether a line is a comment."""
-    return line.lstrip().startswith(_COMMENT)
+    text = line.lstrip()
+    return text.startswith(_COMMENT) and not _NO_COMMENT.match(text)
 
 
 def is_number(cell: str) -> bool:
@@ -152,7 +162,7 @@ def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
 def _cell_text(value: object) -> str:
     if isinstance(value, float):
         return repr(value)
-    return "" if value is None else " ".join(str(value).split())
+    return "" if value is None else " ".join(str(value).split()).replace("\u2212", "-")
 
 
 _BINARY = {
@@ -204,6 +214,10 @@ class TextTable:
         """The names of the columns as a message lists them, empty if the file has no titles."""
         return shortened(", ".join(self.names))
 
+    def label(self, column: int) -> str:
+        """Return the title of a column, or its number from 1."""
+        return shortened(self.columns[column].name) or str(column + 1)
+
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
         """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
         cells = self._cells(column)
@@ -219,9 +233,12 @@ class TextTable:
         for at, cell in enumerate(cells):
             value = parse_number(cell)
             if value is None or not (abs(value) <= MOST or (missing and math.isnan(value))):
+                wanted, marks = expected, ""
+                if value is None and missing:
+                    wanted, marks = f"a number in column {self.label(column)}", f"; {MISSING_MARKS}"
                 raise FileError(
-                    f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
-                    f"got {short_repr(self.rows[at][column])}"
+                    f"{self.path}, line {self.line_numbers[at]}: expected {wanted}; "
+                    f"got {short_repr(self.rows[at][column])}{marks}"
                 )
             values[at] = value
         return values
@@ -268,7 +285,7 @@ def read_lines(
     if is_excel(path):
         lines = sheet_lines(path, sheet)
     elif sheet is None:
-        text = read_text(path).replace("\r\n", "\n")
+        text = read_text(path).replace("\r\n", "\n").replace("\u2212", "-")
         split = enumerate(_LINE_END.split(text) if "\r" in text else text.split("\n"), start=1)
         lines = [(number, line) for number, line in split if line.strip()]
     else:
@@ -429,7 +446,7 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
             fault = next(at for at, cell in enumerate(cells) if not fits(cell))
             raise FileError(
                 f"{path}, line {number}: expected a number in column {fault + 1}; "
-                f"got {short_repr(cells[fault])}"
+                f"got {short_repr(cells[fault])}; {MISSING_MARKS}"
             )
 
 

@@ -1,6 +1,7 @@
 """The tables of a file of moduli, each with what the lines above it state.
 
-A text or Excel file may hold several tables, each with its temperature. Lines that are no rows of
+A text or Excel file may hold several tables, each with its temperature, below each other or side by
+side. Lines that are no rows of
 numbers part the tables where they hold titles or state a temperature; a table without titles has
 those of the table before. Of several tables those without frequency and modulus are left out: steps
 that condition the sample. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
@@ -22,8 +23,9 @@ from gripscale.core.wording import CaseKey, Words
 from gripscale.io import text_table
 from gripscale.io.text_table import ColumnTitle, Line, TextTable, parse_number
 from gripscale.rubber import columns
-from gripscale.rubber.columns import FileLayout, quantity, stated_temperature
+from gripscale.rubber.columns import FileLayout, quantity, stated_in
 from gripscale.rubber.shift import WLF
+from gripscale.rubber.side_by_side import split_blocks
 
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
@@ -62,16 +64,18 @@ def blocks_in(
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []
     titles: list[Line] = []
-    for above, rows in _parts(lines, expected):
+    sections = [lines] if layout.columns else split_blocks(path, lines)
+    for above, rows in (part for section in sections for part in _parts(section, expected)):
         first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
         temperature = _temperature_above(path, above, temperature_unit)
         if first is not None:
-            here = [line for line in above[first:] if stated_temperature(line[1]) is None]
+            here = [line for line in above[first:] if stated_in(line[1]) is None]
             titles = here or titles
         elif any(_STEP.fullmatch(text.strip()) for _, text in above):
             titles = []  # those of another step are not its own
         whole = [*titles, *rows] if titles else [*above, *rows]
-        blocks.append(Block(_table(path, whole, expected), temperature))
+        table = _with_frequency(_table(path, whole, expected), layout, above)
+        blocks.append(Block(table, temperature))
     if len(blocks) < 2:
         return blocks or [Block(_table(path, lines, expected))]
     with_moduli = []  # without steps that condition the sample
@@ -94,7 +98,7 @@ def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line],
             between.append(line)
             continue
         begins = any(
-            _names(text, expected) or stated_temperature(text) or _STEP.fullmatch(text.strip())
+            _names(text, expected) or stated_in(text) or _STEP.fullmatch(text.strip())
             for _, text in between
         )
         if rows and begins:
@@ -124,7 +128,7 @@ def _names(line: str, expected: list[str]) -> bool:
 def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float | None:
     """Return the last temperature that the lines above a table state [K]."""
     for number, line in reversed(above):
-        statement = stated_temperature(line)
+        statement = stated_in(line)
         if statement is None:
             continue
         value, written = statement
@@ -142,6 +146,31 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
         degrees = float(value.replace(",", "."))
         return float(quantity_in_si(degrees, chosen, "temperature", "temperature_unit"))
     return None
+
+
+def _with_frequency(table: TextTable, layout: FileLayout, above: list[Line]) -> TextTable:
+    """Return a table with a column of the frequency that the caller or a line above states."""
+    titled = any(quantity(name) == "frequency" for name in table.names)
+    with_column = titled or "frequency" in layout.by_quantity
+    if layout.frequency is not None and with_column:
+        raise InputError(
+            Words(
+                f"{table.path}: ",
+                CaseKey("frequency"),
+                " must be left out, because a column holds the frequency of each row; got "
+                f"{layout.frequency:g} Hz",
+            )
+        )
+    cell, unit = str(layout.frequency), "Hz"
+    if layout.frequency is None:
+        statements = [stated_in(line, "frequency") for _, line in above]
+        stating = [(n, u) for n, u in filter(None, statements) if spelled(u, "frequency")]
+        if with_column or not stating:
+            return table
+        cell, unit = stating[-1][0], str(stating[-1][1])
+    columns = [*table.columns, ColumnTitle("Frequency", unit)]
+    cell = cell.replace(",", ".").replace(".", table.decimal)
+    return replace(table, columns=columns, rows=[[*row, cell] for row in table.rows])
 
 
 def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:

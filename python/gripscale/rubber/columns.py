@@ -28,7 +28,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -72,12 +72,19 @@ _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequ
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
 _PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
-_STATED = re.compile(
-    rf"(?:^|[\s;,#%!])(?:T|Temp\w*|Sample temp\w*|Probentemp\w*)\.?\s*"
-    rf"(?:[\[(]\s*(?P<before>[^\])]+)[\])])?\s*[=:;,\t]\s*\"?(?P<number>{_NUMBER})\"?"
-    rf"(?:[\t;,]?[ \t]*[\[(]?(?P<after>°?\s?[A-Za-z]+)[\])]?)?\s*(?:$|[;,\t\"])",
-    re.IGNORECASE,
-)
+_STATED = {
+    kind: re.compile(
+        rf"(?:^|[\s;,#%!])(?:{names})\.?\s*"
+        rf"(?:[\[(]\s*(?P<before>[^\])]+)[\])])?\s*[=:;,\t]\s*\"?(?P<number>{_NUMBER})\"?"
+        rf"(?:[\t;,]?[ \t]*[\[(]?(?P<after>°?\s?[A-Za-z]+(?:/s)?)[\])]?)?\s*(?:$|[;,\t\"])",
+        re.IGNORECASE,
+    )
+    for kind, names in {
+        "temperature": r"T|Temp\w*|Sample temp\w*|Probentemp\w*",
+        "frequency": r"f|Freq\w*|Test freq\w*|Messfreq\w*|Prüffreq\w*",
+    }.items()
+}
+"""A line that states the temperature or the frequency of the rows below it."""
 
 
 def quantity(name: str) -> str | None:
@@ -142,9 +149,9 @@ def raised(table: TextTable) -> TextTable:
     return table
 
 
-def stated_temperature(line: str) -> tuple[str, str | None] | None:
-    """Return number and unit, if any, of the temperature a line states, such as T = 20 °C."""
-    match = _STATED.search(line.strip())
+def stated_in(line: str, kind: str = "temperature") -> tuple[str, str | None] | None:
+    """Return number and unit, if any, of what a line states, such as T = 20 °C or f = 10 Hz."""
+    match = _STATED[kind].search(line.strip())
     return None if match is None else (match["number"], match["before"] or match["after"])
 
 
@@ -174,9 +181,6 @@ def unit_name(name: str, value: object) -> str:
     return str(value)
 
 
-ReadColumn = Callable[[TextTable, int, str], Array]
-
-
 class FileLayout(Checked):
     """Where the numbers of a file of moduli stand and what they are, as far as a caller states it.
 
@@ -201,6 +205,8 @@ class FileLayout(Checked):
     """Unit of the strains: 1 or %."""
     modulus: str | None = checked(checks.one_of, choices=("E", "G"), default=None)
     """Whether they are Young's (E) or shear moduli (G, multiplied by 3)."""
+    frequency: float | None = checked(checks.positive, unit="Hz", default=None)
+    """Frequency [Hz] of all rows, as of a temperature ramp, where no column holds it."""
     titles_first: bool = False
     """Whether what the file says goes before what is stated here."""
 
@@ -266,10 +272,10 @@ class FileLayout(Checked):
             raise missing(table, wanted)
         return column
 
-    def read(self, table: TextTable, wanted: str, numbers: ReadColumn | None = None) -> Array:
+    def read(self, table: TextTable, wanted: str) -> Array:
         """Return a column in SI units, of a quantity that must be there; as `young_moduli`."""
         column = self.needed_column(table, wanted)
-        values = (numbers or above_zero)(table, column, wanted)
+        values = above_zero(table, column, wanted)
         return np.asarray(quantity_in_si(values, self.unit(table, column, wanted), wanted))
 
     def unit(self, table: TextTable, column: int, kind: str) -> str:
@@ -331,21 +337,21 @@ def missing(table: TextTable, what: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
-    if what == "frequency":
-        header += "; where no column holds it, add one, such as Frequency [Hz] with 10 in every row"
     words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
-    return InputError(words, missing="columns")
+    if what != "frequency":
+        return InputError(words, missing="columns")
+    ramp = any(quantity(name) == "temperature" for name in table.names)
+    where = "; where all rows are at the same frequency, "
+    words = Words(words, where, CaseKey("frequency"), ' states it, such as "10 Hz"')
+    return InputError(words, missing="frequency" if ramp else "columns")
 
 
 _ROUNDING = 0.05
 """Relative error of a loss factor by the digits it is printed with."""
 
 
-def young_moduli(
-    table: TextTable, layout: FileLayout, numbers: ReadColumn | None = None
-) -> tuple[Array, Array]:
-    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing."""
-    read = numbers or above_zero
+def young_moduli(table: TextTable, layout: FileLayout) -> tuple[Array, Array]:
+    """Return E' and E'' [Pa] of each row, NaN where a value is missing."""
     positions = {name: layout.column(table, name) for name in MODULI}
     at = {name: position for name, position in positions.items() if position is not None}
     pair = next((pair for pair in PAIRS if set(pair) <= set(at)), None)
@@ -355,7 +361,7 @@ def young_moduli(
     units = {name: layout.unit(table, at[name], "modulus") for name in moduli}
     size = 3.0 if layout.modulus_of(table, [at[name] for name in moduli]) == "G" else 1.0
     values = {
-        name: size * quantity_in_si(read(table, at[name], name), unit, "modulus")
+        name: size * quantity_in_si(above_zero(table, at[name], name), unit, "modulus")
         for name, unit in units.items()
     }
     if pair == ("storage", "loss"):
@@ -364,7 +370,7 @@ def young_moduli(
             printed *= _ratio_unit(table, at["loss_factor"])
             _refuse_swapped(table, values["loss"] / values["storage"], printed)
         return values["storage"], values["loss"]
-    factor = _loss_factor(table, at[pair[1]], pair[1], read)
+    factor = _loss_factor(table, at[pair[1]], pair[1])
     if "storage" in values:
         return values["storage"], values["storage"] * factor
     if "loss" in values:
@@ -373,9 +379,9 @@ def young_moduli(
     return storage, storage * factor
 
 
-def _loss_factor(table: TextTable, column: int, name: str, read: ReadColumn) -> Array:
+def _loss_factor(table: TextTable, column: int, name: str) -> Array:
     """Return the loss factor [-] of a column that holds it, or the angle between E' and E''."""
-    values, title = read(table, column, name), table.columns[column]
+    values, title = above_zero(table, column, name), table.columns[column]
     if name == "loss_factor":
         return values * _ratio_unit(table, column)
     if spelled(title.unit, "angle") is None:
@@ -434,11 +440,11 @@ def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature
 
 def above_zero(table: TextTable, column: int, wanted: str) -> Array:
     """Return a column of numbers above zero, NaN where missing; `FileError` names other lines."""
-    values = table.numbers(column, "a finite number", missing=True)
-    good = (values >= checks.LEAST) & (values <= checks.MOST)
-    span = f"{checks.LEAST:g} to {checks.MOST:g}"
-    expected = f"a {wanted.replace('_', ' ')} above zero, {span},"
-    check_rows(table, column, good, values, expected)
+    what = f"a {wanted.replace('_', ' ')}"
+    within = f"{what} between {checks.LEAST:g} and {checks.MOST:g}"
+    values = table.numbers(column, within, missing=True)
+    check_rows(table, column, ~(values <= 0.0), values, f"{what} above zero")
+    check_rows(table, column, values >= checks.LEAST, values, within)
     return values
 
 
@@ -449,5 +455,5 @@ def check_rows(table: TextTable, column: int, good: Mask, values: Array, expecte
         at = int(np.argmax(bad))
         raise FileError(
             f"{table.path}, line {table.line_numbers[at]}: expected {expected} in column "
-            f"{table.columns[column].name or column + 1}; got {table.rows[at][column]}"
+            f"{table.label(column)}; got {table.rows[at][column]}"
         )

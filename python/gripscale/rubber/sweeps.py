@@ -161,7 +161,8 @@ def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
     It is for tables that state a temperature, and for a column of temperatures over which the same
     frequencies come again, as in no master curve.
     """
-    layout = (layout and FileLayout(layout.columns, layout.sheet, layout.header)) or FileLayout()
+    layout = layout or FileLayout()
+    layout = FileLayout(layout.columns, layout.sheet, layout.header, frequency=layout.frequency)
     try:
         blocks = read_blocks(path, layout, temperature_unit="C")
         with_column = [layout.column(block.table, "temperature") is not None for block in blocks]
@@ -277,6 +278,8 @@ def _at_steps(rows: dict[str, Array], chosen: Mask, step: float) -> Array:
 def read_sweeps(
     path: str | Path | Sequence[str | Path],
     *,
+    modulus: str | None = None,
+    frequency: float | None = None,
     temperature: float | None = None,
     tolerance: float = TEMPERATURE_TOLERANCE,
     temperature_step: float | None = None,
@@ -288,7 +291,7 @@ def read_sweeps(
 
     Rows with a missing value in a column that is needed are left out. Titles are read in English
     and German. The rules of `gripscale.io.text_table` hold; several tables in one file, each with
-    its temperature above it or in a column, are taken together. What the file states need not be
+    its temperature above it, above its block of columns or in a column, are taken together. What the file states need not be
     given; what is given goes before it. Nothing is guessed. Raises `FileError` if a file cannot be
     read or a value in it cannot be; the message names path and line. Raises `InputError` if a unit,
     the kind of modulus, a column or a temperature is neither stated nor given.
@@ -298,6 +301,10 @@ def read_sweeps(
     path : str, Path or sequence of them
         The file, or several, such as one for each temperature, which then may stand in its name
         with its unit: sweep_-20C.csv. Excel: .xlsx.
+    modulus : {"E", "G"}, optional
+        Whether the file holds Young's or shear moduli; needed unless its titles say so.
+    frequency : float, optional
+        Frequency of all rows [Hz], as of a temperature ramp, where the file does not state it.
     temperature : float, optional
         Temperature of a file that states none [K].
     tolerance : float
@@ -308,10 +315,11 @@ def read_sweeps(
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
     **options
-        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
-        `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`.
+        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit` and
+        `titles_first`, as fields of `gripscale.rubber.FileLayout`.
     """
-    paths, layout = file_paths(path), FileLayout(**options)
+    paths = file_paths(path)
+    layout = FileLayout(modulus=modulus, frequency=frequency, **options)
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
     parts = []
