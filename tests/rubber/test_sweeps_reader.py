@@ -124,7 +124,15 @@ def test_excel(tmp_path):
         gs.read_sweeps(path, sheet="other")
     book["notes"].append([1.0, 2.0])
     book.save(path)
-    with pytest.raises(InputError, match=r"sheet must be given, .* \(data, notes\)"):
+    expect(gs.read_sweeps(path))  # the only sheet with moduli
+    book.copy_worksheet(sheet).title = "again"
+    del book["notes"]
+    book.save(path)
+    expect(gs.read_sweeps(path, sheet="again"))
+    for row in (*sheet.rows, *book["again"].rows):
+        row[0].value = None
+    book.save(path)
+    with pytest.raises(InputError, match=r"sheet must be given, .* \(data, again\)"):
         gs.read_sweeps(path)
 
 

@@ -164,7 +164,13 @@ FLAT = points()
         ("m.txt", HEIGHTS[:, :9], {}, FileError, "line 1: expected three columns, .* got 9"),
         ("m.txt", FLAT[:, :2], {}, FileError, "got 2; a line of two columns .*read_profile"),
         ("m.xyz", FLAT[:20], {}, FileError, "at least 16 points a way; got 1 distances in col.* 2"),
-        ("m.xyz", FLAT**2, {}, FileError, "at half the points .* got 20 of 362 in steps of 0.25$"),
+        (
+            "m.xyz",
+            FLAT**2,
+            {},
+            FileError,
+            "at half the points .* got 20 of 362 in steps of 0.25: sc",
+        ),
         (
             "m.xyz",
             np.abs(FLAT) ** 1.5,

@@ -135,7 +135,10 @@ BAD_FILES = {
     "one column": (b"1\n2\n3\n", "two columns"),
     "three columns": (b"1,2,3\n" * 20, "line 1: expected two columns"),
     "ragged": (table() + "\n10.0,1,5", "line 22: expected 2 columns as in line 2; got 3"),
-    "word": (table() + "\n10.0,high", "line 22: expected a number in column z; got 'high'; an empty cell"),
+    "word": (
+        table() + "\n10.0,high",
+        "line 22: expected a number in column z; got 'high'; an empty cell",
+    ),
     "no distance": (table() + "\nnan,1.0", "line 22: expected a distance"),
     "few points": (table(ROWS[:9]), "at least 16 points; got 9"),
     "backwards": (table([*ROWS[:18], (3.0, 1.0)]), "line 20: .* increase in equal steps"),

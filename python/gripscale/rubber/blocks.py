@@ -21,12 +21,14 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io import text_table
-from gripscale.io.text_table import ColumnTitle, Line, TextTable, parse_number
+from gripscale.io.cells import Line, is_row, parse_number
+from gripscale.io.text_table import ColumnTitle, TextTable
 from gripscale.rubber import columns
 from gripscale.rubber.columns import FileLayout, quantity, stated_in
 from gripscale.rubber.shift import WLF
 from gripscale.rubber.side_by_side import split_blocks
 
+_ROWS = "rows of frequency, storage and loss"
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _STEP = re.compile(r"\[\w+\]")
@@ -48,16 +50,47 @@ class Block:
         return self.temperature is not None or layout.column(self.table, "temperature") is not None
 
 
-def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
-    """Return the tables of a file; `temperature_unit` is that of temperatures that state none."""
-    lines = text_table.read_lines(path, sheet=layout.sheet, header=layout.header)
-    return blocks_in(path, lines, layout, temperature_unit=temperature_unit)
-
-
-def blocks_in(
-    path: Path, lines: list[Line], layout: FileLayout, *, temperature_unit: str | None
+def read_blocks(
+    path: Path, layout: FileLayout, *, temperature_unit: str | None, most: int | None = None
 ) -> list[Block]:
-    """Return the tables in `lines` of the file `path`, as `read_blocks` does."""
+    """Return the tables of a file; `temperature_unit` is that of temperatures that state none.
+
+    Of each sheet only the first lines are read, at `most` so many. Raises `InputError` for an Excel
+    file of several sheets with moduli, unless each of them states its temperature.
+    """
+    if not text_table.is_excel(path) or layout.sheet is not None:
+        lines = text_table.read_lines(path, sheet=layout.sheet, header=layout.header)
+        return _blocks_in(path, lines[:most], layout, temperature_unit)
+    sheets: dict[str, list[Block]] = {}
+    every_sheet = text_table.sheets_as_lines(path, header=layout.header)
+    for name, lines in every_sheet.items():
+        with suppress(FileError):  # a sheet without numbers
+            blocks = _blocks_in(path, lines[:most], layout, temperature_unit)
+            sheets[name] = [with_named_temperature(block, name, layout) for block in blocks]
+    with_moduli = {name: _sufficient(blocks, layout) for name, blocks in sheets.items()}
+    chosen = {name: blocks for name, blocks in with_moduli.items() if blocks} or sheets
+    every = [block for blocks in chosen.values() for block in blocks]
+    if len(chosen) > 1 and not all(block.states_temperature(layout) for block in every):
+        raise InputError(
+            Words(
+                f"{path}: ",
+                CaseKey("sheet"),
+                f" must be given, because {len(chosen)} sheets hold numbers ({', '.join(chosen)})",
+            ),
+            missing="sheet",
+        )
+    if not every:
+        raise FileError(f"{path}: expected {_ROWS}; got none in {len(every_sheet)} sheets")
+    return every
+
+
+_NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?\s?(C|K|F)(?![A-Za-z\d])")
+"""A temperature in the name of a file or a sheet."""
+
+
+def _blocks_in(
+    path: Path, lines: list[Line], layout: FileLayout, temperature_unit: str | None
+) -> list[Block]:
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
     lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
@@ -78,11 +111,26 @@ def blocks_in(
         blocks.append(Block(table, temperature))
     if len(blocks) < 2:
         return blocks or [Block(_table(path, lines, expected))]
-    with_moduli = []  # without steps that condition the sample
+    return _sufficient(blocks, layout) or blocks
+
+
+def _sufficient(blocks: list[Block], layout: FileLayout) -> list[Block]:
+    """Return the tables with frequency and modulus: not steps that condition the sample."""
+    sufficient = []
     for block in blocks:
         with suppress(InputError):
-            with_moduli += [block] if layout.suffices(block.table) else []
-    return with_moduli or blocks
+            sufficient += [block] if layout.suffices(block.table) else []
+    return sufficient
+
+
+def with_named_temperature(block: Block, name: str, layout: FileLayout) -> Block:
+    """Return a block with the temperature in the name of its file, if it states none itself."""
+    temperatures = _NAMED.findall(name.replace("_", " "))
+    if block.states_temperature(layout) or len(temperatures) != 1:
+        return block
+    ((number, unit),) = temperatures
+    kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
+    return replace(block, temperature=float(kelvin))
 
 
 def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line], list[Line]]]:
@@ -94,7 +142,7 @@ def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line],
         # A line below rows that begins with a number is a row with a fault, to be named later.
         first = parse_number(re.split(r"[\t;,\s]", line[1].strip(), maxsplit=1)[0])
         broken = bool(rows) and first is not None and first == first
-        if not text_table.is_row(line[1]) and not broken:
+        if not is_row(line[1]) and not broken:
             between.append(line)
             continue
         begins = any(
@@ -177,7 +225,7 @@ def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
     table = text_table.table_in(
         path,
         lines,
-        "rows of frequency, storage and loss",
+        _ROWS,
         kinds=KINDS,
         named=lambda name: quantity(name) is not None or name in expected,
     )

@@ -30,6 +30,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import listed, quantity_in_si, spelled
+from gripscale.core.units import listed, parse_quantity, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import TextTable
 
@@ -181,6 +182,14 @@ def unit_name(name: str, value: object) -> str:
     return str(value)
 
 
+def _hertz(name: str, value: object) -> float:
+    """Return a frequency [Hz] above zero; raise `InputError` for what is none."""
+    try:
+        return checks.positive(name, parse_quantity(value, "frequency"), unit="Hz")
+    except ValueError as error:
+        raise InputError(f"{name} = {checks.short_repr(value)}: {error}") from error
+
+
 class FileLayout(Checked):
     """Where the numbers of a file of moduli stand and what they are, as far as a caller states it.
 
@@ -205,8 +214,9 @@ class FileLayout(Checked):
     """Unit of the strains: 1 or %."""
     modulus: str | None = checked(checks.one_of, choices=("E", "G"), default=None)
     """Whether they are Young's (E) or shear moduli (G, multiplied by 3)."""
-    frequency: float | None = checked(checks.positive, unit="Hz", default=None)
-    """Frequency [Hz] of all rows, as of a temperature ramp, where no column holds it."""
+    frequency: Any = checked(_hertz, default=None)
+    """Frequency of all rows, as of a temperature ramp, where no column holds it: a number [Hz], or
+    a text such as "10 Hz"."""
     titles_first: bool = False
     """Whether what the file says goes before what is stated here."""
 
@@ -252,8 +262,7 @@ class FileLayout(Checked):
         taken = {position_of(table, column) for column in columns.values()}
         titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
         hits = [at for at in titled if at not in taken]
-        first = [row[hits[0]] for row in table.rows] if hits else []
-        if any([row[at] for row in table.rows] != first for at in hits[1:]):
+        if not all(_agree(table, hits[0], at, wanted) for at in hits[1:]):
             raise InputError(
                 Words(
                     f"{table.path}: ",
@@ -317,6 +326,20 @@ class FileLayout(Checked):
         return title
 
 
+def _agree(table: TextTable, first: int, second: int, kind: str) -> bool:
+    """Return whether two columns hold the same, perhaps in two units, such as Hz and rad/s."""
+    if all(row[first] == row[second] for row in table.rows):
+        return True
+    units = [spelled(table.columns[at].unit, kind) for at in (first, second)]
+    if kind != "frequency" or None in units:
+        return False
+    one_way, other = (
+        quantity_in_si(table.numbers(at, "a number", missing=True), str(unit), kind)
+        for at, unit in zip((first, second), units, strict=True)
+    )
+    return bool(np.allclose(one_way, other, rtol=_SAME_FREQUENCY, atol=0.0, equal_nan=True))
+
+
 def position_of(table: TextTable, column: str | int) -> int:
     """Return the position, from 0, of a column given by its number from 1 or by its title."""
     if not isinstance(column, str):
@@ -341,9 +364,10 @@ def missing(table: TextTable, what: str) -> InputError:
     if what != "frequency":
         return InputError(words, missing="columns")
     ramp = any(quantity(name) == "temperature" for name in table.names)
-    where = "; where all rows are at the same frequency, "
-    words = Words(words, where, CaseKey("frequency"), ' states it, such as "10 Hz"')
-    return InputError(words, missing="frequency" if ramp else "columns")
+    if not ramp:
+        return InputError(words, missing="columns")
+    key, where = CaseKey("frequency"), "; where all rows are at the same frequency, "
+    return InputError(Words(words, where, key, ' states it, such as "10 Hz"'), missing="frequency")
 
 
 _ROUNDING = 0.05

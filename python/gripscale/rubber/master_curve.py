@@ -148,10 +148,10 @@ def read_master_curve(
     column = layout.needed_column(table, "frequency")
     _refuse_sweeps(table, column, with_columns=bool(layout.columns))
     rows = np.array([layout.read(table, "frequency"), *columns.young_moduli(table, layout)])
-    rows = rows[:, np.isfinite(rows).all(axis=0)]
-    if rows.shape[1] < 2:
-        raise FileError(f"{file}: {_TWO_ROWS}; got {rows.shape[1]} without missing values")
-    spread = columns.spread_of_repeats(*rows, np.zeros(rows.shape[1]))
+    hertz, storage, loss = rows[:, np.isfinite(rows).all(axis=0)]
+    if len(hertz) < 2:
+        raise FileError(f"{file}: {_TWO_ROWS}; got {len(hertz)} without missing values")
+    spread = columns.spread_of_repeats(hertz, storage, loss, np.zeros(len(hertz)))
     if spread > APART:
         raise FileError(
             f"{file}: expected one master curve; got the same frequencies again with moduli "
@@ -162,7 +162,7 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    return MasterCurve(*rows, reference_temperature, name, source)
+    return MasterCurve(hertz, storage, loss, reference_temperature, name, source)
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gripscale.core.errors import FileError
-from gripscale.io.text_table import (
+from gripscale.io.cells import (
     MISSING,
     Line,
     cells_of,
@@ -43,12 +43,19 @@ _OF_ROWS = ("frequency", "temperature", "strain")
 
 @dataclass(frozen=True)
 class _Column:
-    """The cells above a column without their mark, what they mean, and the mark."""
+    """What the lines above the rows say of a column."""
 
-    titles: list[str]
-    quantity: str | None
+    name: str
+    """Its title without its mark."""
+    others: list[str]
+    """The cells above it without title and mark, such as its unit; a line each."""
     mark: str
     """A line that states the temperature or the frequency, or empty."""
+
+    @property
+    def quantity(self) -> str | None:
+        """What it holds."""
+        return quantity(self.name)
 
 
 def split_blocks(path: Path, lines: list[Line]) -> list[list[Line]]:
@@ -83,9 +90,9 @@ def split_blocks(path: Path, lines: list[Line]) -> list[list[Line]]:
     sign = separator or " "
     parts = []
     for mark, chosen in blocks.items():
-        part = [(above[0][0], mark)]
+        part = [(above[0][0], mark), (above[-1][0], sign.join(columns[at].name for at in chosen))]
         part += [
-            (number, sign.join(columns[at].titles[level] for at in chosen))
+            (number, sign.join(columns[at].others[level] for at in chosen))
             for level, (number, _) in enumerate(above)
         ]
         measured = [at for at in chosen if columns[at].quantity in MODULI]
@@ -136,11 +143,11 @@ def _columns(above: list[list[str]], count: int) -> list[_Column]:
                 titles.append("")
             else:
                 titles.append("" if numbers and at else cells[at])
-        meaning = next((q for title in titles if (q := quantity(title)) is not None), None)
-        if meaning is None and mark and columns and columns[-1].quantity in MODULI:
-            # one title over the columns of all temperatures
-            meaning, titles = columns[-1].quantity, columns[-1].titles
-        columns.append(_Column(titles, meaning, mark))
+        name = next((title for title in titles if quantity(title) is not None), "")
+        if not name and mark and columns and columns[-1].quantity in MODULI:
+            name = columns[-1].name  # one title over the columns of all temperatures
+        others = ["" if title == name else title for title in titles]
+        columns.append(_Column(name, others, mark))
     return columns
 
 

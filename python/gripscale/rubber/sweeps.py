@@ -7,7 +7,6 @@ multiples of a step.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -24,7 +23,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
 from gripscale.io.text_table import file_path, file_paths, is_excel
-from gripscale.rubber.blocks import Block, read_blocks
+from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
 from gripscale.rubber.shift import WLF
 
@@ -290,11 +289,12 @@ def read_sweeps(
     """Read frequency sweeps at several temperatures from text, CSV, Excel or RepTate files.
 
     Rows with a missing value in a column that is needed are left out. Titles are read in English
-    and German. The rules of `gripscale.io.text_table` hold; several tables in one file, each with
-    its temperature above it, above its block of columns or in a column, are taken together. What the file states need not be
-    given; what is given goes before it. Nothing is guessed. Raises `FileError` if a file cannot be
-    read or a value in it cannot be; the message names path and line. Raises `InputError` if a unit,
-    the kind of modulus, a column or a temperature is neither stated nor given.
+    and German. The rules of `gripscale.io.text_table` hold. Several tables in one file are taken
+    together, each with its temperature above it or in a column; side by side, too. What the file
+    states need not be given; what is given goes before it. Nothing is guessed. Raises `FileError`
+    if a file cannot be read or a value in it cannot be; the message names path and line. Raises
+    `InputError` if a unit, the kind of modulus, a column or a temperature is neither stated nor
+    given.
 
     Parameters
     ----------
@@ -326,7 +326,7 @@ def read_sweeps(
     for file in paths:
         blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
         if temperature is None and len(paths) > 1:
-            blocks = [_with_named_temperature(block, layout) for block in blocks]
+            blocks = [with_named_temperature(block, file.stem, layout) for block in blocks]
         parts += [_rows(block, layout.for_table(block.table), temperature) for block in blocks]
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
@@ -346,19 +346,6 @@ def read_sweeps(
         return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
     except InputError as error:
         raise InputError(f"{paths[0]}: {error}") from error
-
-
-_NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)(?![A-Za-z\d])")
-
-
-def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
-    """Return a block with the temperature in the name of its file, if it states none itself."""
-    temperatures = _NAMED.findall(block.table.path.stem.replace("_", " "))
-    if block.states_temperature(layout) or len(temperatures) != 1:
-        return block
-    ((number, unit),) = temperatures
-    kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
-    return replace(block, temperature=float(kelvin))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

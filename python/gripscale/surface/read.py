@@ -10,7 +10,7 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -22,15 +22,16 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import quantity_in_si
 from gripscale.core.wording import CaseKey, Words
-from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
+from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
+from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text
+from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_esri_grid, read_sdf_text
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import (
-    is_sdf_text,
     length_unit,
-    read_sdf_text,
     read_text_map,
     read_text_profile,
 )
+from gripscale.surface.triangles import read_stl
 
 _MOST_POINTS_PER_BYTE = 1032
 """Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""
@@ -77,13 +78,18 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
-    if is_sdf_text(path, raw):
+    own = _own_format(path, raw)
+    if own is not None:
         if step is not None:
             raise InputError(f"step must be left out; {path} states the size of its surface")
-        for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
-            length_unit(path, "the file", "m", name, unit)
-        along, across, field = read_sdf_text(path, raw)
-        return HeightField(field, along, across)
+        read, stated_unit = own
+        x_unit = length_unit(path, "the file", stated_unit, "x_unit", x_unit)
+        if read is read_stl:
+            z_unit = z_unit or x_unit
+        z_unit = length_unit(path, "the file", stated_unit, "z_unit", z_unit)
+        along, across, field = read(path, raw)
+        x, y = (quantity_in_si(axis, x_unit, "length") for axis in (along, across))
+        return HeightField(quantity_in_si(field, z_unit, "length"), x, y)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -134,6 +140,18 @@ def read_instrument_file(
     return HeightField(heights, x[:, 0], y[0, :], reliable)
 
 
+_OwnReader = Callable[[Path, bytes], tuple[Array, Array, Array]]
+
+
+def _own_format(path: Path, raw: bytes) -> tuple[_OwnReader, str | None] | None:
+    """Return what reads an instrument file without SurfaceTopography, and the unit it states."""
+    if is_sdf_text(path, raw):
+        return read_sdf_text, "m"
+    if is_esri_grid(raw):
+        return read_esri_grid, None
+    return (read_stl, None) if path.suffix.lower() == ".stl" else None
+
+
 def _topography(
     path: Path, channels: list[Any], wanted: str | int | None, step: tuple[float, float] | None
 ) -> Any:
@@ -178,7 +196,9 @@ def _topography(
 
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
-_MAP_TEXT_SUFFIXES = (*TEXT_SUFFIXES, ".xyz")
+_POINT_SUFFIXES = (".xyz", ".asc")
+"""Points or a table of heights as text; some instruments write .asc, too."""
+_ANY_TEXT = (*TEXT_SUFFIXES, *_POINT_SUFFIXES, *EXCEL)
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
 """Sheets of a Mitutoyo roughness tester's Excel file."""
 
@@ -288,10 +308,11 @@ def _open_lines(
     checks.one_of("direction", direction, ("x", "y"))
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    text = _is_text(file, reader, TEXT_SUFFIXES)
-    if reader == "auto" and file.suffix.lower() in EXCEL:
-        text = not set(read_sheets(file)) >= _SHEETS_OF_AN_INSTRUMENT
-    if text:
+    if _is_text(file, reader, _POINT_SUFFIXES) and file.suffix.lower() in _POINT_SUFFIXES:
+        if _holds_three_columns(file):
+            points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+            return file, HeightField(points.z, points.x, points.y)
+    if _is_text(file, reader, _ANY_TEXT):
         spacing = None if steps is None else steps[0]
         return file, read_text_profile(
             file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing
@@ -333,7 +354,20 @@ def _steps(
 
 
 def _is_text(path: Path, reader: str, suffixes: Collection[str]) -> bool:
-    return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
+    """Return whether a file is read as text: of .asc those that begin with a row of numbers."""
+    suffix = path.suffix.lower()
+    if reader != "auto" or suffix not in suffixes:
+        return reader == "text"
+    if suffix in EXCEL:
+        return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
+    return suffix != ".asc" or is_row(read_text(path).lstrip().partition("\n")[0])
+
+
+def _holds_three_columns(path: Path) -> bool:
+    """Return whether the first row of a text has three cells or more."""
+    first = next((text for _, text in read_lines(path) if is_row(text)), "")
+    cells = (cells_of(first, separator) for separator in SEPARATORS)
+    return any(is_row_of(row) and len(row) > 2 for row in cells)
 
 
 def read_map(
@@ -356,8 +390,9 @@ def read_map(
     Parameters
     ----------
     path : path-like
-        A text file (.xyz, .dat, .txt, .csv, .tsv, .prn) with three columns x, y and z, or with a
-        table of heights whose rows run along y and whose columns along x; or a map in any format
+        A text or Excel file (.xyz, .dat, .txt, .csv, .tsv, .prn, .asc, .xlsx) with three columns x,
+        y and z, or with a table of heights whose rows run along y and whose columns along x; a grid
+        of ESRI (.asc); triangles (.stl) that are a surface seen from above; or a map in any format
         SurfaceTopography reads, such as .al3d, .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npy
         (needs `gripscale[formats]`).
     x_unit, z_unit, channel, reader, z_axis
@@ -369,7 +404,7 @@ def read_map(
     """
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    if _is_text(file, reader, _MAP_TEXT_SUFFIXES):
+    if _is_text(file, reader, _ANY_TEXT):
         text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
         return upwards(text_map, z_axis)
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
