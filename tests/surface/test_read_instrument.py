@@ -51,9 +51,7 @@ def test_wrong_use_is_refused(tmp_path):
         read_profile(MAP, x_unit="mm")
     junk = tmp_path / "junk.sdf"
     junk.write_bytes(bytes(range(256)) * 10)
-    with pytest.raises(
-        FileError, match=r"junk\.sdf: expected a map in SDF with the number NumPoints"
-    ):
+    with pytest.raises(FileError, match=r"junk\.sdf: expected a map with the number NumPoints"):
         read_profile(junk)
     cut = tmp_path / "cut.al3d"
     cut.write_bytes(MAP.read_bytes()[:3000])
@@ -83,7 +81,7 @@ def test_text_of_bare_points_needs_units_and_equal_steps(tmp_path):
     assert profile.step == pytest.approx(0.5e-6)
     assert profile.z == pytest.approx(1e-9 * heights)
     np.savetxt(path, np.c_[np.arange(30) ** 1.1, heights])
-    with pytest.raises(FileError, match=r"line\.xyz: x must be equidistant"):
+    with pytest.raises(FileError, match=r"line\.xyz, line 2: expected distances in column 1"):
         read_profile(path, x_unit="um", z_unit="nm")
 
 

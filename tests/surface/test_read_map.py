@@ -169,7 +169,7 @@ FLAT = points()
             FLAT**2,
             {},
             FileError,
-            "at half the points .* got 20 of 362 in steps of 0.25: sc",
+            "at half the points .* got 20 of 362 in steps of 0.25: ",
         ),
         (
             "m.xyz",

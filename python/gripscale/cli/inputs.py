@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale.cli.new import Frequency, Modulus, Sheet, Wlf, naming_options, shift_of_wlf
+from gripscale.cli.new import (
+    RubberFrequency,
+    RubberModulus,
+    RubberSheet,
+    WlfConstants,
+    naming_options,
+    shift_of_wlf,
+)
 from gripscale.core.errors import about_keys
 from gripscale.terminal import (
     COLUMNS,
@@ -225,15 +232,15 @@ def fit_rubber(
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
     modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
-    modulus: Modulus = None,
-    frequency: Frequency = None,
+    modulus: RubberModulus = None,
+    frequency: RubberFrequency = None,
     bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
     reference_temperature: Annotated[
         str | None, option('Such as "20 C": where sweeps are shifted to.')
     ] = None,
     temperature_unit: Annotated[str | None, option("K, C or F, if not stated.")] = None,
     columns: Annotated[str | None, option(COLUMNS)] = None,
-    sheet: Sheet = None,
+    sheet: RubberSheet = None,
     header: Annotated[
         int | None, option("Lines above the rows, if there are numbers among them.")
     ] = None,
@@ -242,7 +249,7 @@ def fit_rubber(
         option("Times the typical scatter beyond which a row is left out; inf keeps all."),
     ] = None,
     shift: Annotated[str | None, option("Table of shift factors to be taken; sweeps.")] = None,
-    wlf: Wlf = None,
+    wlf: WlfConstants = None,
     vertical: Annotated[
         bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
     ] = False,

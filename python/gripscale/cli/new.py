@@ -20,18 +20,18 @@ _EXAMPLES = {
 """Options that state what is missing, by its key in a case."""
 
 
-Sheet = Annotated[
+RubberSheet = Annotated[
     str | None,
     terminal.option("Excel sheet of the rubber, by name or number from 1, if several hold moduli."),
 ]
-Frequency = Annotated[
+RubberFrequency = Annotated[
     str | None,
     terminal.option('Of all rows, such as "10 Hz", if no column holds it: a temperature ramp.'),
 ]
-Modulus = Annotated[
+RubberModulus = Annotated[
     str | None, terminal.option("E (Young) or G (shear), if the file of the rubber does not say.")
 ]
-Wlf = Annotated[
+WlfConstants = Annotated[
     tuple[float, str] | None,
     terminal.option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
 ]
@@ -83,11 +83,11 @@ def new(
             'Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'
         ),
     ] = None,
-    wlf: Wlf = None,
+    wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
-    sheet: Sheet = None,
-    frequency: Frequency = None,
-    modulus: Modulus = None,
+    sheet: RubberSheet = None,
+    frequency: RubberFrequency = None,
+    modulus: RubberModulus = None,
     temperature_unit: Annotated[
         str | None, terminal.option("K, C or F, if the file of the rubber does not state it.")
     ] = None,

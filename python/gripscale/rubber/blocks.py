@@ -97,7 +97,7 @@ def _blocks_in(
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []
     titles: list[Line] = []
-    sections = [lines] if layout.columns else split_blocks(path, lines)
+    sections = [lines] if layout.columns else split_blocks(lines)
     for above, rows in (part for section in sections for part in _parts(section, expected)):
         first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
         temperature = _temperature_above(path, above, temperature_unit)

@@ -67,6 +67,7 @@ _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
+_COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
 _PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
 """Letters that are a title by themselves: t is a time and F a force."""
@@ -262,7 +263,7 @@ class FileLayout(Checked):
         taken = {position_of(table, column) for column in columns.values()}
         titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
         hits = [at for at in titled if at not in taken]
-        if not all(_agree(table, hits[0], at, wanted) for at in hits[1:]):
+        if not all(_agree(table, hits[0], at) for at in hits[1:]):
             raise InputError(
                 Words(
                     f"{table.path}: ",
@@ -326,15 +327,15 @@ class FileLayout(Checked):
         return title
 
 
-def _agree(table: TextTable, first: int, second: int, kind: str) -> bool:
-    """Return whether two columns hold the same, perhaps in two units, such as Hz and rad/s."""
+def _agree(table: TextTable, first: int, second: int) -> bool:
+    """Return whether two columns hold the same, frequencies perhaps in Hz and in rad/s."""
     if all(row[first] == row[second] for row in table.rows):
         return True
-    units = [spelled(table.columns[at].unit, kind) for at in (first, second)]
-    if kind != "frequency" or None in units:
+    units = [spelled(table.columns[at].unit, "frequency") for at in (first, second)]
+    if None in units:
         return False
     one_way, other = (
-        quantity_in_si(table.numbers(at, "a number", missing=True), str(unit), kind)
+        quantity_in_si(table.numbers(at, "a number", missing=True), str(unit), "frequency")
         for at, unit in zip((first, second), units, strict=True)
     )
     return bool(np.allclose(one_way, other, rtol=_SAME_FREQUENCY, atol=0.0, equal_nan=True))
@@ -360,6 +361,8 @@ def missing(table: TextTable, what: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
+    if any(_COMPLIANCE.match(name) for name in table.names):
+        header += "; compliances are not read, moduli are"
     words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
     if what != "frequency":
         return InputError(words, missing="columns")

@@ -1,11 +1,9 @@
 """What the lines above heights state: the distance of their points, and units.
 
-    # Spacing: 0.1 mm            Schrittweite [mm]; 0,1
-    # Height unit: um            Einheit der Höhe: µm
-    # Units: mm                  dx = 10 um, dy = 20 um
+    # Spacing: 0.1 mm       Schrittweite [mm]; 0,1       dx = 10 um
+    # Height unit: um       Einheit der Höhe: µm         # Units: mm
 
-Names are read in English and German, values with their unit, in brackets behind the name or behind
-the number. A spacing without one has the unit of distances.
+Names are read in English and German. A spacing without a unit has that of distances.
 """
 
 from __future__ import annotations
@@ -19,29 +17,22 @@ from gripscale.io.cells import Line
 
 _PAIR = re.compile(
     r"[\s#%!/*\"]*(?P<name>[^:=;\t\[(]+?)\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*[:=;\t]\s*"
-    r"(?P<value>[^;\t]*?)\s*(?P<behind>[;\t]\s*[^\s\d;]+)?[\s;\"]*"
+    r"(?:(?P<number>\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)[\s;]*)?(?P<word>[^\s;]*)[\s;\"]*"
 )
-_VALUE = re.compile(r"(\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*(\S*)")
 _STEP = (
-    r"(?:(?:point|sample|sampling|pixel)[ -]?)?(?:spacing|step(?: size)?|increment)"
-    r"|(?:point|sampling) (?:distance|interval)|pixel ?size|schrittweite|(?:mess|abtast)schritt"
-    r"|(?:punkt|messpunkt|abtast)abstand|abtastintervall|pixelgr(?:ö|oe)(?:ß|ss)e|raster(?:weite|maß)"
+    r"(?:(?:point|sampl(?:e|ing)|pixel)[ -]?)?(?:spacing|step(?: size)?|increment)"
+    r"|(?:point|sampl(?:e|ing))[ -](?:distance|interval)|pixel ?size|pixelgr(?:ö|oe)(?:ß|ss)e"
+    r"|schrittweite|(?:mess|abtast)schritt|(?:mess)?punktabstand|abtast(?:abstand|weite)"
 )
-_ALONG, _ACROSS = (
-    re.compile(rf"d{axis}|delta ?{axis}|{axis}[ -]?(?:{_STEP})|(?:{_STEP})(?: (?:in )?{axis})")
-    for axis in "xy"
-)
-_BOTH = re.compile(_STEP)
-_UNIT = r"units?|einheit(?:en)?"
-_OF_ALL = re.compile(rf"(?:length )?(?:{_UNIT})")
-_OF_HEIGHTS = re.compile(
-    rf"(?:height|z|value)[ -_]?(?:{_UNIT})|(?:{_UNIT}) (?:z|(?:of |der )?(?:heights?|höhen?|z))"
-    r"|(?:höhen|z)-?einheit"
-)
-_OF_DISTANCES = re.compile(
-    rf"(?:distance|lateral|xy?)[ -_]?(?:{_UNIT})|(?:{_UNIT}) (?:xy?|(?:of |der )?(?:distances?|x))"
-    r"|(?:weg|längen|x)-?einheit"
-)
+_UNIT = r"(?:units?|einheit(?:en)?)"
+_OF = r" (?:of |der |in )?"
+_NAMES = {
+    "dx": rf"d ?x|delta ?x|x[ -]?(?:{_STEP})|(?:{_STEP})(?: (?:in )?x)?",
+    "dy": rf"d ?y|delta ?y|y[ -]?(?:{_STEP})|(?:{_STEP}) (?:in )?y",
+    "x": rf"(?:distance|lateral|weg|längen|xy?)[ -]?{_UNIT}|{_UNIT}{_OF}(?:distances?|xy?)",
+    "z": rf"(?:height|value|höhen|z)[ -]?{_UNIT}|{_UNIT}{_OF}(?:heights?|höhen?|z)",
+    "xz": rf"(?:length )?{_UNIT}",
+}
 _MOST_LINES = 100
 """Lines of a header."""
 
@@ -58,35 +49,22 @@ class Header:
 
 def read_header(lines: Sequence[Line]) -> Header:
     """Return what the first lines of a file state."""
-    units: dict[str, str] = {}
+    units: dict[str, str | None] = {}
     steps: dict[str, tuple[float, str | None]] = {}
-    for _, line in lines[:_MOST_LINES]:
-        pair = _PAIR.fullmatch(line)
-        if pair is None:
-            continue
-        name = pair["name"].strip().lower()
-        unit = spelled(pair["value"], "length")
-        number = _VALUE.fullmatch(pair["value"])
-        if unit is not None:
-            for axis, names in (("x", _OF_DISTANCES), ("z", _OF_HEIGHTS), ("", _OF_ALL)):
-                if names.fullmatch(name):
-                    units.setdefault(axis, unit)
-        elif number is not None:
-            behind = (pair["behind"] or "").strip("; \t")
-            written = next((u for u in (pair["unit"], number[2], behind) if u), None)
-            value = float(number[1].replace(",", "."))
-            if value <= 0.0 or not (written is None or spelled(written, "length")):
-                continue
-            for axis, names in (("x", _ALONG), ("y", _ACROSS), ("", _BOTH)):
-                if names.fullmatch(name):
-                    steps.setdefault(axis, (value, spelled(written, "length")))
-    x_unit = units.get("x", units.get(""))
-    along = steps.get("x", steps.get(""))
-    across = steps.get("y", along)
+    for pair in filter(None, (_PAIR.fullmatch(line) for _, line in lines[:_MOST_LINES])):
+        low = pair["name"].lower()
+        name = next((key for key, names in _NAMES.items() if re.fullmatch(names, low)), "")
+        unit = spelled(pair["unit"] or pair["word"], "length")
+        if name.startswith("d") and pair["number"]:
+            if unit or not (pair["unit"] or pair["word"]):
+                steps.setdefault(name, (float(pair["number"].replace(",", ".")), unit))
+        elif name and unit and not pair["number"]:
+            units.update(dict.fromkeys(name, unit))
+    x_unit, first = units.get("x"), steps.get("dx")
     step = None
-    if along is not None and across is not None:
-        lengths = [(value, unit or x_unit) for value, unit in (along, across)]
-        if all(unit for _, unit in lengths):
-            first, second = (quantity_in_si(v, str(u), "length") for v, u in lengths)
-            step = first, second
-    return Header(x_unit, units.get("z", units.get("")), step)
+    if first is not None:
+        (dx, along), (dy, across) = first, steps.get("dy", first)
+        along, across = along or x_unit, across or x_unit
+        if along and across and min(dx, dy) > 0.0:
+            step = quantity_in_si(dx, along, "length"), quantity_in_si(dy, across, "length")
+    return Header(x_unit, units.get("z"), step)

@@ -10,7 +10,7 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -24,7 +24,7 @@ from gripscale.core.units import quantity_in_si
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text
-from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_esri_grid, read_sdf_text
+from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import (
     length_unit,
@@ -78,16 +78,14 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
-    own = _own_format(path, raw)
-    if own is not None:
+    stl, sdf = path.suffix.lower() == ".stl", is_sdf_text(path, raw)
+    if stl or sdf or is_esri_grid(raw):
         if step is not None:
             raise InputError(f"step must be left out; {path} states the size of its surface")
-        read, stated_unit = own
-        x_unit = length_unit(path, "the file", stated_unit, "x_unit", x_unit)
-        if read is read_stl:
-            z_unit = z_unit or x_unit
-        z_unit = length_unit(path, "the file", stated_unit, "z_unit", z_unit)
-        along, across, field = read(path, raw)
+        x_unit = length_unit(path, "the file", "m" if sdf else None, "x_unit", x_unit)
+        z_unit = z_unit or (x_unit if stl else None)
+        z_unit = length_unit(path, "the file", "m" if sdf else None, "z_unit", z_unit)
+        along, across, field = (read_stl if stl else read_height_grid)(path, raw)
         x, y = (quantity_in_si(axis, x_unit, "length") for axis in (along, across))
         return HeightField(quantity_in_si(field, z_unit, "length"), x, y)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
@@ -138,18 +136,6 @@ def read_instrument_file(
         return HeightField(heights[:, None], x, None, reliable)
     x, y = (quantity_in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
     return HeightField(heights, x[:, 0], y[0, :], reliable)
-
-
-_OwnReader = Callable[[Path, bytes], tuple[Array, Array, Array]]
-
-
-def _own_format(path: Path, raw: bytes) -> tuple[_OwnReader, str | None] | None:
-    """Return what reads an instrument file without SurfaceTopography, and the unit it states."""
-    if is_sdf_text(path, raw):
-        return read_sdf_text, "m"
-    if is_esri_grid(raw):
-        return read_esri_grid, None
-    return (read_stl, None) if path.suffix.lower() == ".stl" else None
 
 
 def _topography(
@@ -308,10 +294,9 @@ def _open_lines(
     checks.one_of("direction", direction, ("x", "y"))
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    if _is_text(file, reader, _POINT_SUFFIXES) and file.suffix.lower() in _POINT_SUFFIXES:
-        if _holds_three_columns(file):
-            points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
-            return file, HeightField(points.z, points.x, points.y)
+    if _is_text(file, "auto", _POINT_SUFFIXES) and _holds_three_columns(file):
+        points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+        return file, HeightField(points.z, points.x, points.y)
     if _is_text(file, reader, _ANY_TEXT):
         spacing = None if steps is None else steps[0]
         return file, read_text_profile(

@@ -343,8 +343,8 @@ def _points(
 ) -> tuple[Array, Array, Array]:
     """Return axes and heights [m] of points (x, y, z) in any order; those left out are NaN."""
     along, up = ("x_unit", x_unit, header.x_unit), ("z_unit", z_unit, header.z_unit)
-    stated = zip(columns, (along, along, up), strict=True)
-    units = [_column_unit(table, column, *unit) for column, unit in stated]
+    arguments = zip(columns, (along, along, up), strict=True)
+    units = [_column_unit(table, column, *unit) for column, unit in arguments]
     axes, numbers = [], []
     for column, unit in zip(columns[:2], units[:2], strict=True):
         printed = table.numbers(column, f"a distance in column {column + 1}")
