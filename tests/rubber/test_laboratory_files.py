@@ -417,13 +417,12 @@ def test_blocks_of_frequencies_are_ramps(tmp_path: Path) -> None:
     """Netzsch: E'(1.000 Hz)/MPa over temperature."""
     path, frequencies = tmp_path / "ramp.csv", (1.0, 10.0)
     celsius = np.arange(-10.0, 31.0, 2.0)
-    lines_ = [
-        "Temp./°C;" + ";".join(f"E'({f:.3f} Hz)/MPa;E''({f:.3f} Hz)/MPa" for f in frequencies)
-    ]
+    titles = (f"E'({f:.3f} Hz)/MPa;E''({f:.3f} Hz)/MPa" for f in frequencies)
+    text = [";".join(["Temp./°C", *titles])]
     for t in celsius:
         cells = [c for f in frequencies for c in moduli(f, kelvin=[t + 273.15])]
-        lines_.append(";".join([f"{t:g}", *cells]))
-    path.write_text("\n".join(lines_), encoding="utf-8")
+        text.append(";".join([f"{t:g}", *cells]))
+    path.write_text("\n".join(text), encoding="utf-8")
     found = gs.read_sweeps(path, temperature_step=10.0)
     assert found.temperatures == pytest.approx([263.15, 273.15, 283.15, 293.15, 303.15])
     expected = [
@@ -460,9 +459,7 @@ def test_a_frequency_beside_a_column_of_frequencies_is_refused(tmp_path: Path) -
     path = written(Format(eplexor, ".csv"), tmp_path)
     with pytest.raises(InputError, match="frequency must be left out, because a column holds"):
         gs.read_sweeps(path, frequency=10.0)
-    with pytest.raises(
-        InputError, match="frequency = '10 N': unknown unit 'N'; expected one of Hz"
-    ):
+    with pytest.raises(InputError, match="frequency = '10 N': unknown unit 'N'; expected one of"):
         gs.read_sweeps(path, frequency="10 N")
 
 
@@ -487,9 +484,7 @@ def test_the_kind_of_modulus_is_asked_for(tmp_path: Path, read: Callable[..., An
     path = tmp_path / "dma.csv"
     text = "T = 20 °C\nf [Hz],Storage modulus [MPa],Loss modulus [MPa]\n1,2,0.2\n10,3,0.3\n"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(
-        InputError, match="modulus must be given \\(E for Young's or G for shear\\)"
-    ):
+    with pytest.raises(InputError, match=r"modulus must be given \(E for Young's or G for"):
         read(path)
     assert read(path, modulus="E").storage == pytest.approx([2e6, 3e6])
     assert read(path, modulus="G").storage == pytest.approx([6e6, 9e6])

@@ -132,8 +132,7 @@ def read_master_curve(
     if len(blocks) > 1:
         raise FileError(
             f"{file}: expected one master curve; got {len(blocks)} tables, the second from "
-            f"line {blocks[1].table.line_numbers[0]} on; gripscale.read_sweeps reads sweeps at "
-            "several temperatures"
+            f"line {blocks[1].table.line_numbers[0]} on; those of sweeps state their temperatures"
         )
     if len(table.columns) < len(THREE):
         raise FileError(
