@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.surface import clean, read_profile, read_profiles
+from gripscale.surface import clean, read_map, read_profile
 
 from .surface_cases import DATA
 
@@ -23,8 +23,8 @@ def test_line_scan_has_its_certified_roughness():
 
 
 def test_map_gives_profiles_along_both_directions():
-    along_x = read_profiles(MAP)
-    along_y = read_profiles(MAP, direction="y")
+    along_x = read_map(MAP).lines()
+    along_y = read_map(MAP).lines("y")
     assert (len(along_x), len(along_x[0])) == (296, 200)
     assert (len(along_y), len(along_y[0])) == (200, 296)
     assert along_x[0].length == pytest.approx(199 / 200 * 87.6054e-6, rel=1e-6)
@@ -35,7 +35,7 @@ def test_map_gives_profiles_along_both_directions():
 
 
 def test_map_has_its_documented_roughness():
-    z = np.array([profile.z for profile in read_profiles(MAP)])
+    z = np.array([profile.z for profile in read_map(MAP).lines()])
     rows, columns = np.indices(z.shape)
     plane = np.stack([rows.ravel(), columns.ravel(), np.ones(z.size)], axis=1)
     rest = z.ravel() - plane @ np.linalg.lstsq(plane, z.ravel(), rcond=None)[0]

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.surface import read_map, read_profile, read_profiles
+from gripscale.surface import read_map, read_profile
 
 from .surface_cases import ROAD
 
@@ -79,8 +79,7 @@ def test_columns_are_found_by_title(tmp_path):
 
 def test_a_text_file_is_one_profile(tmp_path):
     path = written(tmp_path, table())
-    (only,) = read_profiles(path)
-    assert np.array_equal(only.z, read_profile(path).z)
+    assert np.array_equal(read_profile(path, line=0).z, read_profile(path).z)
     with pytest.raises(InputError, match="from 0 to 0"):
         read_profile(path, line=1)
 

@@ -85,15 +85,9 @@ def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> N
         raise FileError(f"{target} is there already and is not overwritten; give another name")
     tables, skipped = propose(files, target.parent, **options)
     if "modulus" in tables["rubber"].keys.keys() - (options.get("layout") or {}).keys():
-        raise InputError(
-            Words(
-                f"{tables['rubber'].keys['file']}: ",
-                CaseKey("modulus"),
-                " must be given, E for Young's moduli or G for shear moduli, a third of them: the "
-                "titles do not tell",
-            ),
-            missing="modulus",
-        )
+        words = " must be given, E for Young's moduli or G for shear moduli, a third of them: the "
+        key, file = CaseKey("modulus"), tables["rubber"].keys["file"]
+        raise InputError(Words(f"{file}: ", key, words, "titles do not tell"), missing="modulus")
     make_folder(target.parent)
     results = "results" if target.stem == "case" else f"results-{target.stem}"
     write_text(target, case_text(tables, results=results))

@@ -201,21 +201,15 @@ def _with_frequency(table: TextTable, layout: FileLayout, above: list[Line]) -> 
     titled = any(quantity(name) == "frequency" for name in table.names)
     with_column = titled or "frequency" in layout.by_quantity
     if layout.frequency is not None and with_column:
-        raise InputError(
-            Words(
-                f"{table.path}: ",
-                CaseKey("frequency"),
-                " must be left out, because a column holds the frequency of each row; got "
-                f"{layout.frequency:g} Hz",
-            )
-        )
-    cell, unit = str(layout.frequency), "Hz"
-    if layout.frequency is None:
-        statements = [stated_in(line, "frequency") for _, line in above]
-        stating = [(n, u) for n, u in filter(None, statements) if spelled(u, "frequency")]
-        if with_column or not stating:
-            return table
-        cell, unit = stating[-1][0], str(stating[-1][1])
+        words = " must be left out, because a column holds the frequency of each row"
+        raise InputError(Words(f"{table.path}: ", CaseKey("frequency"), words))
+    lines = (stated_in(line, "frequency") for _, line in above)
+    stating = [(number, unit) for number, unit in filter(None, lines) if spelled(unit, "frequency")]
+    if layout.frequency is not None:
+        stating = [(str(layout.frequency), "Hz")]
+    if with_column or not stating:
+        return table
+    cell, unit = stating[-1]
     columns = [*table.columns, ColumnTitle("Frequency", unit)]
     cell = cell.replace(",", ".").replace(".", table.decimal)
     return replace(table, columns=columns, rows=[[*row, cell] for row in table.rows])
@@ -243,18 +237,12 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
             f"got {parameters.get('T', 'none')}"
         )
     table = _table(path, lines[1:], expected)
+    titles = [*table.columns]
     if not table.names:
-        if len(table.columns) < len(_REPTATE):
-            raise FileError(
-                f"{path}, line {table.line_numbers[0]}: expected at least 3 columns (frequency, "
-                f"G', G''); got {len(table.columns)}"
-            )
-        others = [ColumnTitle()] * (len(table.columns) - len(_REPTATE))
-        table = replace(table, columns=[*_REPTATE, *others])
+        titles[: len(_REPTATE)] = _REPTATE[: len(titles)]
     units = {quantity(title.name): title.unit for title in _REPTATE}
     titles = [
-        replace(title, unit=title.unit or units.get(quantity(title.name)))
-        for title in table.columns
+        replace(title, unit=title.unit or units.get(quantity(title.name))) for title in titles
     ]
     numbers = {key: number for key, text in parameters.items() if (number := parse_number(text))}
     isofrictional = parameters.get("iso", parameters.get("isof", "true")).lower() == "true"

@@ -47,10 +47,6 @@ class HeightField:
     reliable: float | None = None
     """Shortest wavelength [m] free of the instrument's artifacts, if the file states it."""
 
-    def lines(self, direction: str) -> int:
-        """Return the number of profiles along a direction."""
-        return int(self.heights.shape[1 if direction == "x" else 0])
-
     def profile(self, path: Path, direction: str, line: int) -> Profile:
         """Return one line along a direction as a profile."""
         along = self.x if direction == "x" else self.y
@@ -233,40 +229,28 @@ def read_profile(
         Which way the numbers of the height column count; "down" turns depths over. By default up,
         with a doubt where the title says depth.
     """
-    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
-    lines = 1 if isinstance(source, Profile) else source.lines(direction)
+    checks.one_of("direction", direction, ("x", "y"))
+    file = _checked_path(path, x_unit, z_unit, reader)
+    steps = _steps(step, x_unit)
+    if _is_text(file, "auto", _POINT_SUFFIXES) and _holds_three_columns(file):
+        points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+        field = HeightField(points.z, points.x, points.y)
+    elif _is_text(file, reader, _ANY_TEXT):
+        spacing = None if steps is None else steps[0]
+        profile = read_text_profile(file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing)
+        checks.whole(f"line of {file}", line or 0, least=0, most=0)
+        return upwards(profile, z_axis)
+    else:
+        field = read_instrument_file(
+            file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps
+        )
+    if field.y is None and direction != "x":
+        raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")
+    lines = field.heights.shape[1 if direction == "x" else 0]
     number = lines // 2
     if line is not None:
         number = checks.whole(f"line of {file}", line, least=0, most=lines - 1)
-    chosen = source if isinstance(source, Profile) else source.profile(file, direction, number)
-    return upwards(chosen, z_axis)
-
-
-def read_profiles(
-    path: str | os.PathLike[str],
-    *,
-    x_unit: str | None = None,
-    z_unit: str | None = None,
-    direction: str = "x",
-    channel: str | int | None = None,
-    sheet: str | int | None = None,
-    step: float | None = None,
-    reader: str = "auto",
-    z_axis: str | None = None,
-) -> list[Profile]:
-    """Read every profile of a file: all lines of a map along a direction, or the only one.
-
-    Lines of a map on which no height was measured are left out. Parameters and errors are those
-    of `read_profile`.
-    """
-    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
-    if isinstance(source, Profile):
-        return [upwards(source, z_axis)]
-    measured = np.isfinite(source.heights).any(axis=0 if direction == "x" else 1)
-    if not measured.any():
-        raise FileError(f"{file}: expected heights; got {measured.size} lines, all missing")
-    lines = np.flatnonzero(measured)
-    return [upwards(source.profile(file, direction, int(line)), z_axis) for line in lines]
+    return upwards(field.profile(file, direction, number), z_axis)
 
 
 _AnySurface = TypeVar("_AnySurface", Profile, HeightMap)
@@ -278,34 +262,6 @@ def upwards(surface: _AnySurface, z_axis: str | None) -> _AnySurface:
         return surface
     down = checks.one_of("z_axis", z_axis, ("up", "down")) == "down"
     return replace(surface, z=-surface.z if down else surface.z, doubts=())
-
-
-def _open_lines(
-    path: str | os.PathLike[str],
-    x_unit: str | None,
-    z_unit: str | None,
-    direction: str,
-    channel: str | int | None,
-    sheet: str | int | None,
-    step: float | None,
-    reader: str,
-) -> tuple[Path, Profile | HeightField]:
-    """Return the path of a file and its profile, or the heights of an instrument file."""
-    checks.one_of("direction", direction, ("x", "y"))
-    file = _checked_path(path, x_unit, z_unit, reader)
-    steps = _steps(step, x_unit)
-    if _is_text(file, "auto", _POINT_SUFFIXES) and _holds_three_columns(file):
-        points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
-        return file, HeightField(points.z, points.x, points.y)
-    if _is_text(file, reader, _ANY_TEXT):
-        spacing = None if steps is None else steps[0]
-        return file, read_text_profile(
-            file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing
-        )
-    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
-    if field.y is None and direction != "x":
-        raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")
-    return file, field
 
 
 def _checked_path(
