@@ -404,6 +404,14 @@ def test_blocks_of_temperatures_side_by_side(
     np.testing.assert_allclose(found.loss, expected.imag, rtol=DIGITS)
 
 
+def test_each_block_has_its_own_frequencies(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    titles = ["0 °C;;;20 °C;;", "f [Hz];E' [MPa];E'' [MPa];f [Hz];E' [MPa];E'' [MPa]"]
+    body = ["1;9;1;2;8;1", "10;10;1;20;9;1", ";;;200;10;1"]
+    path.write_text("\n".join([*titles, *body]), encoding="utf-8")
+    assert gs.read_sweeps(path).frequency == pytest.approx([1.0, 10.0, 2.0, 20.0, 200.0])
+
+
 def test_a_fault_in_a_block_names_its_line(tmp_path: Path) -> None:
     path = written(Format(in_titles, ".csv"), tmp_path)
     text = path.read_text(encoding="utf-8").splitlines()

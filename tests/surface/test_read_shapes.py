@@ -81,9 +81,18 @@ def test_triangles_of_any_shape_are_interpolated_within_each(tmp_path: Path) -> 
 
 
 def overhang() -> Array:
-    corners = triangles(X[:, None], Y, Z)
-    corners[:40, 1, 0] += 3.0
-    return corners
+    """One point beyond the next: a little fold."""
+    x = np.repeat(X[:, None], Y.size, axis=1)
+    x[9, 8] += 0.3
+    return triangles(x, Y, Z)
+
+
+def wall() -> Array:
+    """Two levels side by side, and what stands upright between them."""
+    low, high = X[:10, None], X[9:, None]
+    upright = triangles(np.repeat(X[9:10, None], 2, axis=0), Y, np.array([[0.0], [1.0]]))
+    levels = [triangles(low, Y, np.zeros(1)), triangles(high, Y, np.ones(1))]
+    return np.concatenate([*levels, upright])
 
 
 @pytest.mark.parametrize(
@@ -92,8 +101,9 @@ def overhang() -> Array:
         np.concatenate([triangles(X[:, None], Y, Z), triangles(X[:, None], Y, Z - 9.0)[:, ::-1]]),
         np.concatenate([triangles(X[:, None], Y, Z), triangles(X[:, None] + 0.1, Y, Z + 9.0)]),
         overhang(),
+        wall(),
     ],
-    ids=["closed body", "second floor", "overhang"],
+    ids=["closed body", "second floor", "overhang", "wall"],
 )
 def test_triangles_above_each_other_are_no_surface(tmp_path: Path, corners: Array) -> None:
     path = write_stl(tmp_path / "map.stl", corners)

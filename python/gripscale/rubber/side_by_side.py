@@ -14,7 +14,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
-from gripscale.io.cells import MISSING, Line, cells_of, is_comment, is_number, is_row, is_row_of
+from gripscale.io.cells import Line, cells_of, is_comment, is_number, is_row, is_row_of
 from gripscale.rubber.columns import MODULI, quantity
 
 _MARK = re.compile(
@@ -66,10 +66,8 @@ def split_blocks(lines: list[Line]) -> list[list[Line]]:
         part = [(titles[0][0], mark), (titles[-1][0], names)]
         for level, (number, _) in enumerate(titles):
             part.append((number, separator.join(columns[at].others[level] for at in chosen)))
-        measured = [at for at in chosen if quantity(columns[at].name) in MODULI]
         for number, cells in table[len(titles) :]:
-            if any(cells[at].lower() not in MISSING for at in measured):
-                part.append((number, separator.join(cells[at] for at in chosen)))
+            part.append((number, separator.join(cells[at] for at in chosen)))
         parts.append(part)
     return parts or [lines]
 
