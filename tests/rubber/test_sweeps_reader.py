@@ -151,7 +151,7 @@ def test_reptate(tmp_path):
 
 
 def test_reptate_with_too_few_columns(tmp_path):
-    with pytest.raises(InputError, match="must give the modulus .* the header has frequency, G'$"):
+    with pytest.raises(InputError, match=r"must give the modulus .* the header has frequency, G'$"):
         gs.read_sweeps(write(tmp_path, "T=20;\n1.0 2.0\n", name="PI.tts"))
 
 

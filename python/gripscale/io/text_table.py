@@ -440,7 +440,7 @@ def _columns(
     columns, units = [ColumnTitle()] * count, [""] * count
     for cells in filter(None, (_titles(line, count) for line in above)):
         bare = [cell.strip("()[] ") for cell in cells]
-        if any(_is_unit(cell, kinds) for cell in bare):
+        if any(_is_unit(cell, kinds) for cell in bare) and not any(c.endswith(":") for c in bare):
             units = bare
             continue
         titles = [_column_title(cell, kinds) for cell in cells]
