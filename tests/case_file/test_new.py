@@ -104,12 +104,14 @@ def test_units_that_no_file_states_are_proposed_and_doubted(tmp_path: Path) -> N
         road(tmp_path / "road.csv", "Weg;Hoehe", 1.0),
         sweeps(tmp_path / "dma.csv", "Temperatur,Frequenz,Speichermodul,Verlustmodul", 1.0),
     ]
-    case = new_case(files, tmp_path / "case.toml")
+    with pytest.raises(InputError, match=r"dma\.csv: modulus must be given, E for"):
+        new_case(files, tmp_path / "case.toml")
+    case = new_case(files, tmp_path / "case.toml", layout={"modulus": "E"})
     found = keys(case)
     assert (found["surface"]["x_unit"], found["surface"]["z_unit"]) == ("m", "m")
     rubber = found["rubber"]
-    units = ("frequency_unit", "temperature_unit", "modulus_unit", "modulus")
-    assert [rubber[unit] for unit in units] == ["Hz", "C", "Pa", "E"]
+    units = ("frequency_unit", "temperature_unit", "modulus_unit")
+    assert [rubber[unit] for unit in (*units, "modulus")] == ["Hz", "C", "Pa", "E"]
     for key in ("x_unit", "z_unit", *units):
         assert f"{key} = " in doubted(case, OF_ANOTHER_CASE)
     storage = prepare_rubber(
@@ -216,6 +218,67 @@ def test_moduli_of_no_rubber_get_a_bulk_modulus_and_a_doubt(tmp_path: Path) -> N
     assert keys(mended)["rubber"]["bulk_modulus"] == "2 GPa"
 
 
+def test_a_ramp_at_a_frequency_that_is_stated(tmp_path: Path) -> None:
+    rows = [f"{t},{(e := modulus(t, 10.0)).real:.7g},{e.imag:.7g}" for t in range(-10, 61, 2)]
+    ramp = tmp_path / "ramp.csv"
+    ramp.write_text("\n".join(["T [°C],E' [Pa],E'' [Pa]", *rows]), encoding="utf-8")
+    files, target = [road(tmp_path / "road.csv"), ramp], tmp_path / "case.toml"
+    with pytest.raises(InputError, match='at the same frequency, frequency states it, such as "10'):
+        new_case(files, target)
+    layout = {"frequency": "10 Hz"}
+    with pytest.raises(InputError, match="temperature ramp at one frequency") as caught:
+        new_case(files, target, layout=layout)
+    assert caught.value.missing == "shift"
+    shift = {"kind": "wlf", "c1": 8.86, "c2": "101.6 K"}
+    case = new_case(files, target, layout=layout, shift=shift)
+    assert keys(case)["rubber"]["frequency"] == "10 Hz"
+    master = read_case(case.path).measured_rubber.master
+    assert master is not None
+    expected = SOLID.at(master.reference_temperature).complex_modulus(master.angular_frequency)
+    np.testing.assert_allclose(master.storage, expected.real, rtol=1e-5)
+
+
+def test_sweeps_that_do_not_overlap_name_the_shift(tmp_path: Path, shell: Shell) -> None:
+    dma = tmp_path / "dma.csv"
+    rows = [
+        f"{t},{f},{(e := modulus(t, f)).real:.6g},{e.imag:.6g}"
+        for t in (-40, 60)
+        for f in (1.0, 2.0, 4.0)
+    ]
+    dma.write_text("\n".join(["T [°C],f [Hz],E' [Pa],E'' [Pa]", *rows]), encoding="utf-8")
+    files = [road(tmp_path / "road.csv"), dma]
+    with pytest.raises(InputError, match=r'dma\.csv: .* give the shift = \{ kind = "wlf"'):
+        new_case(files, tmp_path / "case.toml")
+    with pytest.raises(InputError, match=r"give shift=gripscale\.rubber\.WLF\(8\.86, 101\.6\)$"):
+        gs.superpose(gs.read_sweeps(dma), reference_temperature=293.15)
+    for command in (("new", *files, "-o", tmp_path / "case.toml"), ("fit-rubber", dma)):
+        outcome = shell(*command, *(("--reference-temperature", "20 C") * (command[0] != "new")))
+        assert outcome.exit_code == 2
+        assert 'here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"' in outcome.output
+    shift = ("--wlf", "8.86", "101.6 K", "--reference-temperature", "20 C")
+    outcome = shell("fit-rubber", dma, *shift)
+    assert outcome.exit_code == 0, outcome.output
+    assert "shift as given" in outcome.output
+
+
+def test_each_hint_is_one_of_the_file_at_hand(tmp_path: Path, shell: Shell) -> None:
+    """A map is told nothing of columns of moduli, moduli nothing of steps."""
+    word = tmp_path / "map.txt"
+    rows = ["\t".join("1.5" for _ in range(20)) for _ in range(20)]
+    word.write_text("\n".join(rows).replace("1.5", "broken", 5).replace("broken", "1.5", 4))
+    dma = sweeps(tmp_path / "dma.csv")
+    outcome = shell("new", word, dma, "-o", tmp_path / "case.toml", "--step", "0.1 mm")
+    text = " ".join(outcome.output.split())
+    assert "map.txt, line 1: expected a number in column 5; got 'broken'" in text
+    assert "--columns" not in text
+    bare = tmp_path / "bare.csv"
+    bare.write_text("1;2;3;4\n" * 3)
+    outcome = shell("new", road(tmp_path / "road.csv"), bare, "-o", tmp_path / "case.toml")
+    text = " ".join(outcome.output.split())
+    assert "--columns must give the frequency; no header, such as --columns frequency=2" in text
+    assert "--step" not in text
+
+
 def test_a_case_is_not_overwritten(tmp_path: Path) -> None:
     target = tmp_path / "case.toml"
     target.write_text("mine")
@@ -258,7 +321,10 @@ def test_the_new_case_runs_as_it_stands(tmp_path: Path, shell: Shell) -> None:
 
 @pytest.mark.parametrize(
     ("name", "cure"),
-    [("line.txt", '--step LENGTH, such as --step "0.1 mm"'), ("ramp.csv", "--wlf C1 C2")],
+    [
+        ("line.txt", 'give --step, the distance between its points, such as "0.1 mm"'),
+        ("ramp.csv", 'here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"'),
+    ],
 )
 def test_a_refusal_names_the_option_that_cures_it(
     tmp_path: Path, shell: Shell, name: str, cure: str
@@ -273,7 +339,7 @@ def test_a_refusal_names_the_option_that_cures_it(
     }
     outcome = shell("new", *files[name], "-o", tmp_path / "case.toml")
     assert outcome.exit_code == 2
-    assert f"here with {cure}" in outcome.output
+    assert cure in outcome.output
     options = ["--step", "0.1 mm"] if name == "line.txt" else ["--wlf", "8.86", "101.6 K"]
     outcome = shell("new", *files[name], "-o", tmp_path / "case.toml", *options)
     assert outcome.exit_code == 0, outcome.output
@@ -285,7 +351,11 @@ ROWS = [f"{t},{f:g},{100.0 - t + f:g},20" for t in (-20, 0, 20, 40) for f in (0.
 @pytest.mark.parametrize(
     ("titles", "rows", "words"),
     [
-        ("Temp,freq_Hz,E1_MPa,E2_MPa", ROWS, "modulus as two of storage, .* here with --columns"),
+        (
+            "Temp,freq_Hz,E1_MPa,E2_MPa",
+            ROWS,
+            "modulus as two of storage, .*, such as --columns f",
+        ),
         (
             "T [°C],f [Hz],E' [MPa],E'' [MPa]",
             [*ROWS[:4], ROWS[4][1:], *ROWS[5:]],
@@ -294,7 +364,7 @@ ROWS = [f"{t},{f:g},{100.0 - t + f:g},20" for t in (-20, 0, 20, 40) for f in (0.
         (
             "T [°C],E' [MPa],E'' [MPa]",
             [",".join([*row.split(",")[::2], "20"]) for row in ROWS],
-            r"columns must give the frequency; .* add one, such as Frequency \[Hz\]",
+            'columns must give the frequency; .* --frequency states it, such as "10 Hz"',
         ),
         ("time [s],f [Hz],E' [MPa],E'' [MPa]", ROWS, "add a column with the temperature"),
     ],

@@ -242,7 +242,6 @@ def _surface() -> Iterator[Door]:
     yield Door(surface.ProfileSpectrum, density)
     lag = {"lag": [1e-3, 2e-3], "value": [1e-8, 2e-8], "resolution_limit": None}
     yield Door(gs.HeightDifference, lag)
-    yield Door(surface.read_profiles, {"path": "none.txt", "direction": "x", "reader": "auto"})
     yield Door(gs.read_map, {"path": "none.txt", "x_unit": None, "step": 1.0, "reader": "auto"})
     units = {"frequency_unit": "Hz", "modulus_unit": "Pa", "modulus": "E", "columns": [0, 1, 2]}
     yield Door(gs.read_master_curve, {"path": "none.txt", **units})

@@ -158,6 +158,7 @@ READERS = {
     "core.units": "quantities with units",
     "export.programs": "comments of other programs",
     "export.tables": "names of variables of other programs",
+    "io.cells": "measured files",
     "io.table": "marks of code",
     "io.text_table": "measured files",
     "io.workbook": "names of sheets",
@@ -168,11 +169,14 @@ READERS = {
     "report.equations": "SVG",
     "rubber.blocks": "measured files",
     "rubber.columns": "titles of columns",
+    "rubber.side_by_side": "titles of columns",
     "rubber.shift_fit": "titles of columns",
     "rubber.softening": "titles of columns",
-    "rubber.sweeps": "titles of columns",
     "surface.cut_off": "rules as typed",
+    "surface.header": "measured files",
+    "surface.height_grids": "measured files",
     "surface.text_files": "measured files",
+    "surface.triangles": "measured files",
 }
 """What regular expressions are for: the texts of people, files and formats."""
 

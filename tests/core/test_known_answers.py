@@ -38,7 +38,7 @@ SAME_TEXT: dict[str, Change] = {
     ),
 }
 REFUSED_TEXT: dict[str, Change] = {
-    "a thousands separator": lambda text: changed(text, 5, -1, "1,234.5"),
+    "thousands ill parted": lambda text: changed(text, 5, -1, "1,23.5"),
     "one decimal comma": lambda text: changed(text, 5, -1, "1,5"),
     "a word": lambda text: changed(text, 5, -1, "1.2O"),
     "an underscore": lambda text: changed(text, 5, -1, "1_000"),

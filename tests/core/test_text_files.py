@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import FileError
-from gripscale.io.text_table import parse_number, read_table
+from gripscale.io.cells import parse_number
+from gripscale.io.text_table import read_table
 from gripscale.rubber import MasterCurve, read_master_curve
 from gripscale.surface import Profile, read_profile
 
@@ -80,6 +81,14 @@ SHAPES = {
         f"{i or 'no.'};{line}" for i, line in enumerate(lines)
     ),
     "remarks": lambda lines: "\n".join(f"{line};-" for line in lines),
+    "a word in every row": lambda lines: "\n".join(
+        [f"{lines[0]};state", *(f"{line};ok" for line in lines[1:])]
+    ),
+    "a remark behind a row": lambda lines: "\n".join([*lines[:3], f"{lines[3]} # wet", *lines[4:]]),
+    "remarks below the rows": lambda lines: "\n".join([*lines, "", "Tested by: N. N.", "ok;ok"]),
+    "dates and times": lambda lines: "\n".join(
+        [f"Datum;Zeit;{lines[0]}", *(f"24.11.2022;12:03;{line}" for line in lines[1:])]
+    ),
 }
 
 
@@ -117,25 +126,58 @@ REFUSED = {
         third_line("2,5"),
         r"line \d: expected one decimal sign throughout; got '\S+' after '\S+' in line 3",
     ),
-    "thousands": (third_line("1,234.5"), r"line 3: expected a .*; got '1,234\.5'"),
+    "thousands ill parted": (third_line("1,23.5"), r"line 3: expected a .*; got '1,23\.5'"),
     "underscores": (third_line("1_000"), "line 3: expected a .*; got '1_000'"),
     "foreign digits": (third_line("١"), "line 3: expected a .*; got '١'"),
     "infinity": (third_line("inf"), "line 3: expected a .*; got 'inf'"),
     "beyond floating point": (third_line("1e999"), "line 3: expected a .*; got '1e999'"),
-    "nothing where a number must be": (third_line(""), "line 3: expected a .*; got ''"),
     "a long row": (
         lambda lines: "\n".join(lines) + "\n1;1;1;1;1",
         r"line \d+: expected \d columns as in line 2; got 5",
-    ),
-    "a word in every row": (
-        lambda lines: "\n".join([lines[0], *(f"{line};ok" for line in lines[1:])]),
-        r"line 2: expected a number in column \d; got 'ok'",
     ),
     "a fault in the first row": (
         lambda lines: "\n".join([lines[0], lines[1].rpartition(";")[0] + ";O.1", *lines[2:]]),
         r"line 2: expected a number in column \d; got 'O\.1'",
     ),
 }
+
+
+@pytest.mark.parametrize(("cell", "number"), [("1.234.567,5", 1234567.5), ("-1,234.5", -1234.5)])
+def test_thousands_may_be_parted_where_cells_are_parted_otherwise(
+    tmp_path: Path, cell: str, number: float
+) -> None:
+    path = tmp_path / "thousands.csv"
+    path.write_text(f"{cell};{cell}\n" * 2)
+    table = read_table(path, "numbers", kinds=(), named=bool)
+    assert table.numbers(1, "a number").tolist() == [number, number]
+
+
+MARKS = [
+    "",
+    "NaN",
+    "n.a.",
+    "n. a.",
+    "N/A",
+    "-",
+    "--",
+    "–",
+    "#NV",
+    "#N/A",
+    "#WERT!",
+    "#DIV/0!",
+    "k.A.",
+]
+
+
+@pytest.mark.parametrize("mark", MARKS)
+@pytest.mark.parametrize("row", ["2.5;{};3", "{};2.5;3"])
+def test_marks_of_missing_values(tmp_path: Path, mark: str, row: str) -> None:
+    path = tmp_path / "marks.txt"
+    path.write_text(f"1;1;1\n{row.format(mark)}\n3;3;3\n", encoding="utf-8")
+    table = read_table(path, "numbers", kinds=(), named=bool)
+    numbers = [table.numbers(at, "a number", missing=True) for at in range(3)]
+    assert np.isnan(numbers).sum() == 1
+    assert len(table.rows) == 3
 
 
 @pytest.mark.parametrize("shape", REFUSED)

@@ -16,7 +16,7 @@ import openpyxl
 import pytest
 
 import gripscale as gs
-from gripscale.core.errors import InputError
+from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import WLF
 from gripscale.rubber.sweeps import holds_sweeps
 
@@ -286,3 +286,220 @@ def test_two_names_for_a_loss_modulus_that_is_the_storage_modulus(tmp_path: Path
     path.write_text("f [Hz],E'' [MPa],E' [MPa],tan delta\n1,2,0.2,0.1\n10,3,0.3,0.1\n")
     with pytest.raises(InputError, match="storage and loss modulus look exchanged, because the"):
         gs.read_master_curve(path)
+
+
+MARKED = [f"{kelvin - 273.15:g} °C" for kelvin in KELVIN]
+"""Temperatures over the blocks of a table."""
+
+
+def printed(number: float, decimal: str = ".") -> str:
+    return f"{number:.6g}".replace(".", decimal)
+
+
+def moduli(hertz: float, *parts: str, decimal: str = ".", kelvin: Any = KELVIN) -> list[str]:
+    """The moduli of one frequency in MPa, by default E' and E'' of each temperature in turn."""
+    cells = []
+    for part in parts or ("both",):
+        for row in (Row(one, hertz) for one in kelvin):
+            e = row.modulus / 1e6
+            numbers = {"real": [e.real], "imag": [e.imag], "both": [e.real, e.imag]}[part]
+            cells += [printed(number, decimal) for number in numbers]
+    return cells
+
+
+def merged(path: Path) -> None:
+    """A temperature over each block, as of merged cells; German."""
+    head = ["Labor N. N.;;", ";" + ";;".join(MARKED) + ";",
+            "Frequenz [Hz]" + ";Speichermodul E' [MPa];Verlustmodul E'' [MPa]" * 3]  # fmt: skip
+    body = [";".join([printed(f, ","), *moduli(f, decimal=",")]) for f in HERTZ]
+    path.write_text("\r\n".join([*head, *body]), encoding="cp1252")
+
+
+def centred(path: Path) -> None:
+    """The temperature over the second column of its block, the unit below the titles, tan delta."""
+    head = ["\t\t" + "\t\t\t".join(MARKED) + "\t", "f" + "\tE'\tE''\ttan d" * 3,
+            "Hz" + "\tMPa\tMPa\t-" * 3]  # fmt: skip
+    body = []
+    for f in HERTZ:
+        cells = moduli(f)
+        for at in (4, 2, 0):
+            cells.insert(at + 2, printed(float(cells[at + 1]) / float(cells[at])))
+        body.append("\t".join([printed(f), *cells]))
+    path.write_text("\n".join([*head, *body]), encoding="utf-8")
+
+
+def in_titles(path: Path) -> None:
+    """The temperature in each title, of one line."""
+    pairs = [f"E' ({mark}) / MPa,E'' ({mark}) / MPa" for mark in MARKED]
+    body = [",".join([printed(f), *moduli(f)]) for f in HERTZ]
+    path.write_text("\n".join([",".join(["f / Hz", *pairs]), *body]), encoding="utf-8")
+
+
+def modulus_by_modulus(path: Path) -> None:
+    """E' of all temperatures, then E'' of all."""
+    head = [";E' [MPa];;;E'' [MPa];;", "f [Hz];" + ";".join(MARKED * 2)]
+    body = [";".join([printed(f), *moduli(f, "real", "imag")]) for f in HERTZ]
+    path.write_text("\n".join([*head, *body]), encoding="utf-8")
+
+
+def frequency_each(path: Path) -> None:
+    """A column of frequencies in each block, one of them a row longer and with a missing value."""
+    head = ["\t\t\t".join(MARKED) + "\t\t", "\t".join(["Frequency\tE'\tE''"] * 3),
+            "\t".join(["Hz\tMPa\tMPa"] * 3)]  # fmt: skip
+    body = []
+    for f in HERTZ:
+        cells = moduli(f)
+        body.append("\t".join(t for at in (0, 2, 4) for t in (printed(f), *cells[at : at + 2])))
+    body.append(f"60\t#N/A\t1.0{6 * chr(9)}")
+    path.write_text("\n".join([*head, *body]), encoding="utf-8")
+
+
+def numbers_in_excel(path: Path) -> None:
+    """Temperatures as plain numbers of cells, with their unit in the first."""
+    book = openpyxl.Workbook()
+    sheet = book.active
+    celsius = [value for kelvin in KELVIN for value in (kelvin - 273.15, None)]
+    sheet.append(["Temperature [°C]", *celsius])
+    sheet.append(["Frequency", *["E'", "E''"] * 3])
+    sheet.append(["Hz", *["MPa"] * 6])
+    for f in HERTZ:
+        sheet.append([float(f), *map(float, moduli(f))])
+    book.save(path)
+
+
+def sheet_each(path: Path) -> None:
+    """A sheet for each temperature, named by it, behind a cover."""
+    book = openpyxl.Workbook()
+    book.active.append(["Order", 4711])
+    for mark, kelvin in zip(MARKED, KELVIN, strict=True):
+        sheet = book.create_sheet(mark)
+        sheet.append(["f [Hz]", "E' [MPa]", "E'' [MPa]"])
+        for f in HERTZ:
+            sheet.append([float(f), *map(float, moduli(f, kelvin=[kelvin]))])
+    book.save(path)
+
+
+BLOCKS = [
+    (merged, ".csv"),
+    (centred, ".txt"),
+    (in_titles, ".csv"),
+    (modulus_by_modulus, ".csv"),
+    (frequency_each, ".txt"),
+    (numbers_in_excel, ".xlsx"),
+    (sheet_each, ".xlsx"),
+]
+
+
+@pytest.mark.parametrize(("write", "suffix"), BLOCKS, ids=lambda one: getattr(one, "__name__", one))
+def test_blocks_of_temperatures_side_by_side(
+    tmp_path: Path, write: Callable[[Path], None], suffix: str
+) -> None:
+    path = written(Format(write, suffix), tmp_path)
+    assert holds_sweeps(path)
+    found = gs.read_sweeps(path)
+    assert found.temperatures == pytest.approx(KELVIN)
+    expected = np.array([row.modulus for row in rows()])
+    np.testing.assert_allclose(found.frequency, [row.hertz for row in rows()], rtol=DIGITS)
+    np.testing.assert_allclose(found.storage, expected.real, rtol=DIGITS)
+    np.testing.assert_allclose(found.loss, expected.imag, rtol=DIGITS)
+
+
+def test_each_block_has_its_own_frequencies(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    titles = ["0 °C;;;20 °C;;", "f [Hz];E' [MPa];E'' [MPa];f [Hz];E' [MPa];E'' [MPa]"]
+    body = ["1;9;1;2;8;1", "10;10;1;20;9;1", ";;;200;10;1"]
+    path.write_text("\n".join([*titles, *body]), encoding="utf-8")
+    assert gs.read_sweeps(path).frequency == pytest.approx([1.0, 10.0, 2.0, 20.0, 200.0])
+
+
+def test_a_fault_in_a_block_names_its_line(tmp_path: Path) -> None:
+    path = written(Format(in_titles, ".csv"), tmp_path)
+    text = path.read_text(encoding="utf-8").splitlines()
+    text[4] = text[4].replace(text[4].split(",")[3], "broken")
+    path.write_text("\n".join(text), encoding="utf-8")
+    with pytest.raises(FileError, match=r"line 5: expected a number in column E'; got 'broken'"):
+        gs.read_sweeps(path)
+
+
+def test_blocks_of_frequencies_are_ramps(tmp_path: Path) -> None:
+    """Netzsch: E'(1.000 Hz)/MPa over temperature."""
+    path, frequencies = tmp_path / "ramp.csv", (1.0, 10.0)
+    celsius = np.arange(-10.0, 31.0, 2.0)
+    titles = (f"E'({f:.3f} Hz)/MPa;E''({f:.3f} Hz)/MPa" for f in frequencies)
+    text = [";".join(["Temp./°C", *titles])]
+    for t in celsius:
+        cells = [c for f in frequencies for c in moduli(f, kelvin=[t + 273.15])]
+        text.append(";".join([f"{t:g}", *cells]))
+    path.write_text("\n".join(text), encoding="utf-8")
+    found = gs.read_sweeps(path, temperature_step=10.0)
+    assert found.temperatures == pytest.approx([263.15, 273.15, 283.15, 293.15, 303.15])
+    expected = [
+        Row(kelvin, hertz).modulus.real for kelvin in found.temperatures for hertz in (1, 10)
+    ]
+    np.testing.assert_allclose(found.storage, expected, rtol=DIGITS)
+
+
+RAMP = ["T [°C];E' [MPa];E'' [MPa]", "-10;20;4", "0;10;2", "10;5;1"]
+
+
+@pytest.mark.parametrize("line", ["Frequency: 10 Hz", "Messfrequenz [Hz];10,0", "f = 0.01 kHz"])
+def test_one_frequency_of_a_ramp_stands_above_it(tmp_path: Path, line: str) -> None:
+    path = tmp_path / "ramp.csv"
+    path.write_text("\n".join([line, *RAMP]), encoding="utf-8")
+    assert holds_sweeps(path)
+    found = gs.read_sweeps(path, tolerance=0.0)
+    assert found.frequency == pytest.approx(np.full(3, 10.0))
+    assert found.is_ramp
+
+
+@pytest.mark.parametrize("frequency", [10.0, "10 Hz", "0.01 kHz"])
+def test_one_frequency_of_a_ramp_may_be_stated(tmp_path: Path, frequency: Any) -> None:
+    path = tmp_path / "ramp.csv"
+    path.write_text("\n".join(RAMP), encoding="utf-8")
+    with pytest.raises(InputError, match=r'frequency states it, such as "10 Hz"'):
+        gs.read_sweeps(path)
+    found = gs.read_sweeps(path, frequency=frequency, tolerance=0.0)
+    assert found.frequency == pytest.approx(np.full(3, 10.0))
+    assert found.storage == pytest.approx([20e6, 10e6, 5e6])
+
+
+def test_a_frequency_beside_a_column_of_frequencies_is_refused(tmp_path: Path) -> None:
+    path = written(Format(eplexor, ".csv"), tmp_path)
+    with pytest.raises(InputError, match="frequency must be left out, because a column holds"):
+        gs.read_sweeps(path, frequency=10.0)
+    with pytest.raises(InputError, match="frequency = '10 N': unknown unit 'N'; expected one of"):
+        gs.read_sweeps(path, frequency="10 N")
+
+
+def test_frequency_and_angular_frequency_may_stand_in_one_table(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    titles = "omega [rad/s],f [Hz],E' [MPa],E'' [MPa],T [°C]"
+    path.write_text(f"{titles}\n6.28,1,2,0.2,20\n62.8,10,3,0.3,20\n", encoding="utf-8")
+    assert gs.read_sweeps(path).frequency == pytest.approx([1.0, 10.0], rel=1e-3)
+    path.write_text(f"{titles}\n6.28,2,2,0.2,20\n62.8,10,3,0.3,20\n", encoding="utf-8")
+    with pytest.raises(InputError, match="columns must say which is the frequency"):
+        gs.read_sweeps(path)
+
+
+def test_a_master_curve_leaves_out_rows_with_missing_values(tmp_path: Path) -> None:
+    path = tmp_path / "curve.csv"
+    path.write_text("f [Hz];E' [MPa];E'' [MPa]\n1;2;0,2\n10;#NV;0,3\n100;4;0,4\n")
+    assert gs.read_master_curve(path).frequency == pytest.approx([1.0, 100.0])
+
+
+@pytest.mark.parametrize("read", [gs.read_master_curve, gs.read_sweeps])
+def test_the_kind_of_modulus_is_asked_for(tmp_path: Path, read: Callable[..., Any]) -> None:
+    path = tmp_path / "dma.csv"
+    text = "T = 20 °C\nf [Hz],Storage modulus [MPa],Loss modulus [MPa]\n1,2,0.2\n10,3,0.3\n"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"modulus must be given \(E for Young's or G for"):
+        read(path)
+    assert read(path, modulus="E").storage == pytest.approx([2e6, 3e6])
+    assert read(path, modulus="G").storage == pytest.approx([6e6, 9e6])
+
+
+def test_compliances_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "creep.csv"
+    path.write_text("T [°C],f [Hz],J' [1/MPa],J'' [1/MPa]\n20,1,2,3\n", encoding="utf-8")
+    with pytest.raises(InputError, match="compliances are not read, moduli are"):
+        gs.read_sweeps(path)

@@ -189,15 +189,21 @@ HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
         (HEADER + "1,2,0.2\n", "expected at least 2 rows .* got 1"),
         (
             HEADER + "1,2,0.2\n10,abc,0.3\n",
-            "line 3: expected a storage between 1e-100 and 1e.100; got 'abc'",
+            "line 3: expected a number in column E'; got 'abc'; an empty cell, NaN, n/a, - or #NV",
         ),
         (
             HEADER + "1,2,0.2\n10,nan,0.3\n",
-            "line 3: expected a storage between 1e-100 and 1e.100; got 'nan'",
+            "expected at least 2 rows of frequency, storage and loss; got 1 without missing values",
         ),
         (HEADER + "1,2,0.2\n10,3\n", "line 3: expected 3 columns as in line 2; got 2"),
-        (HEADER + "1,2,0.2\n10,-3,0.3\n", "line 3: expected a storage above zero; got -3"),
-        (HEADER + "0,2,0.2\n10,3,0.3\n", "line 2: expected a frequency above zero; got 0"),
+        (
+            HEADER + "1,2,0.2\n10,-3,0.3\n",
+            "line 3: expected a storage above zero in column E'; got -3",
+        ),
+        (
+            HEADER + "0,2,0.2\n10,3,0.3\n",
+            "line 2: expected a frequency above zero in column f; got 0",
+        ),
         ("1 2\n3 4\n", "line 1: expected at least 3 columns"),
     ],
 )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.surface import clean, read_profile, read_profiles
+from gripscale.surface import clean, read_map, read_profile
 
 from .surface_cases import DATA
 
@@ -23,8 +23,8 @@ def test_line_scan_has_its_certified_roughness():
 
 
 def test_map_gives_profiles_along_both_directions():
-    along_x = read_profiles(MAP)
-    along_y = read_profiles(MAP, direction="y")
+    along_x = read_map(MAP).lines()
+    along_y = read_map(MAP).lines("y")
     assert (len(along_x), len(along_x[0])) == (296, 200)
     assert (len(along_y), len(along_y[0])) == (200, 296)
     assert along_x[0].length == pytest.approx(199 / 200 * 87.6054e-6, rel=1e-6)
@@ -35,7 +35,7 @@ def test_map_gives_profiles_along_both_directions():
 
 
 def test_map_has_its_documented_roughness():
-    z = np.array([profile.z for profile in read_profiles(MAP)])
+    z = np.array([profile.z for profile in read_map(MAP).lines()])
     rows, columns = np.indices(z.shape)
     plane = np.stack([rows.ravel(), columns.ravel(), np.ones(z.size)], axis=1)
     rest = z.ravel() - plane @ np.linalg.lstsq(plane, z.ravel(), rcond=None)[0]
@@ -51,9 +51,7 @@ def test_wrong_use_is_refused(tmp_path):
         read_profile(MAP, x_unit="mm")
     junk = tmp_path / "junk.sdf"
     junk.write_bytes(bytes(range(256)) * 10)
-    with pytest.raises(
-        FileError, match=r"junk\.sdf: expected a map in SDF with the number NumPoints"
-    ):
+    with pytest.raises(FileError, match=r"junk\.sdf: expected a map with the number NumPoints"):
         read_profile(junk)
     cut = tmp_path / "cut.al3d"
     cut.write_bytes(MAP.read_bytes()[:3000])
@@ -83,7 +81,7 @@ def test_text_of_bare_points_needs_units_and_equal_steps(tmp_path):
     assert profile.step == pytest.approx(0.5e-6)
     assert profile.z == pytest.approx(1e-9 * heights)
     np.savetxt(path, np.c_[np.arange(30) ** 1.1, heights])
-    with pytest.raises(FileError, match=r"line\.xyz: x must be equidistant"):
+    with pytest.raises(FileError, match=r"line\.xyz, line 2: expected distances in column 1"):
         read_profile(path, x_unit="um", z_unit="nm")
 
 

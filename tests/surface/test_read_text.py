@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.surface import read_map, read_profile, read_profiles
+from gripscale.surface import read_map, read_profile
 
 from .surface_cases import ROAD
 
@@ -79,8 +79,7 @@ def test_columns_are_found_by_title(tmp_path):
 
 def test_a_text_file_is_one_profile(tmp_path):
     path = written(tmp_path, table())
-    (only,) = read_profiles(path)
-    assert np.array_equal(only.z, read_profile(path).z)
+    assert np.array_equal(read_profile(path, line=0).z, read_profile(path).z)
     with pytest.raises(InputError, match="from 0 to 0"):
         read_profile(path, line=1)
 
@@ -135,7 +134,10 @@ BAD_FILES = {
     "one column": (b"1\n2\n3\n", "two columns"),
     "three columns": (b"1,2,3\n" * 20, "line 1: expected two columns"),
     "ragged": (table() + "\n10.0,1,5", "line 22: expected 2 columns as in line 2; got 3"),
-    "word": (table() + "\n10.0,high", "line 22: expected a number in column 2; got 'high'"),
+    "word": (
+        table() + "\n10.0,high",
+        "line 22: expected a number in column z; got 'high'; an empty cell",
+    ),
     "no distance": (table() + "\nnan,1.0", "line 22: expected a distance"),
     "few points": (table(ROWS[:9]), "at least 16 points; got 9"),
     "backwards": (table([*ROWS[:18], (3.0, 1.0)]), "line 20: .* increase in equal steps"),
@@ -154,7 +156,7 @@ BAD_FILES = {
     "mostly left out": (table([*ROWS, (99.0, 1.0)]), "half the points .* got 21 of 199"),
     "all missing": (table([(x, "nan") for x, _ in ROWS]), "all missing|found none"),
     "unknown unit": (table(header="x [mm],z [V]\n"), "'V', which is no known unit"),
-    "infinite": (table() + "\n10.0,inf", "line 22: expected a number in column 2; got 'inf'"),
+    "infinite": (table() + "\n10.0,inf", "line 22: expected a number in column z; got 'inf'"),
 }
 
 

@@ -18,7 +18,6 @@ from gripscale.case_file import read_case_file
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io import netcdf
 from gripscale.rubber import read_uniaxial_test
-from gripscale.surface import read_profiles
 from tests.samples import EXAMPLES
 
 DATA = EXAMPLES / "data"
@@ -178,12 +177,6 @@ def check_line(profile: gs.Profile) -> None:
     assert np.isfinite(profile.z).any()
 
 
-def check_lines(profiles: list[gs.Profile]) -> None:
-    assert profiles
-    for profile in profiles[:3]:
-        check_line(profile)
-
-
 def check_map(surface: gs.HeightMap) -> None:
     assert surface.z.shape == (surface.x.size, surface.y.size)
     assert (np.diff(surface.x) > 0.0).all()
@@ -245,7 +238,6 @@ def readers(folder: Path) -> list[Reader]:
         Reader("profile", ".csv", text("x [mm]\tz [um]", STEPS, LINE), gs.read_profile, line, 40),
         Reader("bare profile", ".txt", bare, partial(gs.read_profile, **mm), line, 40),
         Reader("captif", ".dat", captif(), gs.read_profile, line, 40),
-        Reader("profiles", ".csv", captif(), read_profiles, check_lines, 10),
         Reader("points", ".xyz", points(), gs.read_map, surface, 10),
         Reader("table", ".txt", table, partial(gs.read_map, **step), surface, 15),
         Reader("curve", ".csv", curve(), gs.read_master_curve, check_curve, 60),
@@ -256,7 +248,6 @@ def readers(folder: Path) -> list[Reader]:
         Reader("tree", ".nc", result(folder), netcdf.load_tree, same_as(tree), 20),
         Reader("x3p", ".x3p", x3p(folder), gs.read_map, surface, 2),
         Reader("al3d", ".al3d", al3d(), gs.read_map, surface, 4),
-        Reader("al3d lines", ".al3d", al3d(), read_profiles, check_lines, 2),
         Reader("sdf", ".sdf", sdf(), gs.read_map, surface, 4),
         Reader("npy", ".npy", npy(), partial(gs.read_map, **step), surface, 2),
         Reader("xyz line", ".xyz", bare, partial(gs.read_profile, **mm), line, 2),

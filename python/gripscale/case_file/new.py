@@ -34,6 +34,7 @@ from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import temperature_in_kelvin
+from gripscale.core.wording import CaseKey, Words
 from gripscale.io.folders import make_folder, write_text
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
@@ -76,12 +77,17 @@ def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> N
     """Write a case for measured files, found as by `propose` with its options, to `path`.
 
     Its results go to the folder `results`, or to `results-NAME` of a case with another name than
-    case.toml. Raises `InputError` and `FileError` as `propose` does, and where `path` exists.
+    case.toml. Raises `InputError` and `FileError` as `propose` does, where `path` exists, and where
+    nothing states whether moduli are E or G: no number tells.
     """
     target = Path(path)
     if target.exists():
         raise FileError(f"{target} is there already and is not overwritten; give another name")
     tables, skipped = propose(files, target.parent, **options)
+    if "modulus" in tables["rubber"].keys.keys() - (options.get("layout") or {}).keys():
+        words = " must be given, E for Young's moduli or G for shear moduli, a third of them: the "
+        key, file = CaseKey("modulus"), tables["rubber"].keys["file"]
+        raise InputError(Words(f"{file}: ", key, words, "titles do not tell"), missing="modulus")
     make_folder(target.parent)
     results = "results" if target.stem == "case" else f"results-{target.stem}"
     write_text(target, case_text(tables, results=results))

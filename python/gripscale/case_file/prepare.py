@@ -267,6 +267,7 @@ def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> Measur
     return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
 
 
+_SHIFT = 'shift = { kind = "wlf", c1 = 8.86, c2 = "101.6 K" }'
 OF_A_RAMP = (
     "a temperature ramp at one frequency becomes a master curve by the stated shift: "
     "nothing in the file checks this shift"
@@ -288,7 +289,7 @@ def _superposed(
             Words(
                 f"{path}: ",
                 CaseKey("shift"),
-                ' must be given, such as shift = { kind = "wlf", c1 = 8.86, c2 = "101.6 K" }: a '
+                f" must be given, such as {_SHIFT}: a "
                 f"temperature ramp at one frequency ({sweeps.frequency[0]:.3g} Hz, {low:.0f} to "
                 f"{high:.0f} °C) makes no master curve without it, sweeps at several frequencies "
                 "do",
@@ -310,12 +311,18 @@ def _superposed(
             ),
             missing="reference_temperature",
         )
-    master, report = superpose_report(
-        sweeps,
-        reference_temperature=float(sweeps.temperatures[0]) if reference is None else reference,
-        vertical=source.vertical,
-        shift=shift,
-    )
+    try:
+        master, report = superpose_report(
+            sweeps,
+            reference_temperature=float(sweeps.temperatures[0]) if reference is None else reference,
+            vertical=source.vertical,
+            shift=shift,
+        )
+    except InputError as error:
+        if error.missing != "shift":
+            raise
+        sentence = error.words.with_keys(lambda _: f"the {_SHIFT}")
+        raise InputError(f"{path}: {sentence}", missing="shift") from error
     return sweeps, master, report
 
 

@@ -22,9 +22,9 @@ from gripscale.case_file.tables import SurfaceTable
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.finding import Finding, Severity
 from gripscale.core.units import ZERO_CELSIUS, in_mm
-from gripscale.io.text_table import EXCEL, read_lines
+from gripscale.io.text_table import EXCEL
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
-from gripscale.rubber.blocks import blocks_in
+from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
 from gripscale.rubber.prony import largest_modulus
@@ -174,8 +174,8 @@ def open_surface(
             return _read_with(read, path, defaults, **options)
         except GripscaleError as error:
             refusals.append(error)
-    # a reader that only misses a key is the right one
-    raise next((error for error in refusals if error.missing), refusals[0])
+    # a reader that only misses a key is the right one, and one that wants less stated the wrong one
+    raise min(refusals, key=lambda error: (not error.missing, isinstance(error, InputError)))
 
 
 def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
@@ -342,8 +342,7 @@ def holds_moduli(path: Path, layout: FileLayout | None = None) -> bool:
     """
     layout = layout or FileLayout()
     try:
-        lines = read_lines(path)[:ENOUGH_LINES]
-        blocks = blocks_in(path, lines, layout, temperature_unit="C")
+        blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
     except GripscaleError:
         return False
     return any(_are_moduli(block.table, layout) for block in blocks)

@@ -14,6 +14,7 @@ from gripscale.case_file.schema import (
     CaseTable,
     ColumnKey,
     Columns,
+    Frequency,
     Length,
     Pressure,
     Reading,
@@ -76,6 +77,8 @@ class LayoutKeys(CaseTable):
     """Young's or shear moduli, where the file does not say."""
     temperature_unit: Annotated[str, unit_of_file("temperature")] | None = None
     """Unit of temperatures where the file does not name it."""
+    frequency: Frequency | None = None
+    """Frequency of all rows, as of a temperature ramp, where no column of the file holds it."""
 
     def layout(self) -> dict[str, Any]:
         """Return what is stated as keyword arguments of a reader."""

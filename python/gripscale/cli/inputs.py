@@ -11,6 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gripscale.cli.new import (
+    RubberFrequency,
+    RubberModulus,
+    RubberSheet,
+    WlfConstants,
+    naming_options,
+    shift_of_wlf,
+)
 from gripscale.core.errors import about_keys
 from gripscale.terminal import (
     COLUMNS,
@@ -224,16 +232,15 @@ def fit_rubber(
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
     modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
-    modulus: Annotated[str | None, option("E (Young) or G (shear).")] = None,
+    modulus: RubberModulus = None,
+    frequency: RubberFrequency = None,
     bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
     reference_temperature: Annotated[
         str | None, option('Such as "20 C": where sweeps are shifted to.')
     ] = None,
     temperature_unit: Annotated[str | None, option("K, C or F, if not stated.")] = None,
     columns: Annotated[str | None, option(COLUMNS)] = None,
-    sheet: Annotated[
-        str | None, option("Excel sheet, by name or number from 1, if several hold numbers.")
-    ] = None,
+    sheet: RubberSheet = None,
     header: Annotated[
         int | None, option("Lines above the rows, if there are numbers among them.")
     ] = None,
@@ -242,6 +249,7 @@ def fit_rubber(
         option("Times the typical scatter beyond which a row is left out; inf keeps all."),
     ] = None,
     shift: Annotated[str | None, option("Table of shift factors to be taken; sweeps.")] = None,
+    wlf: WlfConstants = None,
     vertical: Annotated[
         bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
     ] = False,
@@ -257,11 +265,14 @@ def fit_rubber(
         values["columns"] = columns_of(columns)
     if sheet is not None:
         values["sheet"] = column_of(sheet)
+    if wlf is not None:
+        values["shift"] = shift_of_wlf(wlf)
     source = validate(RubberSource, values, "options")
     if output is not None:
         require_writable(output)
     console = screen()
-    prepared = prepare_rubber(source)
+    with naming_options():
+        prepared = prepare_rubber(source)
     rubber = prepared.rubber
     tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
     findings = () if prepared.fit is None else prepared.fit.findings

@@ -3,18 +3,54 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
 from gripscale import terminal
-from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core.errors import GripscaleError
+from gripscale.core.wording import Words
 
-CURES = {
-    "shift": '--wlf C1 C2, such as --wlf 8.86 "101.6 K"',
-    "step": '--step LENGTH, such as --step "0.1 mm"',
-    "columns": "--columns, such as --columns frequency=2,storage=3,loss=4",
+_EXAMPLES = {
+    "shift": ': here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"',
+    "columns": ", such as --columns frequency=2,storage=3,loss=4",
+    "modulus": ", such as --modulus E",
 }
 """Options that state what is missing, by its key in a case."""
+
+
+RubberSheet = Annotated[
+    str | None,
+    terminal.option("Excel sheet of the rubber, by name or number from 1, if several hold moduli."),
+]
+RubberFrequency = Annotated[
+    str | None,
+    terminal.option('Of all rows, such as "10 Hz", if no column holds it: a temperature ramp.'),
+]
+RubberModulus = Annotated[
+    str | None, terminal.option("E (Young) or G (shear), if the file of the rubber does not say.")
+]
+WlfConstants = Annotated[
+    tuple[float, str] | None,
+    terminal.option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
+]
+
+
+def shift_of_wlf(constants: tuple[float, str]) -> dict[str, Any]:
+    """Return the constants of a WLF shift, as typed, as a key of the case."""
+    return {"kind": "wlf", "c1": constants[0], "c2": constants[1]}
+
+
+@contextmanager
+def naming_options() -> Iterator[None]:
+    """Let an error about something missing from a file end with the option that states it."""
+    try:
+        yield
+    except GripscaleError as error:
+        if error.missing in _EXAMPLES:
+            error.words = Words(error.words, _EXAMPLES[error.missing])
+        raise
 
 
 @terminal.command
@@ -47,11 +83,11 @@ def new(
             'Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'
         ),
     ] = None,
-    wlf: Annotated[
-        tuple[float, str] | None,
-        terminal.option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
-    ] = None,
+    wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
+    sheet: RubberSheet = None,
+    frequency: RubberFrequency = None,
+    modulus: RubberModulus = None,
     temperature_unit: Annotated[
         str | None, terminal.option("K, C or F, if the file of the rubber does not state it.")
     ] = None,
@@ -67,21 +103,20 @@ def new(
     if step is not None:
         options["step"] = terminal.lengths_of(step)
     if wlf is not None:
-        options["shift"] = {"kind": "wlf", "c1": wlf[0], "c2": wlf[1]}
+        options["shift"] = shift_of_wlf(wlf)
     layout = {
         "columns": None if columns is None else terminal.columns_of(columns),
+        "sheet": None if sheet is None else terminal.column_of(sheet),
+        "frequency": frequency,
+        "modulus": modulus,
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
     }
     options["layout"] = {key: value for key, value in layout.items() if value is not None}
     load = {"pressure": pressure, "speed": speed, "footprint": footprint}
     values = {key: value for key, value in load.items() if value is not None}
-    try:
+    with naming_options():
         case = new_case(files, output, load=values, temperature=temperature, **options)
-    except GripscaleError as error:
-        if error.missing not in CURES:
-            raise
-        raise InputError(f"{error}: here with {CURES[error.missing]}") from error
     console = terminal.screen()
     terminal.print_wrapped(console, f"Case: {case.path}")
     if case.skipped:

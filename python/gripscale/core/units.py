@@ -90,6 +90,7 @@ _EXAMPLES = {
     "pressure": "3 bar",
     "speed": "0.3 m/s",
     "time": "0.1 s",
+    "frequency": "10 Hz",
     "temperature": "20 C",
     "temperature difference": "100 K",
     "strain": "2 %",

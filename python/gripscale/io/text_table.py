@@ -3,11 +3,14 @@
 - A sheet of an Excel file (.xlsx) is read as a text whose cells are parted by tabs.
 - UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean
   binary data.
-- Lines that begin with #, % or ! are comments. Titles may stand in one.
+- Lines that begin with #, % or ! are comments, but for #NV and the like; so is what follows a row
+  behind # and a blank. Titles may stand in a comment.
 - Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
   of all cells of a line. That line is the first row; every later line must have as many cells.
+  Lines of words below the last row do not count, nor do columns of words, such as dates.
 - The decimal sign is the point or, where commas do not part the cells, the comma; not both.
-- Empty cells, nan, n/a, - and the like are missing values.
+  Thousands are parted (1.234,5 or 1,234.5) only where tabs or semicolons part the cells.
+- Empty cells and the words of `MISSING` are missing values.
 - The last line above the rows that names as many columns holds the titles. A unit stands in
   brackets, behind a slash or a blank, or in a line of units.
 """
@@ -34,57 +37,23 @@ from gripscale.core.checks import MOST, short_repr, shortened, whole
 from gripscale.core.errors import FileError, InputError, using_extra
 from gripscale.core.units import spelled
 from gripscale.core.wording import CaseKey, Words
-
-Line = tuple[int, str]
-"""A line with its number in the file, from 1."""
-
-MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "bad"}
-_NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
-COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
-SEPARATORS = ("\t", ";", ",", None)
-"""Separators of the cells of a line, in the order they are tried; None: blanks."""
-_COMMENT = ("#", "%", "!")
-
-
-def parse_number(cell: str) -> float | None:
-    """Return the number in a cell, NaN for a missing value, or None if there is neither."""
-    if cell.lower() in MISSING:
-        return float("nan")
-    return float(cell) if _NUMBER.fullmatch(cell) else None
-
-
-def is_row(line: str) -> bool:
-    """Return whether a line is a row: at least two cells, numbers or missing, not all missing."""
-    return not is_comment(line) and any(
-        is_row_of(cells_of(line, separator)) for separator in SEPARATORS
-    )
-
-
-def is_row_of(cells: list[str]) -> bool:
-    """Return whether these are the cells of a row."""
-    return len(cells) >= 2 and any(map(is_number, cells)) and all(map(fits, cells))
-
-
-def is_comment(line: str) -> bool:
-    """Return whether a line is a comment."""
-    return line.lstrip().startswith(_COMMENT)
-
-
-def is_number(cell: str) -> bool:
-    """Return whether a cell holds a number, with either decimal sign."""
-    return bool(_NUMBER.fullmatch(cell) or COMMA_NUMBER.fullmatch(cell))
-
-
-def fits(cell: str) -> bool:
-    """Return whether a cell may stand in a row of numbers."""
-    return cell.lower() in MISSING or is_number(cell)
-
-
-def cells_of(line: str, separator: str | None) -> list[str]:
-    """Return the cells of a line, without quotation marks."""
-    cells = list(map(str.strip, line.strip(" \r\n").split(separator)))
-    return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
-
+from gripscale.io.cells import (
+    COMMA_NUMBER,
+    COMMENT,
+    MISSING,
+    MISSING_MARKS,
+    NUMBER,
+    SEPARATORS,
+    Line,
+    cells_of,
+    fits,
+    is_comment,
+    is_number,
+    is_row,
+    is_row_of,
+    parse_number,
+    without_words,
+)
 
 EXCEL = (".xlsx", ".xlsm")
 
@@ -116,21 +85,25 @@ def read_sheets(path: Path) -> dict[str, _Rows]:
     return sheets
 
 
-def sheet_lines(path: Path, sheet: str | int | None) -> list[Line]:
-    """Return a sheet as lines whose cells are parted by tabs, without its empty columns.
-
-    Without a `sheet`, by name or number from 1, the one that holds rows of numbers.
-    """
+def sheets_as_lines(path: Path, *, header: int | None = None) -> dict[str, list[Line]]:
+    """Return the sheets of an Excel file by name, as `read_lines` returns one of them."""
     sheets = {}
     for name, rows in read_sheets(path).items():
         cells = [[_cell_text(value) for value in row] for row in rows]
         width = max(map(len, cells), default=0)
         used = [i for i in range(width) if any(row[i : i + 1] not in ([], [""]) for row in cells)]
-        sheets[name] = [
+        lines = [
             (number, "\t".join("".join(row[i : i + 1]) for i in used))
             for number, row in enumerate(cells, start=1)
             if any(row)
         ]
+        sheets[name] = _below_header(lines, header)
+    return sheets
+
+
+def _sheet_lines(path: Path, sheet: str | int | None, header: int | None) -> list[Line]:
+    """Return the lines of a sheet by name or number from 1; by default of the only with numbers."""
+    sheets = sheets_as_lines(path, header=header)
     if sheet is None:
         full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
         if len(full) > 1:
@@ -204,6 +177,10 @@ class TextTable:
         """The names of the columns as a message lists them, empty if the file has no titles."""
         return shortened(", ".join(self.names))
 
+    def label(self, column: int) -> str:
+        """Return the title of a column, or its number from 1."""
+        return shortened(self.columns[column].name) or str(column + 1)
+
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
         """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
         cells = self._cells(column)
@@ -219,9 +196,12 @@ class TextTable:
         for at, cell in enumerate(cells):
             value = parse_number(cell)
             if value is None or not (abs(value) <= MOST or (missing and math.isnan(value))):
+                wanted, marks = expected, ""
+                if value is None and missing:
+                    wanted, marks = f"a number in column {self.label(column)}", f"; {MISSING_MARKS}"
                 raise FileError(
-                    f"{self.path}, line {self.line_numbers[at]}: expected {expected}; "
-                    f"got {short_repr(self.rows[at][column])}"
+                    f"{self.path}, line {self.line_numbers[at]}: expected {wanted}; "
+                    f"got {short_repr(self.rows[at][column])}{marks}"
                 )
             values[at] = value
         return values
@@ -231,7 +211,7 @@ class TextTable:
         cells = self._cells(column)
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
-        numbers = filter(_NUMBER.fullmatch, cells)  # others are marks of missing values
+        numbers = filter(NUMBER.fullmatch, cells)  # others are marks of missing values
         exponents = (Decimal(cell).as_tuple().exponent for cell in numbers)
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
@@ -264,23 +244,25 @@ def read_lines(
 
     Rows of numbers among the first `header` lines are turned into comments.
     """
-    above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
     if is_excel(path):
-        lines = sheet_lines(path, sheet)
-    elif sheet is None:
-        text = read_text(path).replace("\r\n", "\n")
-        split = enumerate(_LINE_END.split(text) if "\r" in text else text.split("\n"), start=1)
-        lines = [(number, line) for number, line in split if line.strip()]
-    else:
+        return _sheet_lines(path, sheet, header)
+    if sheet is not None:
         raise InputError(
             f"{path}: sheet must be left out, a text file has none; got {short_repr(sheet)}"
         )
-    if not above:
-        return lines
-    return [
+    text = read_text(path).replace("\r\n", "\n")
+    split = enumerate(_LINE_END.split(text) if "\r" in text else text.split("\n"), start=1)
+    return _below_header([(number, line) for number, line in split if line.strip()], header)
+
+
+def _below_header(lines: list[Line], header: int | None) -> list[Line]:
+    """Return lines whose rows of numbers within the header are comments, without words in rows."""
+    above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
+    commented = [
         (number, f"# {line}" if number <= above and is_row(line) else line)
-        for number, line in lines
+        for number, line in (lines if above else ())
     ]
+    return without_words(commented or lines)
 
 
 def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextTable | None:
@@ -321,8 +303,10 @@ def table_in(
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
     below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
-    numbers = [number for number, _ in below]
     rows = [cells_of(line, separator) for _, line in below]
+    while not any(map(is_number, rows[-1])):  # remarks below the table
+        rows.pop()
+    numbers = [number for number, _ in below[: len(rows)]]
     count = len(rows[0])
     _check_faults(path, lines[:first], separator, range(count, count + 1))
     for number, row in zip(numbers, rows, strict=True):
@@ -429,13 +413,13 @@ def _check_faults(path: Path, lines: list[Line], separator: str | None, counts: 
             fault = next(at for at, cell in enumerate(cells) if not fits(cell))
             raise FileError(
                 f"{path}, line {number}: expected a number in column {fault + 1}; "
-                f"got {short_repr(cells[fault])}"
+                f"got {short_repr(cells[fault])}; {MISSING_MARKS}"
             )
 
 
 def _decimal_sign(path: Path, rows: list[list[str]], numbers: list[int]) -> str:
     first: dict[str, tuple[int, str]] = {}
-    for sign, form in ((",", COMMA_NUMBER), (".", _NUMBER)):
+    for sign, form in ((",", COMMA_NUMBER), (".", NUMBER)):
         for at, row in enumerate(rows):
             cell = next((cell for cell in row if sign in cell and form.fullmatch(cell)), None)
             if cell is not None:
@@ -456,7 +440,7 @@ def _columns(
     columns, units = [ColumnTitle()] * count, [""] * count
     for cells in filter(None, (_titles(line, count) for line in above)):
         bare = [cell.strip("()[] ") for cell in cells]
-        if any(_is_unit(cell, kinds) for cell in bare):
+        if any(_is_unit(cell, kinds) for cell in bare) and not any(c.endswith(":") for c in bare):
             units = bare
             continue
         titles = [_column_title(cell, kinds) for cell in cells]
@@ -470,7 +454,7 @@ def _columns(
 
 def _titles(line: str, count: int) -> list[str] | None:
     """Return the line cut into `count` titles, or None if it cannot be."""
-    line = line.strip(" ").lstrip("".join(_COMMENT)).strip(" ")
+    line = line.strip(" ").lstrip("".join(COMMENT)).strip(" ")
     for text in (line, line.strip(" \t;,")):
         for separator in _TITLE_SEPARATORS:
             cells = [cell.strip().strip('"').strip() for cell in re.split(separator, text)]

@@ -1,6 +1,7 @@
 """The tables of a file of moduli, each with what the lines above it state.
 
-A text or Excel file may hold several tables, each with its temperature. Lines that are no rows of
+A text or Excel file may hold several tables, each with its temperature, below each other or side by
+side. Lines that are no rows of
 numbers part the tables where they hold titles or state a temperature; a table without titles has
 those of the table before. Of several tables those without frequency and modulus are left out: steps
 that condition the sample. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
@@ -20,11 +21,14 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io import text_table
-from gripscale.io.text_table import ColumnTitle, Line, TextTable, parse_number
+from gripscale.io.cells import Line, is_row, parse_number
+from gripscale.io.text_table import ColumnTitle, TextTable
 from gripscale.rubber import columns
-from gripscale.rubber.columns import FileLayout, quantity, stated_temperature
+from gripscale.rubber.columns import FileLayout, quantity, stated_in
 from gripscale.rubber.shift import WLF
+from gripscale.rubber.side_by_side import split_blocks
 
+_ROWS = "rows of frequency, storage and loss"
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _STEP = re.compile(r"\[\w+\]")
@@ -46,39 +50,87 @@ class Block:
         return self.temperature is not None or layout.column(self.table, "temperature") is not None
 
 
-def read_blocks(path: Path, layout: FileLayout, *, temperature_unit: str | None) -> list[Block]:
-    """Return the tables of a file; `temperature_unit` is that of temperatures that state none."""
-    lines = text_table.read_lines(path, sheet=layout.sheet, header=layout.header)
-    return blocks_in(path, lines, layout, temperature_unit=temperature_unit)
-
-
-def blocks_in(
-    path: Path, lines: list[Line], layout: FileLayout, *, temperature_unit: str | None
+def read_blocks(
+    path: Path, layout: FileLayout, *, temperature_unit: str | None, most: int | None = None
 ) -> list[Block]:
-    """Return the tables in `lines` of the file `path`, as `read_blocks` does."""
+    """Return the tables of a file; `temperature_unit` is that of temperatures that state none.
+
+    Of each sheet only the first lines are read, at `most` so many. Raises `InputError` for an Excel
+    file of several sheets with moduli, unless each of them states its temperature.
+    """
+    if not text_table.is_excel(path) or layout.sheet is not None:
+        lines = text_table.read_lines(path, sheet=layout.sheet, header=layout.header)
+        return _blocks_in(path, lines[:most], layout, temperature_unit)
+    sheets: dict[str, list[Block]] = {}
+    every_sheet = text_table.sheets_as_lines(path, header=layout.header)
+    for name, lines in every_sheet.items():
+        with suppress(FileError):  # a sheet without numbers
+            blocks = _blocks_in(path, lines[:most], layout, temperature_unit)
+            sheets[name] = [with_named_temperature(block, name, layout) for block in blocks]
+    with_moduli = {name: _sufficient(blocks, layout) for name, blocks in sheets.items()}
+    chosen = {name: blocks for name, blocks in with_moduli.items() if blocks} or sheets
+    every = [block for blocks in chosen.values() for block in blocks]
+    if len(chosen) > 1 and not all(block.states_temperature(layout) for block in every):
+        raise InputError(
+            Words(
+                f"{path}: ",
+                CaseKey("sheet"),
+                f" must be given, because {len(chosen)} sheets hold numbers ({', '.join(chosen)})",
+            ),
+            missing="sheet",
+        )
+    if not every:
+        raise FileError(f"{path}: expected {_ROWS}; got none in {len(every_sheet)} sheets")
+    return every
+
+
+_NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?\s?(C|K|F)(?![A-Za-z\d])")
+"""A temperature in the name of a file or a sheet."""
+
+
+def _blocks_in(
+    path: Path, lines: list[Line], layout: FileLayout, temperature_unit: str | None
+) -> list[Block]:
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
     lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
         return [_reptate(path, lines, expected)]
     blocks: list[Block] = []
     titles: list[Line] = []
-    for above, rows in _parts(lines, expected):
+    sections = [lines] if layout.columns else split_blocks(lines)
+    for above, rows in (part for section in sections for part in _parts(section, expected)):
         first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
         temperature = _temperature_above(path, above, temperature_unit)
         if first is not None:
-            here = [line for line in above[first:] if stated_temperature(line[1]) is None]
+            here = [line for line in above[first:] if stated_in(line[1]) is None]
             titles = here or titles
         elif any(_STEP.fullmatch(text.strip()) for _, text in above):
             titles = []  # those of another step are not its own
         whole = [*titles, *rows] if titles else [*above, *rows]
-        blocks.append(Block(_table(path, whole, expected), temperature))
+        table = _with_frequency(_table(path, whole, expected), layout, above)
+        blocks.append(Block(table, temperature))
     if len(blocks) < 2:
         return blocks or [Block(_table(path, lines, expected))]
-    with_moduli = []  # without steps that condition the sample
+    return _sufficient(blocks, layout) or blocks
+
+
+def _sufficient(blocks: list[Block], layout: FileLayout) -> list[Block]:
+    """Return the tables with frequency and modulus: not steps that condition the sample."""
+    sufficient = []
     for block in blocks:
         with suppress(InputError):
-            with_moduli += [block] if layout.suffices(block.table) else []
-    return with_moduli or blocks
+            sufficient += [block] if layout.suffices(block.table) else []
+    return sufficient
+
+
+def with_named_temperature(block: Block, name: str, layout: FileLayout) -> Block:
+    """Return a block with the temperature in the name of its file, if it states none itself."""
+    temperatures = _NAMED.findall(name.replace("_", " "))
+    if block.states_temperature(layout) or len(temperatures) != 1:
+        return block
+    ((number, unit),) = temperatures
+    kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
+    return replace(block, temperature=float(kelvin))
 
 
 def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line], list[Line]]]:
@@ -90,11 +142,11 @@ def _parts(lines: list[Line], expected: list[str]) -> Iterator[tuple[list[Line],
         # A line below rows that begins with a number is a row with a fault, to be named later.
         first = parse_number(re.split(r"[\t;,\s]", line[1].strip(), maxsplit=1)[0])
         broken = bool(rows) and first is not None and first == first
-        if not text_table.is_row(line[1]) and not broken:
+        if not is_row(line[1]) and not broken:
             between.append(line)
             continue
         begins = any(
-            _names(text, expected) or stated_temperature(text) or _STEP.fullmatch(text.strip())
+            _names(text, expected) or stated_in(text) or _STEP.fullmatch(text.strip())
             for _, text in between
         )
         if rows and begins:
@@ -124,7 +176,7 @@ def _names(line: str, expected: list[str]) -> bool:
 def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float | None:
     """Return the last temperature that the lines above a table state [K]."""
     for number, line in reversed(above):
-        statement = stated_temperature(line)
+        statement = stated_in(line)
         if statement is None:
             continue
         value, written = statement
@@ -144,11 +196,30 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
     return None
 
 
+def _with_frequency(table: TextTable, layout: FileLayout, above: list[Line]) -> TextTable:
+    """Return a table with a column of the frequency that the caller or a line above states."""
+    titled = any(quantity(name) == "frequency" for name in table.names)
+    with_column = titled or "frequency" in layout.by_quantity
+    if layout.frequency is not None and with_column:
+        words = " must be left out, because a column holds the frequency of each row"
+        raise InputError(Words(f"{table.path}: ", CaseKey("frequency"), words))
+    lines = (stated_in(line, "frequency") for _, line in above)
+    stating = [(number, unit) for number, unit in filter(None, lines) if spelled(unit, "frequency")]
+    if layout.frequency is not None:
+        stating = [(str(layout.frequency), "Hz")]
+    if with_column or not stating:
+        return table
+    cell, unit = stating[-1]
+    columns = [*table.columns, ColumnTitle("Frequency", unit)]
+    cell = cell.replace(",", ".").replace(".", table.decimal)
+    return replace(table, columns=columns, rows=[[*row, cell] for row in table.rows])
+
+
 def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
     table = text_table.table_in(
         path,
         lines,
-        "rows of frequency, storage and loss",
+        _ROWS,
         kinds=KINDS,
         named=lambda name: quantity(name) is not None or name in expected,
     )
@@ -166,18 +237,12 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
             f"got {parameters.get('T', 'none')}"
         )
     table = _table(path, lines[1:], expected)
+    titles = [*table.columns]
     if not table.names:
-        if len(table.columns) < len(_REPTATE):
-            raise FileError(
-                f"{path}, line {table.line_numbers[0]}: expected at least 3 columns (frequency, "
-                f"G', G''); got {len(table.columns)}"
-            )
-        others = [ColumnTitle()] * (len(table.columns) - len(_REPTATE))
-        table = replace(table, columns=[*_REPTATE, *others])
+        titles[: len(_REPTATE)] = _REPTATE[: len(titles)]
     units = {quantity(title.name): title.unit for title in _REPTATE}
     titles = [
-        replace(title, unit=title.unit or units.get(quantity(title.name)))
-        for title in table.columns
+        replace(title, unit=title.unit or units.get(quantity(title.name))) for title in titles
     ]
     numbers = {key: number for key, text in parameters.items() if (number := parse_number(text))}
     isofrictional = parameters.get("iso", parameters.get("isof", "true")).lower() == "true"

@@ -28,8 +28,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import listed, quantity_in_si, spelled
+from gripscale.core.units import listed, parse_quantity, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import TextTable
 
@@ -66,18 +67,26 @@ _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
+_COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
 _PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
 """Letters that are a title by themselves: t is a time and F a force."""
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
 _PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
-_STATED = re.compile(
-    rf"(?:^|[\s;,#%!])(?:T|Temp\w*|Sample temp\w*|Probentemp\w*)\.?\s*"
-    rf"(?:[\[(]\s*(?P<before>[^\])]+)[\])])?\s*[=:;,\t]\s*\"?(?P<number>{_NUMBER})\"?"
-    rf"(?:[\t;,]?[ \t]*[\[(]?(?P<after>°?\s?[A-Za-z]+)[\])]?)?\s*(?:$|[;,\t\"])",
-    re.IGNORECASE,
-)
+_STATED = {
+    kind: re.compile(
+        rf"(?:^|[\s;,#%!])(?:{names})\.?\s*"
+        rf"(?:[\[(]\s*(?P<before>[^\])]+)[\])])?\s*[=:;,\t]\s*\"?(?P<number>{_NUMBER})\"?"
+        rf"(?:[\t;,]?[ \t]*[\[(]?(?P<after>°?\s?[A-Za-z]+(?:/s)?)[\])]?)?\s*(?:$|[;,\t\"])",
+        re.IGNORECASE,
+    )
+    for kind, names in {
+        "temperature": r"T|Temp\w*|Sample temp\w*|Probentemp\w*",
+        "frequency": r"f|Freq\w*|Test freq\w*|Messfreq\w*|Prüffreq\w*",
+    }.items()
+}
+"""A line that states the temperature or the frequency of the rows below it."""
 
 
 def quantity(name: str) -> str | None:
@@ -142,9 +151,9 @@ def raised(table: TextTable) -> TextTable:
     return table
 
 
-def stated_temperature(line: str) -> tuple[str, str | None] | None:
-    """Return number and unit, if any, of the temperature a line states, such as T = 20 °C."""
-    match = _STATED.search(line.strip())
+def stated_in(line: str, kind: str = "temperature") -> tuple[str, str | None] | None:
+    """Return number and unit, if any, of what a line states, such as T = 20 °C or f = 10 Hz."""
+    match = _STATED[kind].search(line.strip())
     return None if match is None else (match["number"], match["before"] or match["after"])
 
 
@@ -174,7 +183,12 @@ def unit_name(name: str, value: object) -> str:
     return str(value)
 
 
-ReadColumn = Callable[[TextTable, int, str], Array]
+def _hertz(name: str, value: object) -> float:
+    """Return a frequency [Hz] above zero; raise `InputError` for what is none."""
+    try:
+        return checks.positive(name, parse_quantity(value, "frequency"), unit="Hz")
+    except ValueError as error:
+        raise InputError(f"{name} = {checks.short_repr(value)}: {error}") from error
 
 
 class FileLayout(Checked):
@@ -201,6 +215,9 @@ class FileLayout(Checked):
     """Unit of the strains: 1 or %."""
     modulus: str | None = checked(checks.one_of, choices=("E", "G"), default=None)
     """Whether they are Young's (E) or shear moduli (G, multiplied by 3)."""
+    frequency: Any = checked(_hertz, default=None)
+    """Frequency of all rows, as of a temperature ramp, where no column holds it: a number [Hz], or
+    a text such as "10 Hz"."""
     titles_first: bool = False
     """Whether what the file says goes before what is stated here."""
 
@@ -246,8 +263,7 @@ class FileLayout(Checked):
         taken = {position_of(table, column) for column in columns.values()}
         titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
         hits = [at for at in titled if at not in taken]
-        first = [row[hits[0]] for row in table.rows] if hits else []
-        if any([row[at] for row in table.rows] != first for at in hits[1:]):
+        if not all(_agree(table, hits[0], at) for at in hits[1:]):
             raise InputError(
                 Words(
                     f"{table.path}: ",
@@ -266,10 +282,10 @@ class FileLayout(Checked):
             raise missing(table, wanted)
         return column
 
-    def read(self, table: TextTable, wanted: str, numbers: ReadColumn | None = None) -> Array:
+    def read(self, table: TextTable, wanted: str) -> Array:
         """Return a column in SI units, of a quantity that must be there; as `young_moduli`."""
         column = self.needed_column(table, wanted)
-        values = (numbers or above_zero)(table, column, wanted)
+        values = above_zero(table, column, wanted)
         return np.asarray(quantity_in_si(values, self.unit(table, column, wanted), wanted))
 
     def unit(self, table: TextTable, column: int, kind: str) -> str:
@@ -311,6 +327,20 @@ class FileLayout(Checked):
         return title
 
 
+def _agree(table: TextTable, first: int, second: int) -> bool:
+    """Return whether two columns hold the same, frequencies perhaps in Hz and in rad/s."""
+    if all(row[first] == row[second] for row in table.rows):
+        return True
+    units = [spelled(table.columns[at].unit, "frequency") for at in (first, second)]
+    if None in units:
+        return False
+    one_way, other = (
+        quantity_in_si(table.numbers(at, "a number", missing=True), str(unit), "frequency")
+        for at, unit in zip((first, second), units, strict=True)
+    )
+    return bool(np.allclose(one_way, other, rtol=_SAME_FREQUENCY, atol=0.0, equal_nan=True))
+
+
 def position_of(table: TextTable, column: str | int) -> int:
     """Return the position, from 0, of a column given by its number from 1 or by its title."""
     if not isinstance(column, str):
@@ -331,21 +361,24 @@ def missing(table: TextTable, what: str) -> InputError:
     """Return the refusal of a table in which a quantity cannot be found."""
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
-    if what == "frequency":
-        header += "; where no column holds it, add one, such as Frequency [Hz] with 10 in every row"
+    if any(_COMPLIANCE.match(name) for name in table.names):
+        header += "; compliances are not read, moduli are"
     words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
-    return InputError(words, missing="columns")
+    if what != "frequency":
+        return InputError(words, missing="columns")
+    ramp = any(quantity(name) == "temperature" for name in table.names)
+    if not ramp:
+        return InputError(words, missing="columns")
+    key, where = CaseKey("frequency"), "; where all rows are at the same frequency, "
+    return InputError(Words(words, where, key, ' states it, such as "10 Hz"'), missing="frequency")
 
 
 _ROUNDING = 0.05
 """Relative error of a loss factor by the digits it is printed with."""
 
 
-def young_moduli(
-    table: TextTable, layout: FileLayout, numbers: ReadColumn | None = None
-) -> tuple[Array, Array]:
-    """Return E' and E'' [Pa] of each row, by default NaN where a value is missing."""
-    read = numbers or above_zero
+def young_moduli(table: TextTable, layout: FileLayout) -> tuple[Array, Array]:
+    """Return E' and E'' [Pa] of each row, NaN where a value is missing."""
     positions = {name: layout.column(table, name) for name in MODULI}
     at = {name: position for name, position in positions.items() if position is not None}
     pair = next((pair for pair in PAIRS if set(pair) <= set(at)), None)
@@ -355,7 +388,7 @@ def young_moduli(
     units = {name: layout.unit(table, at[name], "modulus") for name in moduli}
     size = 3.0 if layout.modulus_of(table, [at[name] for name in moduli]) == "G" else 1.0
     values = {
-        name: size * quantity_in_si(read(table, at[name], name), unit, "modulus")
+        name: size * quantity_in_si(above_zero(table, at[name], name), unit, "modulus")
         for name, unit in units.items()
     }
     if pair == ("storage", "loss"):
@@ -364,7 +397,7 @@ def young_moduli(
             printed *= _ratio_unit(table, at["loss_factor"])
             _refuse_swapped(table, values["loss"] / values["storage"], printed)
         return values["storage"], values["loss"]
-    factor = _loss_factor(table, at[pair[1]], pair[1], read)
+    factor = _loss_factor(table, at[pair[1]], pair[1])
     if "storage" in values:
         return values["storage"], values["storage"] * factor
     if "loss" in values:
@@ -373,9 +406,9 @@ def young_moduli(
     return storage, storage * factor
 
 
-def _loss_factor(table: TextTable, column: int, name: str, read: ReadColumn) -> Array:
+def _loss_factor(table: TextTable, column: int, name: str) -> Array:
     """Return the loss factor [-] of a column that holds it, or the angle between E' and E''."""
-    values, title = read(table, column, name), table.columns[column]
+    values, title = above_zero(table, column, name), table.columns[column]
     if name == "loss_factor":
         return values * _ratio_unit(table, column)
     if spelled(title.unit, "angle") is None:
@@ -434,11 +467,11 @@ def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature
 
 def above_zero(table: TextTable, column: int, wanted: str) -> Array:
     """Return a column of numbers above zero, NaN where missing; `FileError` names other lines."""
-    values = table.numbers(column, "a finite number", missing=True)
-    good = (values >= checks.LEAST) & (values <= checks.MOST)
-    span = f"{checks.LEAST:g} to {checks.MOST:g}"
-    expected = f"a {wanted.replace('_', ' ')} above zero, {span},"
-    check_rows(table, column, good, values, expected)
+    what = f"a {wanted.replace('_', ' ')}"
+    within = f"{what} between {checks.LEAST:g} and {checks.MOST:g}"
+    values = table.numbers(column, within, missing=True)
+    check_rows(table, column, ~(values <= 0.0), values, f"{what} above zero")
+    check_rows(table, column, values >= checks.LEAST, values, within)
     return values
 
 
@@ -449,5 +482,5 @@ def check_rows(table: TextTable, column: int, good: Mask, values: Array, expecte
         at = int(np.argmax(bad))
         raise FileError(
             f"{table.path}, line {table.line_numbers[at]}: expected {expected} in column "
-            f"{table.columns[column].name or column + 1}; got {table.rows[at][column]}"
+            f"{table.label(column)}; got {table.rows[at][column]}"
         )

@@ -85,11 +85,13 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
 
 _ONE_TEMPERATURE = 2.0
 """Temperatures this close [K] are one: no oven is quieter."""
+_TWO_ROWS = "expected at least 2 rows of frequency, storage and loss"
 
 
 def read_master_curve(
     path: str | Path,
     *,
+    modulus: str | None = None,
     reference_temperature: float | None = None,
     name: str | None = None,
     source: str = "",
@@ -97,28 +99,31 @@ def read_master_curve(
 ) -> MasterCurve:
     """Read storage and loss modulus against frequency from a text, CSV or Excel file.
 
-    Titles are read in English and German; two of storage modulus, loss modulus, loss factor and
-    |E*| state both moduli. The rules of `gripscale.io.text_table` hold. What the file states need
-    not be given; what is given goes before it. Nothing is guessed. Raises `FileError` if the file
-    cannot be read or holds something else, such as sweeps at several temperatures; the message
-    names path and line. Raises `InputError` if a unit, the kind of modulus or the columns are
-    neither stated nor given, or storage and loss are exchanged.
+    Rows with a missing value in a column that is needed are left out. Titles are read in English
+    and German; two of storage modulus, loss modulus, loss factor and |E*| state both moduli. The
+    rules of `gripscale.io.text_table` hold. What the file states need not be given; what is given
+    goes before it. Nothing is guessed. Raises `FileError` if the file cannot be read or holds
+    something else, such as sweeps at several temperatures; the message names path and line. Raises
+    `InputError` if a unit, the kind of modulus or the columns are neither stated nor given, or
+    storage and loss are exchanged.
 
     Parameters
     ----------
     path : str or Path
         The file; Excel: .xlsx.
+    modulus : {"E", "G"}, optional
+        Whether the file holds Young's or shear moduli; needed unless its titles say so.
     reference_temperature : float, optional
         Temperature the curve holds for [K]; by default what a line above the rows states, such as
         T = 20 °C.
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
     **options
-        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
-        `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`. Without `columns`
+        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit` and
+        `titles_first`, as fields of `gripscale.rubber.FileLayout`. Without `columns`
         three columns without titles are frequency, storage and loss.
     """
-    file, layout = file_path(path), FileLayout(**options)
+    file, layout = file_path(path), FileLayout(modulus=modulus, **options)
     unit = layout.temperature_unit
     if reference_temperature is not None and unit is None:
         unit = "K"  # a temperature is given: that of the file decides nothing
@@ -127,7 +132,7 @@ def read_master_curve(
     if len(blocks) > 1:
         raise FileError(
             f"{file}: expected one master curve; got {len(blocks)} tables, the second from "
-            f"line {blocks[1].table.line_numbers[0]} on"
+            f"line {blocks[1].table.line_numbers[0]} on; those of sweeps state their temperatures"
         )
     if len(table.columns) < len(THREE):
         raise FileError(
@@ -135,16 +140,17 @@ def read_master_curve(
             f"(frequency, storage, loss); got {len(table.columns)}"
         )
     if len(table.rows) < 2:
-        wanted = "expected at least 2 rows of frequency, storage and loss"
-        raise FileError(f"{file}: {wanted}; got {len(table.rows)}")
+        raise FileError(f"{file}: {_TWO_ROWS}; got {len(table.rows)}")
     if not table.names and len(table.columns) == len(THREE) and layout.columns is None:
         layout = replace(layout, columns=(1, 2, 3))
     layout = layout.for_table(table)
     column = layout.needed_column(table, "frequency")
     _refuse_sweeps(table, column, with_columns=bool(layout.columns))
-    hertz = layout.read(table, "frequency", _positive)
-    rows = hertz, *columns.young_moduli(table, layout, _positive)
-    spread = columns.spread_of_repeats(*rows, np.zeros(len(table.rows)))
+    rows = np.array([layout.read(table, "frequency"), *columns.young_moduli(table, layout)])
+    hertz, storage, loss = rows[:, np.isfinite(rows).all(axis=0)]
+    if len(hertz) < 2:
+        raise FileError(f"{file}: {_TWO_ROWS}; got {len(hertz)} without missing values")
+    spread = columns.spread_of_repeats(hertz, storage, loss, np.zeros(len(hertz)))
     if spread > APART:
         raise FileError(
             f"{file}: expected one master curve; got the same frequencies again with moduli "
@@ -155,7 +161,7 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    return MasterCurve(*rows, reference_temperature, name, source)
+    return MasterCurve(hertz, storage, loss, reference_temperature, name, source)
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:
@@ -167,7 +173,7 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> N
         kelvin = kelvin[np.isfinite(kelvin)]
         if not kelvin.size or np.ptp(kelvin) <= _ONE_TEMPERATURE:
             continue
-        hertz = _positive(table, frequency, "frequency")
+        hertz = columns.above_zero(table, frequency, "frequency")
         if not with_columns or len(np.unique(hertz)) <= len(hertz) // 2:
             raise FileError(
                 f"{table.path}: expected one master curve; got rows at temperatures from "
@@ -175,15 +181,3 @@ def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> N
                 "shift the sweeps to one master curve first, or name the columns (columns) if they "
                 "are shifted"
             )
-
-
-def _positive(table: TextTable, column: int, wanted: str) -> Array:
-    """Return a column whose numbers are all there, above zero and within reason."""
-    what = wanted.replace("_", " ")
-    within = f"a {what} between {checks.LEAST:g} and {checks.MOST:g}"
-    values = table.numbers(column, within)
-    for number, value in zip(table.line_numbers, values, strict=True):
-        if value < checks.LEAST:
-            expected = within if value > 0.0 else f"a {what} above zero"
-            raise FileError(f"{table.path}, line {number}: expected {expected}; got {value:g}")
-    return values

@@ -347,6 +347,7 @@ class StrainSweep(Checked, eq=False):
 def read_strain_sweep(
     path: str | Path,
     *,
+    modulus: str | None = None,
     amplitude: str | None = None,
     temperature: float | None = None,
     frequency: float | None = None,
@@ -365,6 +366,9 @@ def read_strain_sweep(
     ----------
     path : str or Path
         The file.
+    modulus : {"E", "G"}, optional
+        Whether the file holds Young's moduli, which come with strain of length, or shear moduli,
+        with shear strain; needed unless its titles say so.
     amplitude : {"single", "peak-to-peak"}, optional
         What the strain column holds, unless its title says so (peak-to-peak, double, DSA; single,
         SSA). The peak-to-peak amplitude is halved.
@@ -375,11 +379,10 @@ def read_strain_sweep(
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
     **options
-        `columns`, `sheet`, `header`, `strain_unit`, `modulus_unit`, `temperature_unit`,
-        `frequency_unit` and `modulus`, as fields of `gripscale.rubber.FileLayout`. Shear moduli (G)
-        come with shear strain, Young's with that of length.
+        `columns`, `sheet`, `header`, `strain_unit`, `modulus_unit`, `temperature_unit` and
+        `frequency_unit`, as fields of `gripscale.rubber.FileLayout`.
     """
-    file, layout = file_path(path), FileLayout(**options)
+    file, layout = file_path(path), FileLayout(modulus=modulus, **options)
     blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
     if len(blocks) > 1:
         raise FileError(f"{file}: expected one strain sweep; got {len(blocks)} tables")

@@ -25,6 +25,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, celsius
+from gripscale.core.wording import CaseKey, Words
 from gripscale.rubber.joint_shift import SHIFTED_MODULI, Rows, align, sweep_rows
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
@@ -324,9 +325,13 @@ def _fitted_shift(
         if min(len(x), len(next_x)) < 2 or apart:
             low, high = sweeps.temperatures[colder : colder + 2] - ZERO_CELSIUS
             raise InputError(
-                "sweeps at neighbouring temperatures must overlap for a shift to be found; those "
-                f"at {low:.2f} and {high:.2f} °C do not: give the shift, or superpose either side "
-                "alone"
+                Words(
+                    "sweeps at neighbouring temperatures must overlap for a shift to be found; "
+                    f"those at {low:.2f} and {high:.2f} °C do not: superpose either side alone, or "
+                    "give ",
+                    CaseKey("shift=gripscale.rubber.WLF(8.86, 101.6)"),
+                ),
+                missing="shift",
             )
     rows = sweep_rows(sweeps, moduli)
     first = "storage" if "storage" in SHIFTED_MODULI[moduli] and not lifted else moduli

@@ -7,7 +7,6 @@ multiples of a step.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -24,7 +23,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
 from gripscale.io.text_table import file_path, file_paths, is_excel
-from gripscale.rubber.blocks import Block, read_blocks
+from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
 from gripscale.rubber.shift import WLF
 
@@ -161,7 +160,8 @@ def holds_sweeps(path: Path, layout: FileLayout | None = None) -> bool:
     It is for tables that state a temperature, and for a column of temperatures over which the same
     frequencies come again, as in no master curve.
     """
-    layout = (layout and FileLayout(layout.columns, layout.sheet, layout.header)) or FileLayout()
+    layout = layout or FileLayout()
+    layout = FileLayout(layout.columns, layout.sheet, layout.header, frequency=layout.frequency)
     try:
         blocks = read_blocks(path, layout, temperature_unit="C")
         with_column = [layout.column(block.table, "temperature") is not None for block in blocks]
@@ -277,6 +277,8 @@ def _at_steps(rows: dict[str, Array], chosen: Mask, step: float) -> Array:
 def read_sweeps(
     path: str | Path | Sequence[str | Path],
     *,
+    modulus: str | None = None,
+    frequency: float | None = None,
     temperature: float | None = None,
     tolerance: float = TEMPERATURE_TOLERANCE,
     temperature_step: float | None = None,
@@ -287,17 +289,22 @@ def read_sweeps(
     """Read frequency sweeps at several temperatures from text, CSV, Excel or RepTate files.
 
     Rows with a missing value in a column that is needed are left out. Titles are read in English
-    and German. The rules of `gripscale.io.text_table` hold; several tables in one file, each with
-    its temperature above it or in a column, are taken together. What the file states need not be
-    given; what is given goes before it. Nothing is guessed. Raises `FileError` if a file cannot be
-    read or a value in it cannot be; the message names path and line. Raises `InputError` if a unit,
-    the kind of modulus, a column or a temperature is neither stated nor given.
+    and German. The rules of `gripscale.io.text_table` hold. Several tables in one file are taken
+    together, each with its temperature above it or in a column; side by side, too. What the file
+    states need not be given; what is given goes before it. Nothing is guessed. Raises `FileError`
+    if a file cannot be read or a value in it cannot be; the message names path and line. Raises
+    `InputError` if a unit, the kind of modulus, a column or a temperature is neither stated nor
+    given.
 
     Parameters
     ----------
     path : str, Path or sequence of them
         The file, or several, such as one for each temperature, which then may stand in its name
         with its unit: sweep_-20C.csv. Excel: .xlsx.
+    modulus : {"E", "G"}, optional
+        Whether the file holds Young's or shear moduli; needed unless its titles say so.
+    frequency : float, optional
+        Frequency of all rows [Hz], as of a temperature ramp, where the file does not state it.
     temperature : float, optional
         Temperature of a file that states none [K].
     tolerance : float
@@ -308,17 +315,18 @@ def read_sweeps(
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
     **options
-        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit`,
-        `modulus` and `titles_first`, as fields of `gripscale.rubber.FileLayout`.
+        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit` and
+        `titles_first`, as fields of `gripscale.rubber.FileLayout`.
     """
-    paths, layout = file_paths(path), FileLayout(**options)
+    paths = file_paths(path)
+    layout = FileLayout(modulus=modulus, frequency=frequency, **options)
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
     parts = []
     for file in paths:
         blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
         if temperature is None and len(paths) > 1:
-            blocks = [_with_named_temperature(block, layout) for block in blocks]
+            blocks = [with_named_temperature(block, file.stem, layout) for block in blocks]
         parts += [_rows(block, layout.for_table(block.table), temperature) for block in blocks]
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
@@ -338,19 +346,6 @@ def read_sweeps(
         return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
     except InputError as error:
         raise InputError(f"{paths[0]}: {error}") from error
-
-
-_NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?(C|K|F)(?![A-Za-z\d])")
-
-
-def _with_named_temperature(block: Block, layout: FileLayout) -> Block:
-    """Return a block with the temperature in the name of its file, if it states none itself."""
-    temperatures = _NAMED.findall(block.table.path.stem.replace("_", " "))
-    if block.states_temperature(layout) or len(temperatures) != 1:
-        return block
-    ((number, unit),) = temperatures
-    kelvin = quantity_in_si(float(number.replace(",", ".")), unit, "temperature")
-    return replace(block, temperature=float(kelvin))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

@@ -19,7 +19,6 @@ from .profile import HeightMap as HeightMap
 from .profile import Profile as Profile
 from .read import read_map as read_map
 from .read import read_profile as read_profile
-from .read import read_profiles as read_profiles
 from .resampling import resample as resample
 from .sine_fit import SineAmbiguity as SineAmbiguity
 from .sine_fit import fit_sines as fit_sines

@@ -22,15 +22,16 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.units import quantity_in_si
 from gripscale.core.wording import CaseKey, Words
-from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_sheets
+from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
+from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text
+from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import (
-    is_sdf_text,
     length_unit,
-    read_sdf_text,
     read_text_map,
     read_text_profile,
 )
+from gripscale.surface.triangles import read_stl
 
 _MOST_POINTS_PER_BYTE = 1032
 """Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""
@@ -45,10 +46,6 @@ class HeightField:
     y: Array | None
     reliable: float | None = None
     """Shortest wavelength [m] free of the instrument's artifacts, if the file states it."""
-
-    def lines(self, direction: str) -> int:
-        """Return the number of profiles along a direction."""
-        return int(self.heights.shape[1 if direction == "x" else 0])
 
     def profile(self, path: Path, direction: str, line: int) -> Profile:
         """Return one line along a direction as a profile."""
@@ -77,13 +74,16 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
-    if is_sdf_text(path, raw):
+    stl, sdf = path.suffix.lower() == ".stl", is_sdf_text(path, raw)
+    if stl or sdf or is_esri_grid(raw):
         if step is not None:
             raise InputError(f"step must be left out; {path} states the size of its surface")
-        for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
-            length_unit(path, "the file", "m", name, unit)
-        along, across, field = read_sdf_text(path, raw)
-        return HeightField(field, along, across)
+        x_unit = length_unit(path, "the file", "m" if sdf else None, "x_unit", x_unit)
+        z_unit = z_unit or (x_unit if stl else None)
+        z_unit = length_unit(path, "the file", "m" if sdf else None, "z_unit", z_unit)
+        along, across, field = (read_stl if stl else read_height_grid)(path, raw)
+        x, y = (quantity_in_si(axis, x_unit, "length") for axis in (along, across))
+        return HeightField(quantity_in_si(field, z_unit, "length"), x, y)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -178,7 +178,9 @@ def _topography(
 
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
-_MAP_TEXT_SUFFIXES = (*TEXT_SUFFIXES, ".xyz")
+_POINT_SUFFIXES = (".xyz", ".asc")
+"""Points or a table of heights as text; some instruments write .asc, too."""
+_ANY_TEXT = (*TEXT_SUFFIXES, *_POINT_SUFFIXES, *EXCEL)
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
 """Sheets of a Mitutoyo roughness tester's Excel file."""
 
@@ -227,40 +229,28 @@ def read_profile(
         Which way the numbers of the height column count; "down" turns depths over. By default up,
         with a doubt where the title says depth.
     """
-    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
-    lines = 1 if isinstance(source, Profile) else source.lines(direction)
+    checks.one_of("direction", direction, ("x", "y"))
+    file = _checked_path(path, x_unit, z_unit, reader)
+    steps = _steps(step, x_unit)
+    if _is_text(file, "auto", _POINT_SUFFIXES) and _holds_three_columns(file):
+        points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+        field = HeightField(points.z, points.x, points.y)
+    elif _is_text(file, reader, _ANY_TEXT):
+        spacing = None if steps is None else steps[0]
+        profile = read_text_profile(file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing)
+        checks.whole(f"line of {file}", line or 0, least=0, most=0)
+        return upwards(profile, z_axis)
+    else:
+        field = read_instrument_file(
+            file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps
+        )
+    if field.y is None and direction != "x":
+        raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")
+    lines = field.heights.shape[1 if direction == "x" else 0]
     number = lines // 2
     if line is not None:
         number = checks.whole(f"line of {file}", line, least=0, most=lines - 1)
-    chosen = source if isinstance(source, Profile) else source.profile(file, direction, number)
-    return upwards(chosen, z_axis)
-
-
-def read_profiles(
-    path: str | os.PathLike[str],
-    *,
-    x_unit: str | None = None,
-    z_unit: str | None = None,
-    direction: str = "x",
-    channel: str | int | None = None,
-    sheet: str | int | None = None,
-    step: float | None = None,
-    reader: str = "auto",
-    z_axis: str | None = None,
-) -> list[Profile]:
-    """Read every profile of a file: all lines of a map along a direction, or the only one.
-
-    Lines of a map on which no height was measured are left out. Parameters and errors are those
-    of `read_profile`.
-    """
-    file, source = _open_lines(path, x_unit, z_unit, direction, channel, sheet, step, reader)
-    if isinstance(source, Profile):
-        return [upwards(source, z_axis)]
-    measured = np.isfinite(source.heights).any(axis=0 if direction == "x" else 1)
-    if not measured.any():
-        raise FileError(f"{file}: expected heights; got {measured.size} lines, all missing")
-    lines = np.flatnonzero(measured)
-    return [upwards(source.profile(file, direction, int(line)), z_axis) for line in lines]
+    return upwards(field.profile(file, direction, number), z_axis)
 
 
 _AnySurface = TypeVar("_AnySurface", Profile, HeightMap)
@@ -272,34 +262,6 @@ def upwards(surface: _AnySurface, z_axis: str | None) -> _AnySurface:
         return surface
     down = checks.one_of("z_axis", z_axis, ("up", "down")) == "down"
     return replace(surface, z=-surface.z if down else surface.z, doubts=())
-
-
-def _open_lines(
-    path: str | os.PathLike[str],
-    x_unit: str | None,
-    z_unit: str | None,
-    direction: str,
-    channel: str | int | None,
-    sheet: str | int | None,
-    step: float | None,
-    reader: str,
-) -> tuple[Path, Profile | HeightField]:
-    """Return the path of a file and its profile, or the heights of an instrument file."""
-    checks.one_of("direction", direction, ("x", "y"))
-    file = _checked_path(path, x_unit, z_unit, reader)
-    steps = _steps(step, x_unit)
-    text = _is_text(file, reader, TEXT_SUFFIXES)
-    if reader == "auto" and file.suffix.lower() in EXCEL:
-        text = not set(read_sheets(file)) >= _SHEETS_OF_AN_INSTRUMENT
-    if text:
-        spacing = None if steps is None else steps[0]
-        return file, read_text_profile(
-            file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing
-        )
-    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
-    if field.y is None and direction != "x":
-        raise InputError(f"direction must be 'x' for {file}, which is a single line; got 'y'")
-    return file, field
 
 
 def _checked_path(
@@ -333,7 +295,20 @@ def _steps(
 
 
 def _is_text(path: Path, reader: str, suffixes: Collection[str]) -> bool:
-    return reader == "text" or (reader == "auto" and path.suffix.lower() in suffixes)
+    """Return whether a file is read as text: of .asc those that begin with a row of numbers."""
+    suffix = path.suffix.lower()
+    if reader != "auto" or suffix not in suffixes:
+        return reader == "text"
+    if suffix in EXCEL:
+        return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
+    return suffix != ".asc" or is_row(read_text(path).lstrip().partition("\n")[0])
+
+
+def _holds_three_columns(path: Path) -> bool:
+    """Return whether the first row of a text has three cells or more."""
+    first = next((text for _, text in read_lines(path) if is_row(text)), "")
+    cells = (cells_of(first, separator) for separator in SEPARATORS)
+    return any(is_row_of(row) and len(row) > 2 for row in cells)
 
 
 def read_map(
@@ -356,8 +331,9 @@ def read_map(
     Parameters
     ----------
     path : path-like
-        A text file (.xyz, .dat, .txt, .csv, .tsv, .prn) with three columns x, y and z, or with a
-        table of heights whose rows run along y and whose columns along x; or a map in any format
+        A text or Excel file (.xyz, .dat, .txt, .csv, .tsv, .prn, .asc, .xlsx) with three columns x,
+        y and z, or with a table of heights whose rows run along y and whose columns along x; a grid
+        of ESRI (.asc); triangles (.stl) that are a surface seen from above; or a map in any format
         SurfaceTopography reads, such as .al3d, .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npy
         (needs `gripscale[formats]`).
     x_unit, z_unit, channel, reader, z_axis
@@ -369,7 +345,7 @@ def read_map(
     """
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    if _is_text(file, reader, _MAP_TEXT_SUFFIXES):
+    if _is_text(file, reader, _ANY_TEXT):
         text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
         return upwards(text_map, z_axis)
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)

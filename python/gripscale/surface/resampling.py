@@ -138,6 +138,7 @@ def printed_grid(
         refusal = FileError(
             f"{table.path}: expected a distance in column {column + 1} at half the points of an "
             f"even grid or more; got {grid.number.size} of {grid.size} in steps of {grid.step:.6g}"
+            f"{'' if lines else ': scattered points are to be put on a grid first'}"
         )
     else:
         refusal = _uneven(table, column, distances, lines)

@@ -15,18 +15,6 @@ code only if it is in use as one and lies ten times farther from all other heigh
 from each other: no texture has a height like that.
 
 Units are stated by the file or by the caller, never guessed.
-
-Maps in the surface data format (.sdf), ISO 25178-71, are text, too:
-
-aISO-1.0            version
-    NumPoints   = 512   points along x of each profile
-    NumProfiles = 256   profiles along y
-    Xscale      = 1e-6  distance of points [m], Yscale that of profiles
-    Zscale      = 1e-9  height of one count [m]
-    *                   the heights follow, profile by profile, in lines of any length
-    *                   end
-
-Names are taken in any case, with =, a colon or blanks before their value. BAD is a missing height.
 """
 
 from __future__ import annotations
@@ -42,9 +30,11 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError, about_file
 from gripscale.core.finding import Finding, Topic, doubt
-from gripscale.core.units import quantity_in_si, spelled
+from gripscale.core.units import in_mm, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
-from gripscale.io.text_table import Line, TextTable, column_in, read_lines, table_in
+from gripscale.io.cells import Line
+from gripscale.io.text_table import TextTable, column_in, read_lines, table_in
+from gripscale.surface.header import Header, read_header
 from gripscale.surface.profile import (
     FEWEST_POINTS,
     TURNED_ROUND,
@@ -110,17 +100,22 @@ def length_unit(
     raise FileError(words, missing=name)
 
 
-def _column_unit(table: TextTable, column: int, name: str, unit: str | None) -> str:
-    """Return the unit of a column: that of its title, or the one stated as argument `name`."""
-    part, named = f"column {column + 1}", table.columns[column].unit
+def _column_unit(
+    table: TextTable, column: int, name: str, unit: str | None, header: str | None
+) -> str:
+    """Return the unit of a column: of its title, of the header, or stated as argument `name`."""
+    part, named = f"column {column + 1}", table.columns[column].unit or header
     remedy = f"write it in the title, such as '{name[0]} [mm]', or give"
     return length_unit(table.path, part, named, name, unit, remedy=remedy)
 
 
-_DISTANCE_TITLE = re.compile(r"^\W*(x\b|x_|dist|pos|length|lateral)", re.IGNORECASE)
+_DISTANCE_TITLE = re.compile(
+    r"^\W*(x\b|x_|dist|pos|length|lateral|weg\b|abstand|l(ä|ae)nge|strecke|station)", re.IGNORECASE
+)
 _ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
 _HEIGHT_TITLE = re.compile(
-    r"^\W*(z\b|z_|height|depth|tiefe|profondeur|elev|relative.height|profile)", re.IGNORECASE
+    r"^\W*(z\b|z_|height|depth|h(ö|oe)he|tiefe|profondeur|elev|relative.height|profile)",
+    re.IGNORECASE,
 )
 
 
@@ -161,9 +156,18 @@ def read_text_profile(
     `InputError` if a unit is unknown or contradicts the file.
     """
     lines = read_lines(path, sheet=sheet)
-    column = column_in(path, lines, kinds=("length",))
-    if step is not None:
-        return _equal_steps(path, column, step, z_unit)
+    column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
+    if column is not None:
+        steps = _stated_steps(path, None if step is None else (step, step), header)
+        if steps is not None:
+            return _equal_steps(
+                column, steps[0], _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
+            )
+    elif step is not None:
+        raise InputError(
+            f"step must be left out; {path} has more than one column, and states where its points "
+            "are"
+        )
     if column is not None:
         raise FileError(
             Words(
@@ -184,8 +188,8 @@ def read_text_profile(
             f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
         )
     x_column, z_column = columns or (0, 1)
-    x_unit = _column_unit(table, x_column, "x_unit", x_unit)
-    z_unit = _column_unit(table, z_column, "z_unit", z_unit)
+    x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
+    z_unit = _column_unit(table, z_column, "z_unit", z_unit, header.z_unit)
     x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     z, notes = _heights(table, z_column, z_unit)
     numbers = table.line_numbers
@@ -260,13 +264,20 @@ def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]
     return z, notes
 
 
-def _equal_steps(path: Path, column: TextTable | None, step: float, z_unit: str | None) -> Profile:
-    if column is None:
-        raise InputError(
-            f"step must be left out; {path} has more than one column, and states where its points "
-            "are"
-        )
-    z_unit = _column_unit(column, 0, "z_unit", z_unit)
+def _stated_steps(
+    path: Path, steps: tuple[float, float] | None, header: Header
+) -> tuple[float, float] | None:
+    """Return the caller's steps [m], or those of the header, which must be the same."""
+    if steps is None or header.step is None or np.allclose(steps, header.step, rtol=1e-6, atol=0.0):
+        return steps or header.step
+    by_caller, by_file = (
+        " and ".join(in_mm(s) for s in dict.fromkeys(pair)) for pair in (steps, header.step)
+    )
+    raise InputError(f"step is {by_caller}, but {path} says {by_file}; give one of them")
+
+
+def _equal_steps(column: TextTable, step: float, z_unit: str) -> Profile:
+    path = column.path
     printed, notes = _heights(column, 0, z_unit)
     z = quantity_in_si(printed, z_unit, "length")
     with about_file(path):
@@ -285,15 +296,19 @@ def read_text_map(
     """
     titles = (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE)
     expected = "rows of heights, or of x, y and z"
-    table, columns = _read_table(path, read_lines(path), expected, titles)
+    lines = read_lines(path)
+    header = read_header(lines)
+    table, columns = _read_table(path, lines, expected, titles)
     count = len(table.columns)
     if columns is None and count == 3:
         columns = [0, 1, 2]
-    if columns is not None and step is not None:
+    if columns is None:
+        step = _stated_steps(path, step, header)
+    elif step is not None:
         raise InputError(f"step must be left out; {path} states where its points are")
     doubts: tuple[Finding, ...] = ()
     if columns is not None:
-        x, y, z = _points(table, columns, x_unit, z_unit)
+        x, y, z = _points(table, columns, x_unit, z_unit, header)
         doubts = depth_doubts(table, columns[2])
     elif count < FEWEST_POINTS:
         line = "; a line of two columns is for gripscale.read_profile" if count == 2 else ""
@@ -306,13 +321,13 @@ def read_text_map(
             Words(
                 f"{table.path}: a table of heights has no steps; give ",
                 CaseKey("step"),
-                ", that along x and that along y [m], or reader 'instrument' for a header that "
-                "states them",
+                ", the distance between points along x and y, such as 0.1 mm; a line above it may "
+                "state it, too: # Spacing: 0.1 mm",
             ),
             missing="step",
         )
     else:
-        z_unit = length_unit(table.path, "the table", None, "z_unit", z_unit)
+        z_unit = length_unit(table.path, "the table", header.z_unit, "z_unit", z_unit)
         heights = [
             table.numbers(column, f"a height in column {column + 1}", missing=True)
             for column in range(count)
@@ -324,11 +339,12 @@ def read_text_map(
 
 
 def _points(
-    table: TextTable, columns: list[int], x_unit: str | None, z_unit: str | None
+    table: TextTable, columns: list[int], x_unit: str | None, z_unit: str | None, header: Header
 ) -> tuple[Array, Array, Array]:
     """Return axes and heights [m] of points (x, y, z) in any order; those left out are NaN."""
-    arguments = (("x_unit", x_unit), ("x_unit", x_unit), ("z_unit", z_unit))
-    units = [_column_unit(table, c, *unit) for c, unit in zip(columns, arguments, strict=True)]
+    along, up = ("x_unit", x_unit, header.x_unit), ("z_unit", z_unit, header.z_unit)
+    arguments = zip(columns, (along, along, up), strict=True)
+    units = [_column_unit(table, column, *unit) for column, unit in arguments]
     axes, numbers = [], []
     for column, unit in zip(columns[:2], units[:2], strict=True):
         printed = table.numbers(column, f"a distance in column {column + 1}")
@@ -359,74 +375,3 @@ def _points(
     z = np.full(nx * ny, np.nan)
     z[at] = heights
     return axes[0], axes[1], quantity_in_si(z.reshape(nx, ny), units[2], "length")
-
-
-_COUNTS, _SCALES = ("NumPoints", "NumProfiles"), ("Xscale", "Yscale", "Zscale")
-_LONGEST_HEADER = 2**16
-_PAIR = re.compile(r"^\s*([A-Za-z]\w*)\s*[=:\s]\s*(.*?)\s*$")
-_BINARY = (b"bISO", b"bBCR")
-_MOST_POINTS = 10**9
-"""Points along an axis beyond which a header is taken as damaged."""
-
-
-def is_sdf_text(path: Path, raw: bytes) -> bool:
-    """Return whether a file is read here: by its suffix, unless it is the binary form."""
-    return path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
-
-
-def read_sdf_text(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
-    """Return x, y and heights [m] of shape (points along x, profiles), NaN where missing.
-
-    Raises `FileError` if the header lacks a number, or there are not as many heights as it states.
-    """
-    head = raw[:_LONGEST_HEADER].decode("latin-1")
-    header, start = _header(head)
-    numbers: dict[str, float] = {}
-    for name in (*_COUNTS, *_SCALES):
-        text = header.get(name.lower(), "")
-        try:
-            numbers[name] = float(text)
-        except ValueError as error:
-            raise FileError(
-                f"{path}: expected a map in SDF with the number {name} in its header; got "
-                f"{checks.short_repr(text) if text else 'none'}"
-            ) from error
-    for name in _COUNTS:
-        value = numbers[name]
-        if not (1 <= value <= _MOST_POINTS and value == int(value)):
-            raise FileError(f"{path}: expected a whole number as {name}; got {value:g}")
-    points, profiles = (int(numbers[name]) for name in _COUNTS)
-    for name in _SCALES:
-        if not numbers[name] > 0.0:
-            raise FileError(f"{path}: expected {name} above zero [m]; got {header[name.lower()]}")
-    cells = raw[start:].replace(b"*", b" ").replace(b"BAD", b"nan").split()
-    if len(cells) != points * profiles:
-        raise FileError(
-            f"{path}: expected {points} x {profiles} heights by its header; got {len(cells)}"
-        )
-    try:
-        counts = np.array(cells).astype(float)
-    except ValueError as error:
-        raise FileError(
-            f"{path}: expected numbers as heights ({checks.shortened(str(error))})"
-        ) from error
-    heights = numbers["Zscale"] * counts.reshape(profiles, points).T
-    x, y = (
-        numbers[name] * np.arange(size, dtype=float)
-        for name, size in (("Xscale", points), ("Yscale", profiles))
-    )
-    return np.asarray(x, float), np.asarray(y, float), np.asarray(heights, float)
-
-
-def _header(head: str) -> tuple[dict[str, str], int]:
-    """Return the pairs of the header by name in small letters, and where the heights begin."""
-    header: dict[str, str] = {}
-    start = 0
-    for line in head.splitlines(keepends=True):
-        pair = _PAIR.match(line)
-        if pair:
-            header[pair[1].lower()] = pair[2]
-        elif header and line.strip():
-            return header, start + (len(line) if line.strip() == "*" else 0)
-        start += len(line)
-    return header, start

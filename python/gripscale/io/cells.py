@@ -1,0 +1,113 @@
+"""Lines of measured files as cells: numbers, marks of missing values, words, comments."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+Line = tuple[int, str]
+"""A line with its number in the file, from 1."""
+
+MISSING = {
+    *("", "nan", "na", "n/a", "n.a.", "n. a.", "n.v.", "n.b.", "k.a.", "k. a.", "null", "none"),
+    *("-", "--", "---", "–", "—", "bad", "#nv", "#n/v", "#na", "#n/a"),
+    *("#num!", "#zahl!", "#value!", "#wert!", "#div/0!", "#ref!", "#bezug!", "#name?", "#null!"),
+}
+"""What marks a missing value, in small letters; Excel has words for errors in each language."""
+MISSING_MARKS = "an empty cell, NaN, n/a, - or #NV marks a missing value"
+NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
+_THOUSANDS = re.compile(
+    r"(?<![\d.,])(?:\d{1,3}(?:\.\d{3})+(?=,\d+(?![\d.,]))|\d{1,3}(?:,\d{3})+(?=\.\d+(?![\d.,])))"
+)
+"""The whole part of a number with parted thousands, before its decimal sign."""
+SEPARATORS = ("\t", ";", ",", None)
+"""Separators of the cells of a line, in the order they are tried; None: blanks."""
+COMMENT = ("#", "%", "!")
+"""How a comment begins."""
+_NO_COMMENT = re.compile(
+    rf"({'|'.join(re.escape(word) for word in MISSING if word.startswith('#'))})\s*[\t;, ]", re.I
+)
+_REMARK = re.compile(r"(?<=[\d\s;,])#\s.*")
+"""A comment behind the cells of a row."""
+_MINUS = str.maketrans("\u2212", "-")
+
+
+def parse_number(cell: str) -> float | None:
+    """Return the number in a cell, NaN for a missing value, or None if there is neither."""
+    if cell.lower() in MISSING:
+        return float("nan")
+    return float(cell) if NUMBER.fullmatch(cell) else None
+
+
+def is_row(line: str) -> bool:
+    """Return whether a line is a row: at least two cells, numbers or missing, not all missing."""
+    return not is_comment(line) and any(
+        is_row_of(cells_of(line, separator)) for separator in SEPARATORS
+    )
+
+
+def is_row_of(cells: list[str]) -> bool:
+    """Return whether these are the cells of a row."""
+    return len(cells) >= 2 and any(map(is_number, cells)) and all(map(fits, cells))
+
+
+def is_comment(line: str) -> bool:
+    """Return whether a line is a comment."""
+    text = line.lstrip()
+    return text.startswith(COMMENT) and not _NO_COMMENT.match(text)
+
+
+def is_number(cell: str) -> bool:
+    """Return whether a cell holds a number, with either decimal sign."""
+    return bool(NUMBER.fullmatch(cell) or COMMA_NUMBER.fullmatch(cell))
+
+
+def fits(cell: str) -> bool:
+    """Return whether a cell may stand in a row of numbers."""
+    return cell.lower() in MISSING or is_number(cell)
+
+
+def cells_of(line: str, separator: str | None) -> list[str]:
+    """Return the cells of a line, without quotation marks and parted thousands."""
+    if not line.isascii():
+        line = line.translate(_MINUS)
+    if separator in ("\t", ";") and "," in line and "." in line:
+        line = _THOUSANDS.sub(lambda match: re.sub("[.,]", "", match[0]), line)
+    if "# " in line and not is_comment(line):
+        line = _REMARK.sub("", line).rstrip("\t;, ")
+    cells = list(map(str.strip, line.strip(" \r\n").split(separator)))
+    return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
+
+
+_ROWS_WITH_WORDS = 2
+"""Fewest rows by which a column of words is known."""
+
+
+def without_words(lines: list[Line]) -> list[Line]:
+    """Return lines whose columns of words, such as dates or samples, are empty below the titles.
+
+    A column is one of words if no row of the table has a number or a missing value in it. Lines
+    with a row of numbers only are returned as they are.
+    """
+    if any(is_row(text) for _, text in lines):
+        return lines
+    for separator in SEPARATORS[:3]:
+        rows = {
+            at: cells
+            for at, (_, text) in enumerate(lines)
+            if not is_comment(text) and sum(map(is_number, cells := cells_of(text, separator))) > 1
+        }
+        count = Counter(map(len, rows.values())).most_common(1)
+        if not count or count[0][1] < _ROWS_WITH_WORDS:
+            continue
+        table = {at: cells for at, cells in rows.items() if len(cells) == count[0][0]}
+        words = [not any(map(fits, column)) for column in zip(*table.values(), strict=True)]
+        sign = separator or " "
+        return [
+            (number, sign.join("" if w else c for w, c in zip(words, table[at], strict=True)))
+            if at in table
+            else (number, text)
+            for at, (number, text) in enumerate(lines)
+        ]
+    return lines

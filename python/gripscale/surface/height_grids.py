@@ -1,0 +1,109 @@
+"""Maps on a grid in text below a header of pairs: the surface data format, and the grid of ESRI.
+
+The surface data format (.sdf), ISO 25178-71, lists counts profile by profile:
+
+aISO-1.0            version
+    NumPoints   = 512   points along x of each profile
+    NumProfiles = 256   profiles along y
+    Xscale      = 1e-6  distance of points [m], Yscale that of profiles
+    Zscale      = 1e-9  height of one count [m]
+    *                   the heights follow
+    *                   end
+
+A grid of ESRI (.asc) lists heights row by row from north to south, in units that it does not state:
+
+    ncols 400           points along x of each row, nrows that of rows
+    cellsize 0.2        distance of points; or dx and dy
+    NODATA_value -9999  a missing height
+
+Names are taken in any case, with =, a colon or blanks before their value. BAD is a missing height.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from gripscale.core import checks
+from gripscale.core.arrays import Array
+from gripscale.core.errors import FileError
+
+_LONGEST_HEADER = 2**16
+_PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")
+_ESRI = re.compile(rb"\s*ncols[\s=:]", re.IGNORECASE)
+_BINARY = (b"bISO", b"bBCR")
+_MOST_POINTS = 10**9
+"""Points along an axis beyond which a header is taken as damaged."""
+
+
+def is_esri_grid(raw: bytes) -> bool:
+    """Return whether a file is a grid of ESRI in text, by its first word."""
+    return _ESRI.match(raw) is not None
+
+
+def is_sdf_text(path: Path, raw: bytes) -> bool:
+    """Return whether a file is in the surface data format as text: by its suffix."""
+    return path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
+
+
+def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
+    """Return x, y and heights of shape (points along x, profiles), NaN where missing.
+
+    They are in m of the surface data format, in the units of the file of a grid of ESRI. Raises
+    `FileError` if the header lacks a number, or there are not as many heights as it states.
+    """
+    header, start = _header(raw[:_LONGEST_HEADER].decode("latin-1"))
+    esri = is_esri_grid(raw)
+
+    def number(name: str, default: str = "") -> float:
+        text = header.get(name.lower(), default)
+        try:
+            value = float(text.replace(",", "."))
+        except ValueError as error:
+            raise FileError(
+                f"{path}: expected a map with the number {name} in its header; got "
+                f"{checks.short_repr(text) if text else 'none'}"
+            ) from error
+        if not value > 0.0 and not default:
+            raise FileError(f"{path}: expected {name} above zero; got {text}")
+        return value
+
+    along, across = ("ncols", "nrows") if esri else ("NumPoints", "NumProfiles")
+    for name in (along, across):
+        if not (number(name) <= _MOST_POINTS and number(name) == int(number(name))):
+            raise FileError(f"{path}: expected a whole number as {name}; got {number(name):g}")
+    points, profiles = int(number(along)), int(number(across))
+    by_axis = ("dx", "dy") if "dx" in header else ("cellsize", "cellsize")
+    dx, dy = map(number, by_axis if esri else ("Xscale", "Yscale"))
+    cells = raw[start:].replace(b"*", b" ").replace(b"BAD", b"nan").replace(b",", b".").split()
+    if len(cells) != points * profiles:
+        raise FileError(
+            f"{path}: expected {points} x {profiles} heights by its header; got {len(cells)}"
+        )
+    try:
+        counts = np.array(cells).astype(float).reshape(profiles, points)
+    except ValueError as error:
+        raise FileError(
+            f"{path}: expected numbers as heights ({checks.shortened(str(error))})"
+        ) from error
+    if esri:
+        counts = np.where(counts == number("NODATA_value", "-9999"), np.nan, counts)[::-1]
+    else:
+        counts *= number("Zscale")
+    return dx * np.arange(points, dtype=float), dy * np.arange(profiles, dtype=float), counts.T
+
+
+def _header(head: str) -> tuple[dict[str, str], int]:
+    """Return the pairs of the header by name in small letters, and where the heights begin."""
+    header: dict[str, str] = {}
+    start = 0
+    for line in head.splitlines(keepends=True):
+        pair = _PAIR.match(line)
+        if pair:
+            header[pair[1].lower()] = pair[2]
+        elif header and line.strip():
+            return header, start + (len(line) if line.strip() == "*" else 0)
+        start += len(line)
+    return header, start
