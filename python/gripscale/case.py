@@ -237,6 +237,17 @@ class Case:
         return self.origin.name or "a case made in Python"
 
     @property
+    def title(self) -> str:
+        """Rubber and surface in words, such as "tread on motorway"."""
+        measured, count = self.surface.measured, len(self.surface.sines)
+        surface = f"{count} sine {'wave' if count == 1 else 'waves'}"
+        if measured is not None:
+            lines = [raw.name for raw, _ in measured.profiles]
+            surface = lines[0] if measured.map is None else measured.map.name
+            surface += f" and {len(lines) - 1} more" if measured.map is None and lines[1:] else ""
+        return f"{self.rubber.name or 'a rubber'} on {surface or 'a surface'}"
+
+    @property
     def units(self) -> Mapping[str, str]:
         """Units that the case states, by key."""
         return self.origin.units

@@ -1,27 +1,30 @@
-"""What the commands share: where they print, and how an error becomes one sentence and a code."""
+"""What the commands share: what they print and where, and how an error becomes a sentence."""
 
 from __future__ import annotations
 
+import inspect
 import os
 import sys
 import textwrap
 import time
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
-from functools import partial, wraps
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, ParamSpec
 
 import typer
 
-from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
+from gripscale.core.errors import ConvergenceError, GripscaleError
 from gripscale.core.wording import Words
 
 if TYPE_CHECKING:
     import xarray as xr
     from pydantic import BaseModel
     from rich.console import Console
+    from rich.status import Status
 
+    from gripscale.case import Case, NamedFile
     from gripscale.case_file import CaseFile
     from gripscale.core.finding import Finding
     from gripscale.experiment.solve import Progress
@@ -41,17 +44,34 @@ PLAIN_WIDTH = 100
 P = ParamSpec("P")
 
 
+class Manner(NamedTuple):
+    """How a command on a case prints, and whether it replaces results of another case."""
+
+    quiet: bool = False
+    json: bool = False
+    replace: bool = False
+
+
+_USUAL = Manner()
+MANNER: ContextVar[Manner] = ContextVar("manner", default=_USUAL)
+"""Manner of the running command."""
+
+
 def screen(stderr: bool = False) -> Console:
-    """Return a console for a terminal, or for a plain file or pipe of sensible width."""
+    """Return a console for a terminal, or for a plain file or pipe of sensible width.
+
+    It prints nothing to standard output where the command prints its result only.
+    """
     from rich.console import Console
 
-    stream = sys.stderr if stderr else sys.stdout
+    stream, manner = sys.stderr if stderr else sys.stdout, MANNER.get()
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
-    return Console(stderr=stderr, width=wide, highlight=False, markup=False)
+    quiet = not stderr and (manner.quiet or manner.json)
+    return Console(stderr=stderr, width=wide, highlight=False, markup=False, quiet=quiet)
 
 
 def print_error(message: str) -> None:
-    """Print one sentence to stderr, unwrapped."""
+    """Print what is wrong, one sentence, to stderr, unwrapped."""
     from rich.text import Text
 
     text = Text("error: ", style="bold red").append(message, style="not bold default")
@@ -67,10 +87,10 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     if isinstance(error, KeyboardInterrupt):
         target = RESULTS_FOLDER.get()
         if target is None or not any(target.rglob("[!.]*.nc")):
-            return "stopped; nothing was finished", STOPPED
+            return "Stopped; nothing was finished.", STOPPED
         stopped = (
-            f"stopped; finished results are kept in {target}, "
-            "and the same command continues from them"
+            f"Stopped; what was finished is kept in {target}, and the same command continues "
+            "from there."
         )
         return stopped, STOPPED
     from gripscale.report.failures import explained
@@ -106,29 +126,86 @@ def print_parts(console: Console, parts: Iterable[str | Table]) -> None:
             console.print(part)
 
 
+_STATUS: ContextVar[Status | None] = ContextVar("status", default=None)
+"""The line of a terminal that shows the last step of the work."""
+READING = "reading and fitting the measurements ..."
+PROGRESS_LINES = "GRIPSCALE_PROGRESS_LINES"
+"""Variable of the environment: set, each step of the work has a line of its own, as for a log."""
+
+
+def show_step(console: Console, text: str) -> None:
+    """Write a step of the work over the one before it in a terminal; write nothing elsewhere.
+
+    The terminal is that of the errors where standard output is a file or holds the result only.
+    """
+    from rich.text import Text
+
+    if os.environ.get(PROGRESS_LINES):
+        print_wrapped(console, text)
+        return
+    if console.quiet or not console.is_terminal:
+        console = screen(stderr=True)
+    if MANNER.get().quiet or not console.is_terminal:
+        return
+    status = _STATUS.get()
+    if status is None:
+        status = console.status("", refresh_per_second=4.0)
+        status.start()
+        _STATUS.set(status)
+    status.update(Text(text.strip(), no_wrap=True, overflow="ellipsis"))
+
+
+def end_steps() -> None:
+    """Clear the line of the steps."""
+    status = _STATUS.get()
+    if status is not None:
+        status.stop()
+        _STATUS.set(None)
+
+
+def print_result(result: Result, files: Sequence[NamedFile]) -> None:
+    """Print a result as `--quiet` or `--json` ask for it; without them nothing.
+
+    `files` are those that the case names.
+    """
+    from gripscale.questions.result import warning_lines
+    from gripscale.questions.result_json import result_as_json
+
+    manner = MANNER.get()
+    if manner.json:
+        typer.echo(result_as_json(result, files))
+    elif manner.quiet:
+        console = screen()
+        console.quiet = False
+        print_parts(console, [*result.lines, *warning_lines(result.findings)])
+
+
 def conclude(
     console: Console,
     target: Path,
+    case: Case,
+    result: Result,
     parts: Sequence[str | Table],
     *,
     results: Sequence[xr.Dataset],
     text: str,
     closing: str,
+    page: Callable[[], Path],
     opening: Sequence[str | Table] = (),
     lead: Sequence[str] = (),
     warnings: Sequence[Finding] = (),
     width: int = PLAIN_WIDTH,
     files: Mapping[str, str] | None = None,
     draw: Callable[[], object] | None = None,
-    page: Callable[[], Path] | None = None,
     failure: str = "",
-) -> None:
+) -> Sequence[str | Table]:
     """End a command: print and write what it found, draw its figures, set the exit code.
 
     The numbers of `results` are written as a flat table for Excel.
-    `lead`, the answer, the first of the ranked `warnings` and `parts` are printed. The file `text`,
+    `lead`, the answer, the first of the ranked `warnings` and `parts` are printed, or `result`
+    alone where the command is asked for no more. The file `text`,
     with lines of `width`, has `lead`, all warnings, then `opening`, which the screen shows already,
-    then `parts`; `files` are further texts by name.
+    then `parts`: these are returned. `files` are further texts by name.
     `closing` says what is in the folder. `page` writes a page, where the libraries for it are
     installed; `failure` is what has no result, and sets the exit code.
     """
@@ -137,6 +214,7 @@ def conclude(
     from gripscale.questions.result import warning_lines
     from gripscale.questions.summary_table import write_summary
 
+    end_steps()
     console.print()
     print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
     answer = [*lead, *warning_lines(warnings)]
@@ -145,18 +223,22 @@ def conclude(
     for name, content in texts.items():
         write_text(target / name, content)
     write_summary(results, target)
+    show_step(console, "drawing figures and page ...")
     if draw is not None:
         draw()
+    try:
+        words = f"Page: {page()}"
+    except GripscaleError as error:  # such as an extra that is not installed
+        words = f"note: no page; {error}"
+    end_steps()
     console.print()
     print_wrapped(console, f"{closing} {target}")
-    if page is not None:
-        try:
-            print_wrapped(console, f"Page: {page()}")
-        except InputError as error:  # the extra is not installed
-            print_wrapped(console, f"note: no page; {error}")
+    print_wrapped(console, words)
+    print_result(result, case.origin.files)
     if failure:
         print_error(failure)
         raise typer.Exit(_NOT_CONVERGED)
+    return [*above, *parts]
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -167,14 +249,55 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         RESULTS_FOLDER.set(None)
         try:
             body(*args, **kwargs)
-        except (GripscaleError, KeyboardInterrupt) as error:
-            if isinstance(error, GripscaleError):
-                error.args = (with_options(error.words, kwargs),)
+        except GripscaleError as error:
+            end_steps()
+            error.args = (with_options(error.words, kwargs),)
             message, exit_code = failure_of(error)
             print_error(message)
             raise typer.Exit(exit_code) from None
+        except KeyboardInterrupt as error:
+            end_steps()
+            message, exit_code = failure_of(error)
+            screen(stderr=True).print(message, soft_wrap=True)
+            raise typer.Exit(exit_code) from None
 
     return inside
+
+
+_SHARED = {
+    "quiet": Annotated[
+        bool,
+        typer.Option("--quiet", "-q", help="Print the answer and what may change it, no more."),
+    ],
+    "json": Annotated[
+        bool, typer.Option("--json", help="Print the result as JSON in SI units, and nothing else.")
+    ],
+    "replace": Annotated[
+        bool,
+        typer.Option("--replace", help="Replace results of another case in the results folder."),
+    ],
+}
+"""Options of every command on a case, by the fields of `Manner`."""
+
+
+def case_command(body: Callable[..., None]) -> Callable[..., None]:
+    """Return the command of a question about a case, with the options that all of these have."""
+
+    @wraps(body)
+    def inside(**options: Any) -> None:
+        MANNER.set(Manner(**{name: options.pop(name) for name in _SHARED}))
+        body(**options)
+
+    signature = inspect.signature(body, eval_str=True)
+    shared = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=kind)
+        for name, kind in _SHARED.items()
+    ]
+    parameters = [*signature.parameters.values(), *shared]
+    outside = command(inside)
+    outside.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    outside.__annotations__ = {item.name: item.annotation for item in parameters}
+    return outside
 
 
 WORTH_WAITING = 2.0
@@ -191,10 +314,10 @@ def time_left(seconds: float) -> str:
 
 
 def progress_printer(console: Console) -> Callable[[Progress], None]:
-    """Return what prints a line for each prediction, with the time that the others may take."""
+    """Return what shows each prediction as a step, with the time that the others may take."""
     begun, solved = time.monotonic(), 0
 
-    def print_line(progress: Progress) -> None:
+    def show(progress: Progress) -> None:
         nonlocal solved
         solved += not progress.stored
         answer = progress.result
@@ -207,13 +330,13 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
             if answer.nominal_speed > 0.0:
                 text += f", friction {float(answer.total_friction):.3f}"
         if progress.stored:
-            print_wrapped(console, f"{text}, already solved")
+            show_step(console, f"{text}, already solved")
             return
         each = (time.monotonic() - begun) / solved
         wait = time_left(each * (progress.total - progress.done))
-        print_wrapped(console, f"{text}, {progress.seconds:.1f} s{wait}")
+        show_step(console, f"{text}, {progress.seconds:.1f} s{wait}")
 
-    return print_line
+    return show
 
 
 def option(text: str, *names: str, metavar: str | None = None) -> Any:
@@ -291,18 +414,19 @@ def columns_of(text: str) -> dict[str, str | int] | list[str | int]:
 
 
 def open_folder(
-    file: CaseFile, output: Path | None, name: str, *opening: str
+    file: CaseFile, case: Case, output: Path | None, name: str, *opening: str
 ) -> tuple[Console, Path]:
-    """Print what a command begins with and make its folder `name`, by default in the case's."""
-    from gripscale.io.folders import make_folder, require_writable
+    """Make the folder `name`, by default in the case's, then print what a command begins with."""
+    from gripscale.case_file.folder import claim
 
     target = output or file.resolve(file.case.output.folder) / name
-    require_writable(target)
+    claim(target, file.path, replace=MANNER.get().replace)
     RESULTS_FOLDER.set(target)
+    end_steps()
     console = screen()
-    for line in opening:
+    for line in (*opening, case.title):
         print_wrapped(console, line)
-    make_folder(target)
+    show_step(console, "solving ...")
     return console, target
 
 
@@ -316,12 +440,13 @@ class CaseCommand:
         from gripscale.case_file import read_case, read_case_file
 
         self.file = read_case_file(path)
+        show_step(screen(), READING)
         self.case = read_case(self.file)
 
     def open_results(self, output: Path | None, name: str, *opening: str) -> None:
         """Print what the command begins with; its folder and its text are called `name`."""
         self._text = f"{name}.txt"
-        self.console, self.target = open_folder(self.file, output, name, *opening)
+        self.console, self.target = open_folder(self.file, self.case, output, name, *opening)
 
     def solving(self, workers: int | None) -> dict[str, Any]:
         """Return where a question keeps what it solves, on how many cores, and what tells of it."""
@@ -338,14 +463,12 @@ class CaseCommand:
         drawings: str = "figures",
         files: Mapping[str, str] | None = None,
         keep_figures: bool = False,
-        page: bool = False,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
         `contents` is what the folder holds beside the result, `text` the file of what is printed
         where it has another name, and `drawings` the folder of the figures; `files` are further
-        texts by name. With `keep_figures` figures of an earlier run stay as they are. With `page`
-        the page of the result is written, too.
+        texts by name. With `keep_figures` figures of an earlier run stay as they are.
         """
         from gripscale.charts.figure_folder import FigureFolder
         from gripscale.io.folders import make_folder
@@ -364,6 +487,8 @@ class CaseCommand:
         conclude(
             self.console,
             target,
+            self.case,
+            result,
             list(result.parts()),
             results=[result.data],
             lead=result.lines,
@@ -373,6 +498,6 @@ class CaseCommand:
             opening=opening,
             files=files,
             draw=draw,
-            page=partial(result.page, target / "report.html") if page else None,
+            page=lambda: result.page(target / "report.html"),
             failure=result.failure,
         )

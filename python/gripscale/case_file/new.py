@@ -5,7 +5,6 @@ What was taken for granted is listed as doubts, the weightiest first.
 
 from __future__ import annotations
 
-import os
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -34,7 +33,7 @@ from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import temperature_in_kelvin
-from gripscale.io.folders import make_folder, write_text
+from gripscale.io.folders import make_folder, path_between, write_text
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
@@ -134,13 +133,7 @@ def propose(
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     layout = layout or {}
     surfaces, rubbers, shifts, skipped = _sorted(files, step, layout)
-    names: dict[Path, str] = {}
-    for file in (*surfaces, *rubbers, *shifts):
-        try:
-            path = os.path.relpath(file.resolve(), directory.resolve())
-        except ValueError:  # on two drives
-            path = str(file.resolve())
-        names[file] = Path(path).as_posix()
+    names = {file: path_between(directory, file) for file in (*surfaces, *rubbers, *shifts)}
     rubber_options = {"temperature": kelvin, "shift": shift, "layout": layout}
     of_load = Proposal()
     for key, default in _LOAD.items():

@@ -14,10 +14,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.core.errors import FileError, GripscaleError
-from gripscale.terminal import CasePath, argument, command, option
+from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.terminal import CasePath, argument, case_command, command, option
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
+    from gripscale.case_file import CaseFile
     from gripscale.questions.chain.events import Event, OnEvent
 
 
@@ -28,7 +31,7 @@ class ProgressFormat(StrEnum):
     JSON = "json"
 
 
-@command
+@case_command
 def run(
     case: CasePath,
     output: Annotated[
@@ -55,19 +58,15 @@ def run(
     from gripscale.io.folders import require_writable
 
     as_json = progress == ProgressFormat.JSON
+    if as_json and terminal.MANNER.get().json:
+        raise InputError("expected either --json (the result) or --progress json (its events)")
     console = terminal.screen(stderr=as_json)
     with _json_events(progress) as emit:
         file = read_case_file(case)
         target = output if output is not None else file.resolve(file.case.output.folder)
         shown_too = (target / "uncertainty" / "uncertainty.nc",)
         if not (fresh or as_json) and is_finished(file, target, shown_too):
-            report = target / terminal.RUN_REPORT
-            date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
-            typer.echo(report.read_text(encoding="utf-8"))
-            words = f"Finished {date}. Case, files and software are the same; nothing was solved "
-            terminal.print_wrapped(
-                console, f"{words}again (--fresh does). {terminal.RUN_CLOSING} {target}"
-            )
+            _show_again(console, file, target)
             return
         require_writable(target)
         terminal.RESULTS_FOLDER.set(target)
@@ -75,8 +74,31 @@ def run(
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            solve_run(console, emit, file, target, figures, fresh)
-            note_finished(file, target, shown_too)
+            report = solve_run(console, emit, file, target, figures, fresh)
+            note_finished(file, target, shown_too, report)
+
+
+def _show_again(console: Console, file: CaseFile, target: Path) -> None:
+    """Print the report on a finished run once more, as wide as the terminal is now."""
+    from gripscale.case_file.folder import finished_report
+
+    time = (target / terminal.RUN_REPORT).stat().st_mtime
+    terminal.print_parts(console, finished_report(target))
+    console.print()
+    terminal.print_wrapped(
+        console,
+        f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}. Case, files and software are the "
+        f"same; nothing was solved again (--fresh does). {terminal.RUN_CLOSING} {target}",
+    )
+    if any(terminal.MANNER.get()):
+        from gripscale.case_file import read_case
+        from gripscale.case_file.prepare import named_files
+        from gripscale.questions.answer.answer import ANSWER_FILE, answer
+        from gripscale.questions.stored import load
+
+        stored = target / ANSWER_FILE  # of sine waves there is none, and nothing to solve
+        result = load(stored) if stored.is_file() else answer(read_case(file))
+        terminal.print_result(result, named_files(file))
 
 
 @contextmanager

@@ -204,6 +204,28 @@ class Table:
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
 
+    def to_json(self) -> dict[str, Any]:
+        """Return the table as shown, with the texts of its numbers, as JSON knows it."""
+        columns = [
+            {
+                **{name: getattr(column, name) for name in ("name", "heading", "unit", "group")},
+                "values": column.texts(),
+                "marks": list(column.marks),
+                "bad": [bool(flag) for flag in column.bad],
+                "words": column.as_words,
+            }
+            for column in self.columns
+        ]
+        kept = {name: getattr(self, name) for name in ("name", "caption", "keys")}
+        lists = {name: list(getattr(self, name)) for name in ("notes", "strong", "rules")}
+        return {**kept, **lists, "bad": [bool(flag) for flag in self.bad], "columns": columns}
+
+    @classmethod
+    def from_json(cls, content: dict[str, Any]) -> Table:
+        """Return the table of `to_json`."""
+        columns = [Column(**column) for column in content["columns"]]
+        return cls(**{**content, "columns": columns})
+
     def is_bad(self, column: Column, row: int) -> bool:
         """Return whether a cell must not be trusted."""
         flags = (self.bad, column.bad)

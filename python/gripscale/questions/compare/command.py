@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gripscale.questions.compare.comparison import SolvedLadder
 
 
-@terminal.command
+@terminal.case_command
 def compare_command(
     case: terminal.CasePath,
     vary: Annotated[
@@ -63,6 +63,7 @@ def compare_command(
     from gripscale.questions.calibration.page import residual_table
     from gripscale.questions.chain.charts import effects_figure
     from gripscale.questions.compare import charts, comparison, ladder, page, question
+    from gripscale.questions.page_of_folder import write_report
     from gripscale.questions.result import warning_lines
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
@@ -71,9 +72,10 @@ def compare_command(
 
     axes = None if vary is None else dict([axis.parse_vary(vary, comparison.COMPARED_OVER)])
     file = read_case_file(case)
+    terminal.show_step(terminal.screen(), terminal.READING)
     read = read_case(file)
     opening = f"Comparison of models for {file.path}"
-    console, target = terminal.open_folder(file, output, "comparison", opening)
+    console, target = terminal.open_folder(file, read, output, "comparison", opening)
     on_task = terminal.progress_printer(console)
     solving: dict[str, Any] = {"workers": workers, "client": cluster, "on_task": on_task}
     stages: list[SolvedLadder] = []
@@ -140,11 +142,14 @@ def compare_command(
     terminal.conclude(
         console,
         target,
+        read,
+        result,
         parts,
         results=[result.data],
         opening=[*result.lines, *warning_lines(result.findings)],
         text=text,
         closing=f"Tables, figures and result ({result.file}) are in",
         draw=draw,
+        page=lambda: write_report(target),
         failure=result.failure,
     )

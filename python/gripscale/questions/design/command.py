@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, OwnFolder, Workers, command, option, print_wrapped
+from gripscale.terminal import CasePath, OwnFolder, Workers, case_command, option, print_wrapped
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-@command
+@case_command
 def design_command(
     case: CasePath,
     goal: Annotated[
@@ -103,4 +103,4 @@ def design_command(
     )
     write_targets(result.data, work.target)
     contents = "figure, and master curve, Prony series and rubber of each point (target_*)"
-    work.finish(result, contents, drawings="", page=True)
+    work.finish(result, contents, drawings="")

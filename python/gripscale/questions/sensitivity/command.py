@@ -7,10 +7,10 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
+from gripscale.terminal import CasePath, OwnFolder, Workers, case_command, option
 
 
-@command
+@case_command
 def sensitivity_command(
     case: CasePath,
     vary: Annotated[

@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
+from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, case_command, option
 
 
-@command
+@case_command
 def study_command(
     case: CasePath,
     vary: Annotated[

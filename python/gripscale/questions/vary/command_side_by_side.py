@@ -10,7 +10,7 @@ import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import OwnFolder, Workers, argument, command, option
+from gripscale.terminal import OwnFolder, Workers, argument, case_command, option
 
 
 def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
@@ -24,7 +24,7 @@ def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     return chosen
 
 
-@command
+@case_command
 def compare_surfaces_command(
     surfaces: Annotated[
         list[str],
@@ -63,10 +63,10 @@ def compare_surfaces_command(
         samples=samples or None,
         **work.solving(workers),
     )
-    work.finish(roads, "tables and figures", drawings="", page=True)
+    work.finish(roads, "tables and figures", drawings="")
 
 
-@command
+@case_command
 def compare_rubbers(
     rubbers: Annotated[
         list[str],
@@ -116,4 +116,4 @@ def compare_rubbers(
         **work.solving(workers),
     )
     contents = "table and figures"
-    work.finish(compounds, contents, text="compounds.txt", drawings="", page=True)
+    work.finish(compounds, contents, text="compounds.txt", drawings="")
