@@ -367,6 +367,14 @@ MeasuredPath = Annotated[
         metavar="FILE.csv",
     ),
 ]
+Modulus = Annotated[
+    str | None,
+    option(
+        "E (Young) or G (shear), of files of moduli that do not state it.",
+        "--modulus",
+        metavar="E|G",
+    ),
+]
 Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
     str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')

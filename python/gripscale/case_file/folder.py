@@ -21,6 +21,7 @@ from itertools import count
 from pathlib import Path
 from typing import get_args
 
+from gripscale.case_file.json_schema import write_schema
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import GripscaleError, InputError
@@ -203,6 +204,7 @@ def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> 
     make_folder(folder / INPUTS if saved.copies else folder)
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
+    write_schema(saved.text, folder)
     write_text(folder / case_name, saved.text)
 
 

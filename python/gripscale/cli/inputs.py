@@ -14,6 +14,7 @@ import typer
 from gripscale.core.errors import about_keys
 from gripscale.terminal import (
     COLUMNS,
+    Modulus,
     argument,
     column_of,
     columns_of,
@@ -83,13 +84,21 @@ def keys(
             "A table of the case, such as rubber or conditions.heat; all by default.", "SECTION"
         ),
     ] = None,
+    schema: Annotated[
+        bool,
+        typer.Option("--schema", help="Print the JSON Schema of a case instead, for editors."),
+    ] = False,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""
+    from gripscale.case_file.json_schema import case_schema
     from gripscale.case_file.keys import sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
     from gripscale.report.failures import chapter_words
 
+    if schema:
+        typer.echo(case_schema())
+        return
     chosen = sections()
     if section is not None:
         checks.one_of("section", section, dict.fromkeys(part.name for part in chosen))
@@ -224,7 +233,7 @@ def fit_rubber(
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
     modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
-    modulus: Annotated[str | None, option("E (Young) or G (shear).")] = None,
+    modulus: Modulus = None,
     bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
     reference_temperature: Annotated[
         str | None, option('Such as "20 C": where sweeps are shifted to.')

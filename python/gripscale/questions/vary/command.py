@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, case_command, option
+from gripscale.terminal import CasePath, Cluster, Modulus, OwnFolder, Workers, case_command, option
 
 
 @case_command
@@ -37,6 +37,7 @@ def study_command(
     ] = 0.05,
     workers: Workers = None,
     cluster: Cluster = None,
+    modulus: Modulus = None,
     static: Annotated[
         bool | None,
         option("Also the rubber at rest; as the case says by default.", "--static/--no-static"),
@@ -51,7 +52,7 @@ def study_command(
 
     axes = parse_axes(vary)
     work = terminal.CaseCommand(case)
-    varied = read_named_inputs(axes, work.file)
+    varied = read_named_inputs(axes, work.file, modulus)
     planned = Study(work.case, varied, static=static, model=model, tolerance=tolerance)
     work.open_results(output, "study")
     stored = planned.stored(work.target)

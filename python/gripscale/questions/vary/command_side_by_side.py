@@ -10,7 +10,7 @@ import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import OwnFolder, Workers, argument, case_command, option
+from gripscale.terminal import Modulus, OwnFolder, Workers, argument, case_command, option
 
 
 def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
@@ -86,6 +86,7 @@ def compare_rubbers(
     temperature: Annotated[
         str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
     ] = None,
+    modulus: Modulus = None,
     uncertainty: Annotated[
         bool, typer.Option(help="Predict what each measurement leaves open, too.")
     ] = True,
@@ -108,7 +109,7 @@ def compare_rubbers(
     compounds = compare_compounds(
         work.case,
         {
-            name: read_rubber(value, work.file)
+            name: read_rubber(value, work.file, modulus)
             for name, value in zip(names_of(rubbers), rubbers, strict=True)
         },
         temperature=kelvin,
