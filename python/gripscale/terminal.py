@@ -9,7 +9,7 @@ import textwrap
 import time
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
-from functools import wraps
+from functools import cached_property, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, ParamSpec
 
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from rich.status import Status
 
     from gripscale.case import Case, NamedFile
-    from gripscale.case_file import CaseFile
-    from gripscale.core.finding import Finding
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
@@ -50,6 +48,8 @@ class Manner(NamedTuple):
     quiet: bool = False
     json: bool = False
     replace: bool = False
+    events: bool = False
+    """Whether standard output has events for a program."""
 
 
 _USUAL = Manner()
@@ -64,7 +64,9 @@ def screen(stderr: bool = False) -> Console:
     """
     from rich.console import Console
 
-    stream, manner = sys.stderr if stderr else sys.stdout, MANNER.get()
+    manner = MANNER.get()
+    stderr = stderr or manner.events
+    stream = sys.stderr if stderr else sys.stdout
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
     quiet = not stderr and (manner.quiet or manner.json)
     return Console(stderr=stderr, width=wide, highlight=False, markup=False, quiet=quiet)
@@ -128,7 +130,6 @@ def print_parts(console: Console, parts: Iterable[str | Table]) -> None:
 
 _STATUS: ContextVar[Status | None] = ContextVar("status", default=None)
 """The line of a terminal that shows the last step of the work."""
-READING = "reading and fitting the measurements ..."
 PROGRESS_LINES = "GRIPSCALE_PROGRESS_LINES"
 """Variable of the environment: set, each step of the work has a line of its own, as for a log."""
 
@@ -178,67 +179,6 @@ def print_result(result: Result, files: Sequence[NamedFile]) -> None:
         console = screen()
         console.quiet = False
         print_parts(console, [*result.lines, *warning_lines(result.findings)])
-
-
-def conclude(
-    console: Console,
-    target: Path,
-    case: Case,
-    result: Result,
-    parts: Sequence[str | Table],
-    *,
-    results: Sequence[xr.Dataset],
-    text: str,
-    closing: str,
-    page: Callable[[], Path],
-    opening: Sequence[str | Table] = (),
-    lead: Sequence[str] = (),
-    warnings: Sequence[Finding] = (),
-    width: int = PLAIN_WIDTH,
-    files: Mapping[str, str] | None = None,
-    draw: Callable[[], object] | None = None,
-    failure: str = "",
-) -> Sequence[str | Table]:
-    """End a command: print and write what it found, draw its figures, set the exit code.
-
-    The numbers of `results` are written as a flat table for Excel.
-    `lead`, the answer, the first of the ranked `warnings` and `parts` are printed, or `result`
-    alone where the command is asked for no more. The file `text`,
-    with lines of `width`, has `lead`, all warnings, then `opening`, which the screen shows already,
-    then `parts`: these are returned. `files` are further texts by name.
-    `closing` says what is in the folder. `page` writes a page, where the libraries for it are
-    installed; `failure` is what has no result, and sets the exit code.
-    """
-    from gripscale.io.folders import write_text
-    from gripscale.io.table import as_text
-    from gripscale.questions.result import warning_lines
-    from gripscale.questions.summary_table import write_summary
-
-    end_steps()
-    console.print()
-    print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
-    answer = [*lead, *warning_lines(warnings)]
-    above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
-    texts = {text: as_text(*above, *parts, width=width), **(files or {})}
-    for name, content in texts.items():
-        write_text(target / name, content)
-    write_summary(results, target)
-    show_step(console, "drawing figures and page ...")
-    if draw is not None:
-        draw()
-    try:
-        words = f"Page: {page()}"
-    except GripscaleError as error:  # such as an extra that is not installed
-        words = f"note: no page; {error}"
-    end_steps()
-    console.print()
-    print_wrapped(console, f"{closing} {target}")
-    print_wrapped(console, words)
-    print_result(result, case.origin.files)
-    if failure:
-        print_error(failure)
-        raise typer.Exit(_NOT_CONVERGED)
-    return [*above, *parts]
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -421,43 +361,49 @@ def columns_of(text: str) -> dict[str, str | int] | list[str | int]:
     return {quantity.strip(): column_of(column) for quantity, column in pairs}
 
 
-def open_folder(
-    file: CaseFile, case: Case, output: Path | None, name: str, *opening: str
-) -> tuple[Console, Path]:
-    """Make the folder `name`, by default in the case's, then print what a command begins with."""
-    from gripscale.case_file.folder import claim
-
-    target = output or file.resolve(file.case.output.folder) / name
-    claim(target, file.path, replace=MANNER.get().replace)
-    RESULTS_FOLDER.set(target)
-    end_steps()
-    console = screen()
-    for line in (*opening, case.title):
-        print_wrapped(console, line)
-    show_step(console, "solving ...")
-    return console, target
-
-
 class CaseCommand:
     """A command that asks a question of a case: the case, where it prints, and its folder.
 
     `open_results` comes after all that may be refused: before it, nothing is printed or written.
     """
 
-    def __init__(self, path: Path) -> None:
-        from gripscale.case_file import read_case, read_case_file
+    target: Path
+    """Folder of its results."""
 
-        self.file = read_case_file(path)
-        show_step(screen(), READING)
-        self.case = read_case(self.file)
+    def __init__(self, path: Path) -> None:
+        from gripscale.case_file import read_case_file
+
+        self.file, self.console = read_case_file(path), screen()
+
+    @cached_property
+    def case(self) -> Case:
+        """The case, read when it is first needed."""
+        from gripscale.case_file import read_case
+
+        show_step(self.console, "reading and fitting the measurements ...")
+        return read_case(self.file)
 
     def open_results(self, output: Path | None, name: str, *opening: str) -> None:
-        """Print what the command begins with; its folder and its text are called `name`."""
+        """Make the folder of results, then print what the command begins with.
+
+        Folder and text are called `name`; the folder is in that of the case by default.
+        """
+        from gripscale.case_file.folder import claim
+        from gripscale.io.folders import require_writable
+
         self._text = f"{name}.txt"
-        self.console, self.target = open_folder(self.file, self.case, output, name, *opening)
+        self.target = output or self.file.resolve(self.file.case.output.folder) / name
+        require_writable(self.target)
+        RESULTS_FOLDER.set(self.target)
+        lines = (*opening, self.case.title)
+        claim(self.target, self.file.path, replace=MANNER.get().replace)
+        end_steps()
+        for line in lines:
+            print_wrapped(self.console, line)
 
     def solving(self, workers: int | None) -> dict[str, Any]:
         """Return where a question keeps what it solves, on how many cores, and what tells of it."""
+        show_step(self.console, "solving ...")
         progress = progress_printer(self.console)
         return {"folder": self.target, "workers": workers, "on_task": progress}
 
@@ -492,20 +438,67 @@ class CaseCommand:
             for name, figure in result.figures():
                 figures.save(figure, name)
 
-        conclude(
-            self.console,
-            target,
-            self.case,
+        self.conclude(
             result,
             list(result.parts()),
-            results=[result.data],
-            lead=result.lines,
-            warnings=result.findings,
             text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
             opening=opening,
             files=files,
             draw=draw,
-            page=lambda: result.page(target / "report.html"),
-            failure=result.failure,
         )
+
+    def conclude(
+        self,
+        result: Result,
+        parts: Sequence[str | Table],
+        *,
+        text: str,
+        closing: str,
+        draw: Callable[[], object],
+        opening: Sequence[str | Table] = (),
+        answer_printed: bool = False,
+        results: Sequence[xr.Dataset] = (),
+        width: int = PLAIN_WIDTH,
+        files: Mapping[str, str] | None = None,
+        page: Callable[[Path], Path] | None = None,
+    ) -> Sequence[str | Table]:
+        """Print and write what the command found, draw figures and page, set the exit code.
+
+        The answer, unless it is printed already, the first findings and `parts` are printed, or the
+        answer alone where no more is asked for. The file `text`, with lines of `width`, has the
+        answer, all findings, then `opening`, which the screen shows already, then `parts`: these
+        are returned. `files` are further texts by name; the numbers of `results` are written as a
+        flat table for Excel. `closing` says what is in the folder.
+        """
+        from gripscale.io.folders import write_text
+        from gripscale.io.table import as_text
+        from gripscale.questions.result import warning_lines
+        from gripscale.questions.summary_table import write_summary
+
+        target, console, findings = self.target, self.console, result.findings
+        end_steps()
+        console.print()
+        lead = () if answer_printed else (*result.lines, *warning_lines(findings, text))
+        print_parts(console, [*lead, *parts])
+        answer = [*result.lines, *warning_lines(findings)]
+        above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
+        texts = {text: as_text(*above, *parts, width=width), **(files or {})}
+        for name, content in texts.items():
+            write_text(target / name, content)
+        write_summary(results or [result.data], target)
+        show_step(console, "drawing figures and page ...")
+        draw()
+        try:
+            words = f"Page: {(page or result.page)(target / 'report.html')}"
+        except GripscaleError as error:  # such as an extra that is not installed
+            words = f"note: no page; {error}"
+        end_steps()
+        console.print()
+        print_wrapped(console, f"{closing} {target}")
+        print_wrapped(console, words)
+        print_result(result, self.case.origin.files)
+        if result.failure:
+            print_error(result.failure)
+            raise typer.Exit(_NOT_CONVERGED)
+        return [*above, *parts]

@@ -234,7 +234,7 @@ def note_finished(
     present = [name for name in RESULT_FILES if name not in kept and (folder / name).is_file()]
     present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
     files = _files(folder, present)
-    parts = [part if isinstance(part, str) else part.to_json() for part in report]
+    parts = [part if isinstance(part, str) else [part.to_json()] for part in report]
     noted = json.dumps({"key": _key(file, others), "files": files, "report": parts})
     write_whole(folder / NOTE, lambda path: path.write_text(noted, encoding="utf-8"))
 
@@ -242,7 +242,7 @@ def note_finished(
 def finished_report(folder: Path) -> list[str | Table]:
     """Return the report on the finished results of a folder."""
     noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
-    return [part if isinstance(part, str) else Table.from_json(part) for part in noted["report"]]
+    return [part if isinstance(part, str) else Table.from_json(*part) for part in noted["report"]]
 
 
 def _key(file: CaseFile, others: tuple[Path, ...]) -> str:

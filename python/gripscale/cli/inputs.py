@@ -14,7 +14,6 @@ import typer
 from gripscale.core.errors import about_keys
 from gripscale.terminal import (
     COLUMNS,
-    Modulus,
     argument,
     column_of,
     columns_of,
@@ -233,7 +232,7 @@ def fit_rubber(
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
     modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
-    modulus: Modulus = None,
+    modulus: Annotated[str | None, option("E (Young) or G (shear).")] = None,
     bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
     reference_temperature: Annotated[
         str | None, option('Such as "20 C": where sweeps are shifted to.')

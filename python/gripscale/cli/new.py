@@ -56,7 +56,6 @@ def new(
     temperature_unit: Annotated[
         str | None, terminal.option("K, C or F, if the file of the rubber does not state it.")
     ] = None,
-    modulus: terminal.Modulus = None,
     modulus_unit: Annotated[
         str | None,
         terminal.option("Such as MPa, if that file does not state it, or states a wrong one."),
@@ -74,7 +73,6 @@ def new(
         "columns": None if columns is None else terminal.columns_of(columns),
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
-        "modulus": modulus,
     }
     options["layout"] = {key: value for key, value in layout.items() if value is not None}
     load = {"pressure": pressure, "speed": speed, "footprint": footprint}

@@ -18,9 +18,6 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.terminal import CasePath, argument, case_command, command, option
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
-    from gripscale.case_file import CaseFile
     from gripscale.questions.chain.events import Event, OnEvent
 
 
@@ -53,35 +50,33 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case_file.folder import is_finished, note_finished
-    from gripscale.case_file.read import read_case_file
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
-    from gripscale.io.folders import require_writable
 
     as_json = progress == ProgressFormat.JSON
     if as_json and terminal.MANNER.get().json:
         raise InputError("expected either --json (the result) or --progress json (its events)")
-    console = terminal.screen(stderr=as_json)
+    terminal.MANNER.set(terminal.MANNER.get()._replace(events=as_json))
     with _json_events(progress) as emit:
-        file = read_case_file(case)
+        work = terminal.CaseCommand(case)
+        file = work.file
         target = output if output is not None else file.resolve(file.case.output.folder)
         shown_too = (target / "uncertainty" / "uncertainty.nc",)
         if not (fresh or as_json) and is_finished(file, target, shown_too):
-            _show_again(console, file, target)
+            _show_again(work, target)
             return
-        require_writable(target)
-        terminal.RESULTS_FOLDER.set(target)
         kinds = file.case.output.figures
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            report = solve_run(console, emit, file, target, figures, fresh)
+            report = solve_run(work, emit, output, figures, fresh)
             note_finished(file, target, shown_too, report)
 
 
-def _show_again(console: Console, file: CaseFile, target: Path) -> None:
+def _show_again(work: terminal.CaseCommand, target: Path) -> None:
     """Print the report on a finished run once more, as wide as the terminal is now."""
     from gripscale.case_file.folder import finished_report
 
+    console = work.console
     time = (target / terminal.RUN_REPORT).stat().st_mtime
     terminal.print_parts(console, finished_report(target))
     console.print()
@@ -91,14 +86,13 @@ def _show_again(console: Console, file: CaseFile, target: Path) -> None:
         f"same; nothing was solved again (--fresh does). {terminal.RUN_CLOSING} {target}",
     )
     if any(terminal.MANNER.get()):
-        from gripscale.case_file import read_case
         from gripscale.case_file.prepare import named_files
         from gripscale.questions.answer.answer import ANSWER_FILE, answer
         from gripscale.questions.stored import load
 
         stored = target / ANSWER_FILE  # of sine waves there is none, and nothing to solve
-        result = load(stored) if stored.is_file() else answer(read_case(file))
-        terminal.print_result(result, named_files(file))
+        result = load(stored) if stored.is_file() else answer(work.case)
+        terminal.print_result(result, named_files(work.file))
 
 
 @contextmanager

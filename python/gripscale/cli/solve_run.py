@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale import case_file, terminal
-from gripscale.case_file.folder import claim
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
@@ -46,21 +44,20 @@ REPORT_WIDTH = 110
 
 
 def solve_run(
-    console: Console,
+    work: terminal.CaseCommand,
     emit: events.OnEvent,
-    file: case_file.CaseFile,
-    target: Path,
+    output: Path | None,
     figures: Figures,
     fresh: bool,
 ) -> Sequence[str | Table]:
     """Prepare, solve, print and write a case, with an event for each step; return its report."""
-    terminal.show_step(console, terminal.READING)
-    chain = ChainRun.of(case_file.read_case(file), target, fresh=fresh)
-    terminal.end_steps()
-    claim(target, file.path, replace=terminal.MANNER.get().replace)
+    header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
+    work.open_results(output, "", header)
+    console, target = work.console, work.target
+    chain = ChainRun.of(work.case, target, fresh=fresh)
     with background_figures(chain, figures) as draw:
         answer, opening = _print_answer(console, chain, target)
-        effects = _solve(console, emit, file, chain, answer, draw)
+        effects = _solve(console, emit, work.file, chain, answer, draw)
         parts, heat = _parts(chain, answer, effects, target)
         solved = [answer.data] if answer.is_solved else []
         solved += [chain.dataset(name) for name in chain.predictions]
@@ -71,17 +68,15 @@ def solve_run(
             if effects is not None:
                 figures.save(effects_sheet(effects), "effects")
 
-        report = terminal.conclude(
-            console,
-            target,
-            chain.case,
+        report = work.conclude(
             answer,
             parts,
+            answer_printed=True,
             results=solved,
             text=terminal.RUN_REPORT,
             closing=terminal.RUN_CLOSING,
-            page=partial(write_report, target),
-            opening=opening,
+            page=lambda page: write_report(target, page),
+            opening=[header, chain.case.title, *opening],
             width=REPORT_WIDTH,
             draw=draw_conditions,
         )
@@ -99,16 +94,13 @@ def solve_run(
 def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answer, list[str]]:
     """Solve the answer of a case, print it above the inputs; return it and the lines printed."""
     case = chain.case
-    header = f"gripscale {version_of('gripscale')}, case {case.name}"
-    terminal.print_wrapped(console, header)
-    terminal.print_wrapped(console, case.title)
     terminal.show_step(console, "solving the direct contact ...")
     result = chain.answer = answer(case, folder=target)
     terminal.end_steps()
     lead, inputs = ["", *result.lines], ["", *_inputs(case)]
     for line in (*lead, *warning_lines(result.findings, terminal.RUN_REPORT), *inputs):
         terminal.print_wrapped(console, line)
-    return result, [header, case.title, *lead, *warning_lines(result.findings), *inputs]
+    return result, inputs
 
 
 def _solve(

@@ -11,6 +11,7 @@ import csv
 import html
 import io
 import itertools
+import json
 import math
 import re
 import textwrap
@@ -204,27 +205,20 @@ class Table:
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
 
-    def to_json(self) -> dict[str, Any]:
-        """Return the table as shown, with the texts of its numbers, as JSON knows it."""
+    def to_json(self) -> str:
+        """Return the table as shown, with the texts of its numbers."""
         columns = [
-            {
-                **{name: getattr(column, name) for name in ("name", "heading", "unit", "group")},
-                "values": column.texts(),
-                "marks": list(column.marks),
-                "bad": [bool(flag) for flag in column.bad],
-                "words": column.as_words,
-            }
+            {**vars(column), "format": None, "values": column.texts(), "words": column.as_words}
             for column in self.columns
         ]
-        kept = {name: getattr(self, name) for name in ("name", "caption", "keys")}
-        lists = {name: list(getattr(self, name)) for name in ("notes", "strong", "rules")}
-        return {**kept, **lists, "bad": [bool(flag) for flag in self.bad], "columns": columns}
+        content = {**vars(self), "columns": columns}
+        return json.dumps(content, default=lambda flags: np.array([*flags]).tolist())
 
     @classmethod
-    def from_json(cls, content: dict[str, Any]) -> Table:
+    def from_json(cls, text: str) -> Table:
         """Return the table of `to_json`."""
-        columns = [Column(**column) for column in content["columns"]]
-        return cls(**{**content, "columns": columns})
+        content = json.loads(text)
+        return cls(**{**content, "columns": [Column(**column) for column in content["columns"]]})
 
     def is_bad(self, column: Column, row: int) -> bool:
         """Return whether a cell must not be trusted."""
