@@ -25,7 +25,7 @@ from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
-from gripscale.core.provenance import COMMAND
+from gripscale.core.provenance import CASE_TITLE, COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
 from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
@@ -256,7 +256,8 @@ class Case:
     def attributes(self) -> dict[str, str]:
         """Attributes of every result: text and units of the case file, and the command."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
-        return {"case": self.origin.text, DISPLAY_UNITS: json.dumps(self.units)} | command
+        text = {"case": self.origin.text, CASE_TITLE: self.title}
+        return text | {DISPLAY_UNITS: json.dumps(self.units)} | command
 
     @cached_property
     def key(self) -> str:

@@ -153,7 +153,9 @@ def show_step(console: Console, text: str) -> None:
         status = console.status("", refresh_per_second=4.0)
         status.start()
         _STATUS.set(status)
-    status.update(Text(text.strip(), no_wrap=True, overflow="ellipsis"))
+    line = Text(text.strip())
+    line.truncate(console.width - 3, overflow="ellipsis")
+    status.update(line)
 
 
 def end_steps() -> None:
@@ -164,17 +166,14 @@ def end_steps() -> None:
         _STATUS.set(None)
 
 
-def print_result(result: Result, files: Sequence[NamedFile]) -> None:
-    """Print a result as `--quiet` or `--json` ask for it; without them nothing.
-
-    `files` are those that the case names.
-    """
+def print_result(result: Result, case: Path, files: Sequence[NamedFile]) -> None:
+    """Print a result of a case and its files as `--quiet` or `--json` ask for; else nothing."""
     from gripscale.questions.result import warning_lines
     from gripscale.questions.result_json import result_as_json
 
     manner = MANNER.get()
     if manner.json:
-        typer.echo(result_as_json(result, files))
+        typer.echo(result_as_json(result, str(case), files))
     elif manner.quiet:
         console = screen()
         console.quiet = False
@@ -383,8 +382,8 @@ class CaseCommand:
         show_step(self.console, "reading and fitting the measurements ...")
         return read_case(self.file)
 
-    def open_results(self, output: Path | None, name: str, *opening: str) -> None:
-        """Make the folder of results, then print what the command begins with.
+    def open_results(self, output: Path | None, name: str, opening: str = "") -> None:
+        """Make the folder of results, then print what the command begins with, rubber and surface.
 
         Folder and text are called `name`; the folder is in that of the case by default.
         """
@@ -395,11 +394,10 @@ class CaseCommand:
         self.target = output or self.file.resolve(self.file.case.output.folder) / name
         require_writable(self.target)
         RESULTS_FOLDER.set(self.target)
-        lines = (*opening, self.case.title)
+        opening = ": ".join(filter(None, [opening, self.case.title]))
         claim(self.target, self.file.path, replace=MANNER.get().replace)
         end_steps()
-        for line in lines:
-            print_wrapped(self.console, line)
+        print_wrapped(self.console, opening)
 
     def solving(self, workers: int | None) -> dict[str, Any]:
         """Return where a question keeps what it solves, on how many cores, and what tells of it."""
@@ -497,7 +495,7 @@ class CaseCommand:
         console.print()
         print_wrapped(console, f"{closing} {target}")
         print_wrapped(console, words)
-        print_result(result, self.case.origin.files)
+        print_result(result, self.file.path, self.case.origin.files)
         if result.failure:
             print_error(result.failure)
             raise typer.Exit(_NOT_CONVERGED)

@@ -68,7 +68,7 @@ def run(
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            report = solve_run(work, emit, output, figures, fresh)
+            report = solve_run(work, emit, target, figures, fresh)
             note_finished(file, target, shown_too, report)
 
 
@@ -92,7 +92,7 @@ def _show_again(work: terminal.CaseCommand, target: Path) -> None:
 
         stored = target / ANSWER_FILE  # of sine waves there is none, and nothing to solve
         result = load(stored) if stored.is_file() else answer(work.case)
-        terminal.print_result(result, named_files(work.file))
+        terminal.print_result(result, work.file.path, named_files(work.file))
 
 
 @contextmanager

@@ -46,15 +46,14 @@ REPORT_WIDTH = 110
 def solve_run(
     work: terminal.CaseCommand,
     emit: events.OnEvent,
-    output: Path | None,
+    target: Path,
     figures: Figures,
     fresh: bool,
 ) -> Sequence[str | Table]:
     """Prepare, solve, print and write a case, with an event for each step; return its report."""
+    chain, console = ChainRun.of(work.case, target, fresh=fresh), work.console
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
-    work.open_results(output, "", header)
-    console, target = work.console, work.target
-    chain = ChainRun.of(work.case, target, fresh=fresh)
+    work.open_results(target, "", header)
     with background_figures(chain, figures) as draw:
         answer, opening = _print_answer(console, chain, target)
         effects = _solve(console, emit, work.file, chain, answer, draw)
@@ -76,7 +75,7 @@ def solve_run(
             text=terminal.RUN_REPORT,
             closing=terminal.RUN_CLOSING,
             page=lambda page: write_report(target, page),
-            opening=[header, chain.case.title, *opening],
+            opening=[f"{header}: {chain.case.title}", *opening],
             width=REPORT_WIDTH,
             draw=draw_conditions,
         )

@@ -31,8 +31,8 @@ FORMAT = 1
 """Number of the layout; it rises when a name changes or goes."""
 
 
-def result_as_json(result: Result, files: Sequence[NamedFile] = ()) -> str:
-    """Return a result as JSON, with the `files` that its case names."""
+def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = ()) -> str:
+    """Return a result as JSON, with the name of its `case` and the files that this names."""
     data = result.data
     answer: dict[str, Any] = {"text": [line.strip() for line in result.lines]}
     if has_answer(data):
@@ -45,7 +45,7 @@ def result_as_json(result: Result, files: Sequence[NamedFile] = ()) -> str:
         "format": FORMAT,
         "gripscale": version_of("gripscale"),
         "question": result.kind,
-        "case": data.attrs.get("case_file", ""),
+        "case": case,
         "command": data.attrs.get("command", ""),
         "answer": answer,
         "findings": findings,

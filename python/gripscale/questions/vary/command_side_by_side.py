@@ -101,11 +101,7 @@ def compare_rubbers(
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     work = terminal.CaseCommand(chosen)
-    opening = (
-        "Each compound is predicted first; then the range that the error of its measured moduli "
-        "leaves, on half-planes."
-    )
-    work.open_results(output, "rubbers", *[opening] * uncertainty)
+    work.open_results(output, "rubbers")
     compounds = compare_compounds(
         work.case,
         {
