@@ -72,11 +72,11 @@ def screen(stderr: bool = False) -> Console:
     return Console(stderr=stderr, width=wide, highlight=False, markup=False, quiet=quiet)
 
 
-def print_error(message: str) -> None:
-    """Print what is wrong, one sentence, to stderr, unwrapped."""
+def print_error(message: str, label: str = "error: ") -> None:
+    """Print one sentence to stderr, unwrapped."""
     from rich.text import Text
 
-    text = Text("error: ", style="bold red").append(message, style="not bold default")
+    text = Text(label, style="bold red").append(message, style="not bold default")
     screen(stderr=True).print(text, soft_wrap=True)
 
 
@@ -186,18 +186,16 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
     @wraps(body)
     def inside(*args: P.args, **kwargs: P.kwargs) -> None:
         RESULTS_FOLDER.set(None)
+        MANNER.set(_USUAL)
         try:
             body(*args, **kwargs)
-        except GripscaleError as error:
+        except (GripscaleError, KeyboardInterrupt) as error:
             end_steps()
-            error.args = (with_options(error.words, kwargs),)
+            label = ""
+            if isinstance(error, GripscaleError):
+                error.args, label = (with_options(error.words, kwargs),), "error: "
             message, exit_code = failure_of(error)
-            print_error(message)
-            raise typer.Exit(exit_code) from None
-        except KeyboardInterrupt as error:
-            end_steps()
-            message, exit_code = failure_of(error)
-            screen(stderr=True).print(message, soft_wrap=True)
+            print_error(message, label)
             raise typer.Exit(exit_code) from None
 
     return inside

@@ -76,7 +76,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     figures = {f"{name}.{kind}" for name in names for kind in FORMATS}
     written = {path.name for path in target.iterdir()}
     files = {"comparison.nc", "comparison.txt", "at_measured.nc", "predictions", "summary.xlsx"}
-    assert written == files | figures
+    assert written == files | figures | {CASE_NOTE, "report.html"}
     beside = netcdf.load_dataset(target / "at_measured.nc")
     asked = ["chain_half_plane", "chain_upper", "direct", "persson", "answer"]
     assert beside.model.values.tolist() == asked
