@@ -59,7 +59,7 @@ def study_command(
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
-    for line in [*opening, ""]:
+    for line in opening:
         terminal.print_wrapped(work.console, line)
     folder.save_case(work.file, work.target)
     data = planned.run(client=cluster, **work.solving(workers))
