@@ -51,6 +51,7 @@ def run(
     """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case_file.folder import is_finished, note_finished
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
+    from gripscale.io.folders import require_writable
 
     as_json = progress == ProgressFormat.JSON
     if as_json and terminal.MANNER.get().json:
@@ -64,6 +65,8 @@ def run(
         if not (fresh or as_json) and is_finished(file, target, shown_too):
             _show_again(work, target)
             return
+        require_writable(target)
+        terminal.RESULTS_FOLDER.set(target)
         kinds = file.case.output.figures
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
