@@ -25,7 +25,7 @@ from gripscale.core import checks
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
-from gripscale.core.provenance import COMMAND
+from gripscale.core.provenance import CASE_TITLE, COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
 from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
@@ -237,6 +237,17 @@ class Case:
         return self.origin.name or "a case made in Python"
 
     @property
+    def title(self) -> str:
+        """Rubber and surface in words, such as "tread on motorway"."""
+        measured, count = self.surface.measured, len(self.surface.sines)
+        surface = f"{count} sine {'wave' if count == 1 else 'waves'}"
+        if measured is not None:
+            lines = [raw.name for raw, _ in measured.profiles]
+            surface = lines[0] if measured.map is None else measured.map.name
+            surface += f" and {len(lines) - 1} more" if measured.map is None and lines[1:] else ""
+        return f"{self.rubber.name or 'a rubber'} on {surface or 'a surface'}"
+
+    @property
     def units(self) -> Mapping[str, str]:
         """Units that the case states, by key."""
         return self.origin.units
@@ -245,7 +256,8 @@ class Case:
     def attributes(self) -> dict[str, str]:
         """Attributes of every result: text and units of the case file, and the command."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
-        return {"case": self.origin.text, DISPLAY_UNITS: json.dumps(self.units)} | command
+        text = {"case": self.origin.text, CASE_TITLE: self.title}
+        return text | {DISPLAY_UNITS: json.dumps(self.units)} | command
 
     @cached_property
     def key(self) -> str:

@@ -1,29 +1,30 @@
-"""What the commands share: where they print, and how an error becomes one sentence and a code."""
+"""What the commands share: what they print and where, and how an error becomes a sentence."""
 
 from __future__ import annotations
 
+import inspect
 import os
 import sys
 import textwrap
 import time
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
-from functools import partial, wraps
+from functools import cached_property, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ParamSpec
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, ParamSpec
 
 import typer
 
-from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
+from gripscale.core.errors import ConvergenceError, GripscaleError
 from gripscale.core.wording import Words
 
 if TYPE_CHECKING:
     import xarray as xr
     from pydantic import BaseModel
     from rich.console import Console
+    from rich.status import Status
 
-    from gripscale.case_file import CaseFile
-    from gripscale.core.finding import Finding
+    from gripscale.case import Case, NamedFile
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
@@ -41,20 +42,41 @@ PLAIN_WIDTH = 100
 P = ParamSpec("P")
 
 
+class Manner(NamedTuple):
+    """How a command on a case prints, and whether it replaces results of another case."""
+
+    quiet: bool = False
+    json: bool = False
+    replace: bool = False
+    events: bool = False
+    """Whether standard output has events for a program."""
+
+
+_USUAL = Manner()
+MANNER: ContextVar[Manner] = ContextVar("manner", default=_USUAL)
+"""Manner of the running command."""
+
+
 def screen(stderr: bool = False) -> Console:
-    """Return a console for a terminal, or for a plain file or pipe of sensible width."""
+    """Return a console for a terminal, or for a plain file or pipe of sensible width.
+
+    It prints nothing to standard output where the command prints its result only.
+    """
     from rich.console import Console
 
+    manner = MANNER.get()
+    stderr = stderr or manner.events
     stream = sys.stderr if stderr else sys.stdout
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
-    return Console(stderr=stderr, width=wide, highlight=False, markup=False)
+    quiet = not stderr and (manner.quiet or manner.json)
+    return Console(stderr=stderr, width=wide, highlight=False, markup=False, quiet=quiet)
 
 
-def print_error(message: str) -> None:
+def print_error(message: str, label: str = "error: ") -> None:
     """Print one sentence to stderr, unwrapped."""
     from rich.text import Text
 
-    text = Text("error: ", style="bold red").append(message, style="not bold default")
+    text = Text(label, style="bold red").append(message, style="not bold default")
     screen(stderr=True).print(text, soft_wrap=True)
 
 
@@ -67,10 +89,10 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
     if isinstance(error, KeyboardInterrupt):
         target = RESULTS_FOLDER.get()
         if target is None or not any(target.rglob("[!.]*.nc")):
-            return "stopped; nothing was finished", STOPPED
+            return "Stopped; nothing was finished.", STOPPED
         stopped = (
-            f"stopped; finished results are kept in {target}, "
-            "and the same command continues from them"
+            f"Stopped; what was finished is kept in {target}, and the same command continues "
+            "from there."
         )
         return stopped, STOPPED
     from gripscale.report.failures import explained
@@ -106,57 +128,56 @@ def print_parts(console: Console, parts: Iterable[str | Table]) -> None:
             console.print(part)
 
 
-def conclude(
-    console: Console,
-    target: Path,
-    parts: Sequence[str | Table],
-    *,
-    results: Sequence[xr.Dataset],
-    text: str,
-    closing: str,
-    opening: Sequence[str | Table] = (),
-    lead: Sequence[str] = (),
-    warnings: Sequence[Finding] = (),
-    width: int = PLAIN_WIDTH,
-    files: Mapping[str, str] | None = None,
-    draw: Callable[[], object] | None = None,
-    page: Callable[[], Path] | None = None,
-    failure: str = "",
-) -> None:
-    """End a command: print and write what it found, draw its figures, set the exit code.
+_STATUS: ContextVar[Status | None] = ContextVar("status", default=None)
+"""The line of a terminal that shows the last step of the work."""
+PROGRESS_LINES = "GRIPSCALE_PROGRESS_LINES"
+"""Variable of the environment: set, each step of the work has a line of its own, as for a log."""
 
-    The numbers of `results` are written as a flat table for Excel.
-    `lead`, the answer, the first of the ranked `warnings` and `parts` are printed. The file `text`,
-    with lines of `width`, has `lead`, all warnings, then `opening`, which the screen shows already,
-    then `parts`; `files` are further texts by name.
-    `closing` says what is in the folder. `page` writes a page, where the libraries for it are
-    installed; `failure` is what has no result, and sets the exit code.
+
+def show_step(console: Console, text: str) -> None:
+    """Write a step of the work over the one before it in a terminal; write nothing elsewhere.
+
+    The terminal is that of the errors where standard output is a file or holds the result only.
     """
-    from gripscale.io.folders import write_text
-    from gripscale.io.table import as_text
-    from gripscale.questions.result import warning_lines
-    from gripscale.questions.summary_table import write_summary
+    from rich.text import Text
 
-    console.print()
-    print_parts(console, [*lead, *warning_lines(warnings, text), *parts])
-    answer = [*lead, *warning_lines(warnings)]
-    above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
-    texts = {text: as_text(*above, *parts, width=width), **(files or {})}
-    for name, content in texts.items():
-        write_text(target / name, content)
-    write_summary(results, target)
-    if draw is not None:
-        draw()
-    console.print()
-    print_wrapped(console, f"{closing} {target}")
-    if page is not None:
-        try:
-            print_wrapped(console, f"Page: {page()}")
-        except InputError as error:  # the extra is not installed
-            print_wrapped(console, f"note: no page; {error}")
-    if failure:
-        print_error(failure)
-        raise typer.Exit(_NOT_CONVERGED)
+    if os.environ.get(PROGRESS_LINES):
+        print_wrapped(console, text)
+        return
+    if console.quiet or not console.is_terminal:
+        console = screen(stderr=True)
+    if MANNER.get().quiet or not console.is_terminal:
+        return
+    status = _STATUS.get()
+    if status is None:
+        status = console.status("", refresh_per_second=4.0)
+        status.start()
+        _STATUS.set(status)
+    line = Text(text.strip())
+    line.truncate(console.width - 3, overflow="ellipsis")
+    status.update(line)
+
+
+def end_steps() -> None:
+    """Clear the line of the steps."""
+    status = _STATUS.get()
+    if status is not None:
+        status.stop()
+        _STATUS.set(None)
+
+
+def print_result(result: Result, case: Path, files: Sequence[NamedFile]) -> None:
+    """Print a result of a case and its files as `--quiet` or `--json` ask for; else nothing."""
+    from gripscale.questions.result import warning_lines
+    from gripscale.questions.result_json import result_as_json
+
+    manner = MANNER.get()
+    if manner.json:
+        typer.echo(result_as_json(result, str(case), files))
+    elif manner.quiet:
+        console = screen()
+        console.quiet = False
+        print_parts(console, [*result.lines, *warning_lines(result.findings)])
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -165,16 +186,55 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
     @wraps(body)
     def inside(*args: P.args, **kwargs: P.kwargs) -> None:
         RESULTS_FOLDER.set(None)
+        MANNER.set(_USUAL)
         try:
             body(*args, **kwargs)
         except (GripscaleError, KeyboardInterrupt) as error:
+            end_steps()
+            label = ""
             if isinstance(error, GripscaleError):
-                error.args = (with_options(error.words, kwargs),)
+                error.args, label = (with_options(error.words, kwargs),), "error: "
             message, exit_code = failure_of(error)
-            print_error(message)
+            print_error(message, label)
             raise typer.Exit(exit_code) from None
 
     return inside
+
+
+_SHARED = {
+    "quiet": Annotated[
+        bool,
+        typer.Option("--quiet", "-q", help="Print the answer and what may change it, no more."),
+    ],
+    "json": Annotated[
+        bool, typer.Option("--json", help="Print the result as JSON in SI units, and nothing else.")
+    ],
+    "replace": Annotated[
+        bool,
+        typer.Option("--replace", help="Replace results of another case in the results folder."),
+    ],
+}
+"""Options of every command on a case, by the fields of `Manner`."""
+
+
+def case_command(body: Callable[..., None]) -> Callable[..., None]:
+    """Return the command of a question about a case, with the options that all of these have."""
+
+    @wraps(body)
+    def inside(**options: Any) -> None:
+        MANNER.set(Manner(**{name: options.pop(name) for name in _SHARED}))
+        body(**options)
+
+    signature = inspect.signature(body, eval_str=True)
+    shared = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=kind)
+        for name, kind in _SHARED.items()
+    ]
+    parameters = [*signature.parameters.values(), *shared]
+    outside = command(inside)
+    outside.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    outside.__annotations__ = {item.name: item.annotation for item in parameters}
+    return outside
 
 
 WORTH_WAITING = 2.0
@@ -191,10 +251,10 @@ def time_left(seconds: float) -> str:
 
 
 def progress_printer(console: Console) -> Callable[[Progress], None]:
-    """Return what prints a line for each prediction, with the time that the others may take."""
+    """Return what shows each prediction as a step, with the time that the others may take."""
     begun, solved = time.monotonic(), 0
 
-    def print_line(progress: Progress) -> None:
+    def show(progress: Progress) -> None:
         nonlocal solved
         solved += not progress.stored
         answer = progress.result
@@ -207,13 +267,13 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
             if answer.nominal_speed > 0.0:
                 text += f", friction {float(answer.total_friction):.3f}"
         if progress.stored:
-            print_wrapped(console, f"{text}, already solved")
+            show_step(console, f"{text}, already solved")
             return
         each = (time.monotonic() - begun) / solved
         wait = time_left(each * (progress.total - progress.done))
-        print_wrapped(console, f"{text}, {progress.seconds:.1f} s{wait}")
+        show_step(console, f"{text}, {progress.seconds:.1f} s{wait}")
 
-    return print_line
+    return show
 
 
 def option(text: str, *names: str, metavar: str | None = None) -> Any:
@@ -242,6 +302,14 @@ MeasuredPath = Annotated[
         "friction, and if known spread, temperature and pressure.",
         "--measured",
         metavar="FILE.csv",
+    ),
+]
+Modulus = Annotated[
+    str | None,
+    option(
+        "E (Young) or G (shear), of files of moduli that do not state it.",
+        "--modulus",
+        metavar="E|G",
     ),
 ]
 Workers = Annotated[int | None, option("Cores to use; all by default.")]
@@ -290,41 +358,48 @@ def columns_of(text: str) -> dict[str, str | int] | list[str | int]:
     return {quantity.strip(): column_of(column) for quantity, column in pairs}
 
 
-def open_folder(
-    file: CaseFile, output: Path | None, name: str, *opening: str
-) -> tuple[Console, Path]:
-    """Print what a command begins with and make its folder `name`, by default in the case's."""
-    from gripscale.io.folders import make_folder, require_writable
-
-    target = output or file.resolve(file.case.output.folder) / name
-    require_writable(target)
-    RESULTS_FOLDER.set(target)
-    console = screen()
-    for line in opening:
-        print_wrapped(console, line)
-    make_folder(target)
-    return console, target
-
-
 class CaseCommand:
     """A command that asks a question of a case: the case, where it prints, and its folder.
 
     `open_results` comes after all that may be refused: before it, nothing is printed or written.
     """
 
+    target: Path
+    """Folder of its results."""
+
     def __init__(self, path: Path) -> None:
-        from gripscale.case_file import read_case, read_case_file
+        from gripscale.case_file import read_case_file
 
-        self.file = read_case_file(path)
-        self.case = read_case(self.file)
+        self.file, self.console = read_case_file(path), screen()
 
-    def open_results(self, output: Path | None, name: str, *opening: str) -> None:
-        """Print what the command begins with; its folder and its text are called `name`."""
+    @cached_property
+    def case(self) -> Case:
+        """The case, read when it is first needed."""
+        from gripscale.case_file import read_case
+
+        show_step(self.console, "reading and fitting the measurements ...")
+        return read_case(self.file)
+
+    def open_results(self, output: Path | None, name: str, opening: str = "") -> None:
+        """Make the folder of results, then print what the command begins with, rubber and surface.
+
+        Folder and text are called `name`; the folder is in that of the case by default.
+        """
+        from gripscale.case_file.folder import claim
+        from gripscale.io.folders import require_writable
+
         self._text = f"{name}.txt"
-        self.console, self.target = open_folder(self.file, output, name, *opening)
+        self.target = output or self.file.resolve(self.file.case.output.folder) / name
+        require_writable(self.target)
+        RESULTS_FOLDER.set(self.target)
+        opening = ": ".join(filter(None, [opening, self.case.title]))
+        claim(self.target, self.file.path, replace=MANNER.get().replace)
+        end_steps()
+        print_wrapped(self.console, opening)
 
     def solving(self, workers: int | None) -> dict[str, Any]:
         """Return where a question keeps what it solves, on how many cores, and what tells of it."""
+        show_step(self.console, "solving ...")
         progress = progress_printer(self.console)
         return {"folder": self.target, "workers": workers, "on_task": progress}
 
@@ -338,14 +413,12 @@ class CaseCommand:
         drawings: str = "figures",
         files: Mapping[str, str] | None = None,
         keep_figures: bool = False,
-        page: bool = False,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
         `contents` is what the folder holds beside the result, `text` the file of what is printed
         where it has another name, and `drawings` the folder of the figures; `files` are further
-        texts by name. With `keep_figures` figures of an earlier run stay as they are. With `page`
-        the page of the result is written, too.
+        texts by name. With `keep_figures` figures of an earlier run stay as they are.
         """
         from gripscale.charts.figure_folder import FigureFolder
         from gripscale.io.folders import make_folder
@@ -361,18 +434,67 @@ class CaseCommand:
             for name, figure in result.figures():
                 figures.save(figure, name)
 
-        conclude(
-            self.console,
-            target,
+        self.conclude(
+            result,
             list(result.parts()),
-            results=[result.data],
-            lead=result.lines,
-            warnings=result.findings,
             text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
             opening=opening,
             files=files,
             draw=draw,
-            page=partial(result.page, target / "report.html") if page else None,
-            failure=result.failure,
         )
+
+    def conclude(
+        self,
+        result: Result,
+        parts: Sequence[str | Table],
+        *,
+        text: str,
+        closing: str,
+        draw: Callable[[], object],
+        opening: Sequence[str | Table] = (),
+        answer_printed: bool = False,
+        results: Sequence[xr.Dataset] = (),
+        width: int = PLAIN_WIDTH,
+        files: Mapping[str, str] | None = None,
+        page: Callable[[Path], Path] | None = None,
+    ) -> Sequence[str | Table]:
+        """Print and write what the command found, draw figures and page, set the exit code.
+
+        The answer, unless it is printed already, the first findings and `parts` are printed, or the
+        answer alone where no more is asked for. The file `text`, with lines of `width`, has the
+        answer, all findings, then `opening`, which the screen shows already, then `parts`: these
+        are returned. `files` are further texts by name; the numbers of `results` are written as a
+        flat table for Excel. `closing` says what is in the folder.
+        """
+        from gripscale.io.folders import write_text
+        from gripscale.io.table import as_text
+        from gripscale.questions.result import warning_lines
+        from gripscale.questions.summary_table import write_summary
+
+        target, console, findings = self.target, self.console, result.findings
+        end_steps()
+        console.print()
+        lead = () if answer_printed else (*result.lines, *warning_lines(findings, text))
+        print_parts(console, [*lead, *parts])
+        answer = [*result.lines, *warning_lines(findings)]
+        above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
+        texts = {text: as_text(*above, *parts, width=width), **(files or {})}
+        for name, content in texts.items():
+            write_text(target / name, content)
+        write_summary(results or [result.data], target)
+        show_step(console, "drawing figures and page ...")
+        draw()
+        try:
+            words = f"Page: {(page or result.page)(target / 'report.html')}"
+        except GripscaleError as error:  # such as an extra that is not installed
+            words = f"note: no page; {error}"
+        end_steps()
+        console.print()
+        print_wrapped(console, f"{closing} {target}")
+        print_wrapped(console, words)
+        print_result(result, self.file.path, self.case.origin.files)
+        if result.failure:
+            print_error(result.failure)
+            raise typer.Exit(_NOT_CONVERGED)
+        return [*above, *parts]

@@ -51,7 +51,7 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
     figures = {f"{name}.png" for name in FIGURES}
     texts = {"calibration.txt", "shear_stress.toml", "summary.xlsx"}
     files = texts | {"calibration.nc", "predictions"}
-    assert {path.name for path in target.iterdir()} == figures | files
+    assert {path.name for path in target.iterdir()} == figures | files | {".case", "report.html"}
     assert len(list((target / "predictions").iterdir())) == 24
     for word in ("stress_0", "left out", "90 % by profile likelihood", "Correlations"):
         assert word in said

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
+from gripscale.case_file.folder import CASE_NOTE
 from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
@@ -36,6 +37,7 @@ from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.questions.compare.page import Compared, comparison_table, judgement, remarks
 from gripscale.questions.page_of_folder import page_of
+from gripscale.terminal import PROGRESS_LINES
 from tests.samples import Shell
 
 FORMATS = ("png",)
@@ -74,7 +76,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     figures = {f"{name}.{kind}" for name in names for kind in FORMATS}
     written = {path.name for path in target.iterdir()}
     files = {"comparison.nc", "comparison.txt", "at_measured.nc", "predictions", "summary.xlsx"}
-    assert written == files | figures
+    assert written == files | figures | {CASE_NOTE, "report.html"}
     beside = netcdf.load_dataset(target / "at_measured.nc")
     asked = ["chain_half_plane", "chain_upper", "direct", "persson", "answer"]
     assert beside.model.values.tolist() == asked
@@ -203,8 +205,9 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
 
 
 def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
-    shell: Shell, inputs: Path, tmp_path: Path
+    shell: Shell, inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv(PROGRESS_LINES, "1")
     (tmp_path / "mu.csv").write_text(MEASURED)
     command = [
         "compare", inputs / "case.toml", "--rungs", "chain_half_plane,direct,persson",
@@ -213,9 +216,9 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     first = shell(*command)
     assert first.exit_code == 0, first.output
     written = {path.name for path in (tmp_path / "out").iterdir()}
-    assert written == {"over_speed.nc", "over_speed.txt", "predictions", "summary.xlsx"} | {
-        f"over_speed.{kind}" for kind in FORMATS
-    }
+    tables = {"over_speed.nc", "over_speed.txt", "predictions", "summary.xlsx"}
+    pages = {"report.html", CASE_NOTE}
+    assert written == tables | pages | {f"over_speed.{kind}" for kind in FORMATS}
     data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
     assert data.total_friction.dims == ("speed", "rung")
     alone = gs.compare(read_case(inputs / "case.toml"), rungs=["direct"]).data.isel(rung=0)

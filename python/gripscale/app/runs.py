@@ -35,6 +35,7 @@ from gripscale.questions.chain.events import (
     event_from_json,
 )
 from gripscale.questions.registry import Form, forms
+from gripscale.terminal import PROGRESS_LINES
 
 RUN_COMMAND = "run"
 COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
@@ -144,7 +145,7 @@ class AppRun:
                 stdin=subprocess.DEVNULL,
                 stdout=events if reports else log,
                 stderr=log,
-                env=os.environ | {"PYTHONUNBUFFERED": "1", "COLUMNS": "110"},
+                env=os.environ | {"PYTHONUNBUFFERED": "1", "COLUMNS": "110", PROGRESS_LINES: "1"},
                 **process_group,
             )
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
 from gripscale.core import checks
 from gripscale.core.errors import FileError
 from gripscale.core.units import ZERO_CELSIUS
@@ -111,7 +112,7 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
     target = Path(folder)
     # A case of the source tree seeks its data in the folder above.
     text = _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
-    contents = {_CASE: text.encode("utf-8")}
+    contents = {_CASE: f"{SCHEMA_LINE}{text}".encode()}
     contents |= {path: _packaged(path) for path in example.files}
     contents |= {path: make().encode("utf-8") for path, make in example.made}
     parent = nearest_existing(target)
@@ -130,6 +131,7 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
         except OSError as error:
             raise FileError(f"folder {written.parent} cannot be made: {error.strerror}") from error
         write_bytes(written, content)
+    write_schema(SCHEMA_LINE, target)
     return [target / path for path in contents]
 
 

@@ -10,22 +10,32 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
 import time
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from typing import get_args
 
+from gripscale.case_file.json_schema import write_schema
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
-from gripscale.core.errors import GripscaleError
+from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.provenance import versions, whole_package
-from gripscale.io.folders import make_folder, unwritable, write_bytes, write_text
+from gripscale.io.folders import (
+    make_folder,
+    path_between,
+    require_writable,
+    unwritable,
+    write_bytes,
+    write_text,
+)
 from gripscale.io.netcdf import write_whole
+from gripscale.io.table import Table
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
@@ -122,6 +132,7 @@ AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests"
 """Figures of cases with conditions, or with sweeps at several temperatures."""
 NOTE = ".finished.json"
 """What a finished run was made from and the files it left, so that it need not be repeated."""
+REPORT_PAGE = "report.html"
 RESULT_FILES = (
     NOTE,
     "dynamic.nc",
@@ -130,11 +141,34 @@ RESULT_FILES = (
     "cut_off.nc",
     "effects_chain.nc",
     "report.txt",
+    REPORT_PAGE,
     "summary.xlsx",
     SAVED_CASE,
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 """Everything a run may write into its folder, beside copies of the files the case names."""
+
+
+CASE_NOTE = ".case"
+"""The case whose results are in a folder, by its path from there."""
+
+
+def claim(folder: Path, case: Path, *, replace: bool = False) -> None:
+    """Make `folder` for the results of a case file and note that they are its.
+
+    Raises `FileError` if the folder cannot be written, `InputError` if it holds results of another
+    case and they are not to be replaced.
+    """
+    require_writable(folder)
+    note, name = folder / CASE_NOTE, path_between(folder, case)
+    other = note.read_text(encoding="utf-8").strip() if note.is_file() else name
+    if other != name and not replace:
+        raise InputError(
+            f"{folder} holds the results of another case, {Path(os.path.normpath(folder / other))}"
+            "; --output DIR keeps both, --replace replaces them"
+        )
+    make_folder(folder)
+    write_text(note, f"{name}\n")
 
 
 def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
@@ -170,6 +204,7 @@ def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> 
     make_folder(folder / INPUTS if saved.copies else folder)
     for target, content in saved.copies.items():
         write_bytes(folder / target, content)
+    write_schema(saved.text, folder)
     write_text(folder / case_name, saved.text)
 
 
@@ -188,22 +223,26 @@ def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> 
         return False
 
 
-def case_replaced(file: CaseFile, folder: Path) -> str:
-    """Return the name of the case whose finished results are in `folder`, if it is another."""
-    try:
-        name = str(json.loads((folder / NOTE).read_text(encoding="utf-8"))["case"])
-    except (OSError, ValueError, TypeError, KeyError):
-        return ""
-    return "" if name == file.path.name else name
-
-
-def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
-    """Note that `folder` holds all results of a case."""
-    present = [name for name in RESULT_FILES if name != NOTE and (folder / name).is_file()]
+def note_finished(
+    file: CaseFile,
+    folder: Path,
+    others: tuple[Path, ...] = (),
+    report: Sequence[str | Table] = (),
+) -> None:
+    """Note that `folder` holds all results of a case, and the `report` on them."""
+    kept = {NOTE, REPORT_PAGE}  # a page may be written anew
+    present = [name for name in RESULT_FILES if name not in kept and (folder / name).is_file()]
     present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
     files = _files(folder, present)
-    noted = {"key": _key(file, others), "files": files, "case": file.path.name}
-    write_whole(folder / NOTE, lambda path: path.write_text(json.dumps(noted), encoding="utf-8"))
+    parts = [part if isinstance(part, str) else [part.to_json()] for part in report]
+    noted = json.dumps({"key": _key(file, others), "files": files, "report": parts})
+    write_whole(folder / NOTE, lambda path: path.write_text(noted, encoding="utf-8"))
+
+
+def finished_report(folder: Path) -> list[str | Table]:
+    """Return the report on the finished results of a folder."""
+    noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
+    return [part if isinstance(part, str) else Table.from_json(*part) for part in noted["report"]]
 
 
 def _key(file: CaseFile, others: tuple[Path, ...]) -> str:

@@ -89,13 +89,13 @@ class KeySection:
 def sections() -> list[KeySection]:
     """Return all tables of a case with their keys, in the order of the documentation."""
     return [
-        KeySection(name, kind, _about(law), list(_keys(law, page)))
+        KeySection(name, kind, _about(law), list(table_keys(law, page)))
         for name, table, page in TABLES
         for kind, law in (table.items() if isinstance(table, Mapping) else [("", table)])
     ]
 
 
-def _keys(law: type, page: str) -> Iterator[Key]:
+def table_keys(law: type, page: str = "") -> Iterator[Key]:
     """Yield the keys of a table or a law, its own before those it shares with others."""
     table = table_of(law)
     meanings = {"kind": _about(law)}
@@ -114,7 +114,7 @@ def _keys(law: type, page: str) -> Iterator[Key]:
         match item.default:
             case _ if item.is_required():
                 default = NEEDED
-            case None:
+            case None | CaseTable():
                 default = NOTHING
             case StrainEnergy(kind=kind):
                 default = f'{{ kind = "{kind}" }}'

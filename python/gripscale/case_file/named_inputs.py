@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -36,10 +37,16 @@ OF_A_FILE = (
 """Keys of the case's [rubber] that another file is read with where it does not state them."""
 
 
-def read_named_inputs(vary: Mapping[str, Any], file: CaseFile) -> dict[str, Any]:
-    """Return varied inputs with surfaces and rubbers read from the files they name."""
+def read_named_inputs(
+    vary: Mapping[str, Any], file: CaseFile, modulus: str | None = None
+) -> dict[str, Any]:
+    """Return varied inputs with surfaces and rubbers read from the files they name.
+
+    `modulus` is E or G, of files of moduli that do not state it.
+    """
     inputs = dict(vary)
-    for axis, read in (("surface", read_surface), ("rubber", read_rubber)):
+    read_moduli = partial(read_rubber, modulus=modulus)
+    for axis, read in (("surface", read_surface), ("rubber", read_moduli)):
         if axis in inputs:
             values, labels = named_values(axis, inputs[axis])
             objects = [read(value, file) for value in values]
@@ -76,14 +83,15 @@ def read_surface(value: Any, file: CaseFile) -> Any:
     return replace(surface, note=note)
 
 
-def read_rubber(value: Any, file: CaseFile) -> Any:
+def read_rubber(value: Any, file: CaseFile, modulus: str | None = None) -> Any:
     """Return a rubber that a command names, with what it comes from and what was assumed.
 
     `value` is a rubber known by name, the path of another case (its [rubber] is taken), or of a
     file of moduli. A file is read with what the case's [rubber] says of its own file (units, kind
     of modulus, columns, reference temperature) where it does not say so itself; its rubber has the
     bulk modulus, the strain energy and the limit of outliers of the case. "case" and rubbers are
-    returned as they are.
+    returned as they are. `modulus` is E or G, of a file that does not state it, in place of what
+    the case says.
     """
     if isinstance(value, Rubber | MeasuredRubber) or value == OF_THE_CASE:
         return value
@@ -101,6 +109,7 @@ def read_rubber(value: Any, file: CaseFile) -> Any:
         return _rubber({"file": str(path)})
     names = (*OF_A_FILE, "sheet") if is_excel(path) else OF_A_FILE
     shared = {name: getattr(table, name) for name in names if getattr(table, name) is not None}
+    shared |= {} if modulus is None else {"modulus": modulus}
     if "reference_temperature" in shared:
         shared["reference_temperature"] = f"{shared['reference_temperature']!r} K"
     source = f"{path}, read with these settings of the rubber of the case: {', '.join(shared)}"

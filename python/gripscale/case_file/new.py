@@ -5,7 +5,6 @@ What was taken for granted is listed as doubts, the weightiest first.
 
 from __future__ import annotations
 
-import os
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -14,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gripscale.case import Case
+from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
 from gripscale.case_file.keys import sections
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
@@ -24,18 +24,20 @@ from gripscale.case_file.proposals import (
     assumption,
     conditions_proposal,
     holds_moduli,
+    named_rubber_proposal,
     open_rubber,
     open_surface,
     rubber_proposal,
     surface_proposal,
 )
 from gripscale.case_file.read import read_case_file
+from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import temperature_in_kelvin
 from gripscale.core.wording import CaseKey, Words
-from gripscale.io.folders import make_folder, write_text
+from gripscale.io.folders import make_folder, path_between, write_text
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
@@ -43,7 +45,7 @@ from gripscale.rubber.sweeps import holds_sweeps
 
 _LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
 """What is taken where the caller states nothing."""
-_HEAD = """\
+_HEAD = f"""{SCHEMA_LINE}\
 # Written by `gripscale new`. Quantities are texts with their unit; paths start at this file.
 # `gripscale keys` lists every key with its default and meaning.
 """
@@ -97,6 +99,7 @@ def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> N
         target.unlink()
         raise
     write_text(target, case_text(tables, of_inputs, results))
+    write_schema(_HEAD, target.parent)
     return NewCase(target, ranked_findings(tables, of_inputs), skipped)
 
 
@@ -116,7 +119,8 @@ def propose(
     Parameters
     ----------
     files : sequence of path-like
-        Profiles or a map, and a master curve or sweeps, in any order; folders of them.
+        Profiles or a map, and a master curve or sweeps, in any order, or folders of them; in place
+        of moduli the name of a rubber of `NAMED_RUBBERS`.
     directory : Path
         Where the case file will be.
     load : mapping, optional
@@ -139,14 +143,10 @@ def propose(
     """
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     layout = layout or {}
-    surfaces, rubbers, shifts, skipped = _sorted(files, step, layout)
-    names: dict[Path, str] = {}
-    for file in (*surfaces, *rubbers, *shifts):
-        try:
-            path = os.path.relpath(file.resolve(), directory.resolve())
-        except ValueError:  # on two drives
-            path = str(file.resolve())
-        names[file] = Path(path).as_posix()
+    named = [str(name) for name in files if str(name) in NAMED_RUBBERS and not Path(name).exists()]
+    paths = [Path(file) for file in files if str(file) not in named]
+    surfaces, rubbers, shifts, skipped = _sorted(paths, step, layout, named)
+    names = {file: path_between(directory, file) for file in (*surfaces, *rubbers, *shifts)}
     rubber_options = {"temperature": kelvin, "shift": shift, "layout": layout}
     of_load = Proposal()
     for key, default in _LOAD.items():
@@ -157,7 +157,9 @@ def propose(
             of_load.add(key, default, f"not stated; --{key} states another", effect)
     tables = {
         "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
-        "rubber": _one_rubber(rubbers, [names[file] for file in rubbers], **rubber_options),
+        "rubber": named_rubber_proposal(named[0], shift)
+        if named
+        else _one_rubber(rubbers, [names[file] for file in rubbers], **rubber_options),
         "load": of_load,
     }
     if shift is None:
@@ -185,16 +187,22 @@ def ranked_findings(
 
 
 def _sorted(
-    files: Sequence[str | Path], step: str | list[str] | None, layout: Mapping[str, Any]
+    files: Sequence[Path],
+    step: str | list[str] | None,
+    layout: Mapping[str, Any],
+    named: Sequence[str] = (),
 ) -> tuple[list[Path], list[Path], list[Path], tuple[Path, ...]]:
-    """Return the files of surfaces, of moduli and of shifts, and those of folders without use."""
+    """Return the files of surfaces, of moduli and of shifts, and those of folders without use.
+
+    Where a rubber is `named` there are no moduli.
+    """
     surfaces: list[Path] = []
     rubbers: list[Path] = []
     shifts: list[Path] = []
     skipped: list[Path] = []
     refused: list[tuple[Path, GripscaleError]] = []
-    for file in map(Path, files):
-        for path in sorted(file.iterdir()) if file.is_dir() else [file]:
+    for file in files:
+        for path in sorted(file.glob("[!.]*")) if file.is_dir() else [file]:
             if holds_moduli(path, FileLayout(**layout)):
                 rubbers.append(path)
                 continue
@@ -216,11 +224,13 @@ def _sorted(
         if surfaces and not rubbers:
             open_rubber([path], layout)  # raises why there are no moduli in it
         raise refusal
-    if not surfaces or not rubbers:
-        what = "moduli (frequency, storage and loss)" if surfaces else "a surface"
-        every = (*surfaces, *rubbers, *shifts, *skipped)
-        got = ", ".join(path.name for path in every) or "no file"
-        raise InputError(f"expected a file with {what}, too; got {got}")
+    every = ", ".join([*(path.name for path in (*surfaces, *rubbers, *shifts, *skipped)), *named])
+    if named and (rubbers or named[1:]):
+        raise InputError(f"expected one rubber, measured or known by name; got {every}")
+    if not surfaces or not (rubbers or named):
+        moduli = f"moduli (frequency, storage and loss) or a name ({', '.join(NAMED_RUBBERS)})"
+        what = moduli if surfaces else "a surface"
+        raise InputError(f"expected a file with {what}, too; got {every or 'no file'}")
     return surfaces, rubbers, shifts, tuple(skipped)
 
 

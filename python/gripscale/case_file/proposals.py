@@ -245,6 +245,15 @@ def rubber_proposal(
     return proposal
 
 
+def named_rubber_proposal(name: str, shift: Mapping[str, Any] | None = None) -> Proposal:
+    """Return the table [rubber] for a rubber known by name."""
+    proposal = Proposal()
+    proposal.add("name", name, "known by published parameters")
+    if shift is not None:
+        proposal.add("shift", dict(shift), "as stated")
+    return proposal
+
+
 def open_rubber(
     paths: list[Path], layout: Mapping[str, Any]
 ) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
@@ -321,8 +330,8 @@ def celsius_text(kelvin: float) -> str:
 
 def has_shift(paths: list[Path], proposal: Proposal) -> bool:
     """Return whether the rubber of a proposal can be had at other temperatures."""
-    if "shift" in proposal.keys or len(paths) > 1:
-        return True
+    if "shift" in proposal.keys or len(paths) != 1:
+        return "shift" in proposal.keys or bool(paths)
     layout = {k: v for k, v in proposal.keys.items() if k in FileLayout.__dataclass_fields__}
     if not holds_sweeps(paths[0], FileLayout(**layout)):
         return False

@@ -27,6 +27,7 @@ from gripscale.case_file.folder import (
     saved_inputs,
     write_saved,
 )
+from gripscale.case_file.json_schema import SCHEMA_LINE
 from gripscale.case_file.prepare import named_files
 from gripscale.case_file.read import CaseFile, validate
 from gripscale.case_file.schema import kelvin_text, law_keys, toml_text
@@ -66,8 +67,9 @@ def write_case(case: Case, path: Path) -> Path:
     tables = _tables(case, inputs)
     validate(CaseTables, tables, str(path))  # refuses laws that no case file knows
     lines = [
+        SCHEMA_LINE.rstrip(),
         f"# Written by gripscale {version_of('gripscale')}. Plain numbers are in SI units; names "
-        "of files start at this file."
+        "of files start at this file.",
     ]
     for name, keys in tables.items():
         if keys:

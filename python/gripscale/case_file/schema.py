@@ -76,30 +76,30 @@ class KeyQuantity(NamedTuple):
 
 def quantity_of(field: FieldInfo) -> KeyQuantity | None:
     """Return the quantity that a key takes, or None of a key that takes anything else."""
-    annotation, marks = _type_and_marks(field.annotation, field.metadata)
+    annotation, marks = type_and_marks(field.annotation, field.metadata)
     pair = get_origin(annotation) is list
     if pair:
         if not any(getattr(mark, "max_length", None) == 2 for mark in marks):
             return None
-        _, marks = _type_and_marks(get_args(annotation)[0])
+        _, marks = type_and_marks(get_args(annotation)[0])
     kind = next((mark.quantity for mark in marks if isinstance(mark, Reading)), "")
     return KeyQuantity(kind, pair) if kind else None
 
 
-def _type_and_marks(annotation: Any, metadata: Iterable[Any] = ()) -> tuple[Any, list[Any]]:
+def type_and_marks(annotation: Any, metadata: Iterable[Any] = ()) -> tuple[Any, list[Any]]:
     """Return a type without None and `Annotated` around it, and the marks of both."""
     marks = list(metadata)
     if get_origin(annotation) is Annotated:
         inner, *more = get_args(annotation)
         inside = [part for mark in more if isinstance(mark, FieldInfo) for part in mark.metadata]
-        return _type_and_marks(inner, [*more, *inside, *marks])
+        return type_and_marks(inner, [*more, *inside, *marks])
     parts = [part for part in get_args(annotation) if part is not type(None)]
     optional = len(parts) == 1 and get_origin(annotation) in (Union, UnionType)
-    return _type_and_marks(parts[0], marks) if optional else (annotation, marks)
+    return type_and_marks(parts[0], marks) if optional else (annotation, marks)
 
 
 def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
-    annotation, marks = _type_and_marks(annotation, metadata)
+    annotation, marks = type_and_marks(annotation, metadata)
     for mark in marks:
         if isinstance(mark, Reading):
             return mark.words

@@ -10,6 +10,7 @@ import gc
 import os
 import shlex
 import sys
+from collections.abc import Callable
 from typing import Annotated, Any
 
 import typer
@@ -24,6 +25,8 @@ from gripscale.cli.run import open_app as app_command
 from gripscale.core.provenance import COMMAND, version_of
 from gripscale.questions.registry import commands
 
+WIDEST_HELP = 140
+"""Characters of the longest lines of help, in a terminal that is as wide."""
 EPILOGUE = (
     "To start: `gripscale new ROAD RUBBER` writes a case for your files, `gripscale init FOLDER` "
     "an example; `gripscale keys` lists what a case may say, `gripscale docs` opens the "
@@ -44,23 +47,31 @@ app = typer.Typer(
     name="gripscale",
     cls=Commands,
     epilog=EPILOGUE,
-    add_completion=False,
+    context_settings={"max_content_width": WIDEST_HELP},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     no_args_is_help=True,
 )
-app.command("init")(init)
-app.command("new")(new)
-app.command("run")(run)
+
+
+def _enter(name: str, function: Callable[..., None], **settings: Any) -> None:
+    """Enter a command; the list of commands has its first sentence, however long it is."""
+    summary = (function.__doc__ or "").partition("\n\n")[0]
+    app.command(name, short_help=summary, **settings)(function)
+
+
+_enter("init", init)
+_enter("new", new)
+_enter("run", run)
 for name, question in commands():
-    app.command(name)(question)
-app.command("report")(report_command)
-app.command("reproduce", context_settings=PASS_ON)(reproduce)
-app.command("fit-surface")(fit_surface)
-app.command("fit-rubber")(fit_rubber)
-app.command("keys")(keys)
-app.command("docs")(docs)
-app.command("app")(app_command)
+    _enter(name, question)
+_enter("report", report_command)
+_enter("reproduce", reproduce, context_settings=PASS_ON)
+_enter("fit-surface", fit_surface)
+_enter("fit-rubber", fit_rubber)
+_enter("keys", keys)
+_enter("docs", docs)
+_enter("app", app_command)
 app.add_typer(export, name="export")
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale.core.errors import InputError
-from gripscale.terminal import argument, command, option, print_wrapped, screen
+from gripscale.terminal import Modulus, argument, command, option, print_wrapped, screen
 
 if TYPE_CHECKING:
     from gripscale.rubber import Rubber
@@ -46,6 +46,7 @@ def rubber(
     ] = None,
     name: Annotated[str | None, option("Of the material; not for ansys.")] = None,
     material: Annotated[int | None, option("Number of the material; not for abaqus.")] = None,
+    modulus: Modulus = None,
     modulus_unit: Annotated[str | None, option("Pa (as by default), kPa, MPa or GPa.")] = None,
     temperature_unit: Annotated[
         str | None, option("K (as by default) or C, of the shift; not for febio.")
@@ -56,7 +57,7 @@ def rubber(
     from gripscale.export import write_rubber
     from gripscale.export.reduction import reduced
 
-    rubber = _rubber_of(source)
+    rubber = _rubber_of(source, modulus)
     if temperature is not None:
         rubber = rubber.at(temperature_in_kelvin(temperature))
     console = screen()
@@ -122,11 +123,15 @@ def mesh(
     )
 
 
-def _rubber_of(source: Path) -> Rubber:
-    """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement."""
+def _rubber_of(source: Path, modulus: str | None) -> Rubber:
+    """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement.
+
+    `modulus` is E or G, of a measurement that does not state it.
+    """
     from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
 
     if source.suffix == ".toml":
         file = read_case_file(source)
         return prepare_rubber(file.case.rubber, file.resolve).rubber
-    return prepare_rubber(validate(RubberSource, {"file": str(source)}, str(source))).rubber
+    keys = {"file": str(source)} | ({} if modulus is None else {"modulus": modulus})
+    return prepare_rubber(validate(RubberSource, keys, str(source))).rubber

@@ -91,13 +91,21 @@ def keys(
             "A table of the case, such as rubber or conditions.heat; all by default.", "SECTION"
         ),
     ] = None,
+    schema: Annotated[
+        bool,
+        typer.Option("--schema", help="Print the JSON Schema of a case instead, for editors."),
+    ] = False,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""
+    from gripscale.case_file.json_schema import case_schema
     from gripscale.case_file.keys import sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
     from gripscale.report.failures import chapter_words
 
+    if schema:
+        typer.echo(case_schema())
+        return
     chosen = sections()
     if section is not None:
         checks.one_of("section", section, dict.fromkeys(part.name for part in chosen))

@@ -58,7 +58,8 @@ def new(
     files: Annotated[
         list[Path],
         terminal.argument(
-            "Measured profiles or a map, and a master curve or sweeps, in any order; or folders.",
+            "Measured profiles or a map, and a master curve or sweeps or a rubber known by name "
+            "(styrene_butadiene), in any order; or folders.",
             "FILE...",
         ),
     ],

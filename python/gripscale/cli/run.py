@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.core.errors import FileError, GripscaleError
-from gripscale.terminal import CasePath, argument, command, option
+from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.terminal import CasePath, argument, case_command, command, option
 
 if TYPE_CHECKING:
     from gripscale.questions.chain.events import Event, OnEvent
@@ -28,7 +28,7 @@ class ProgressFormat(StrEnum):
     JSON = "json"
 
 
-@command
+@case_command
 def run(
     case: CasePath,
     output: Annotated[
@@ -50,24 +50,20 @@ def run(
 ) -> None:
     """Predict contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case_file.folder import is_finished, note_finished
-    from gripscale.case_file.read import read_case_file
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
     from gripscale.io.folders import require_writable
 
     as_json = progress == ProgressFormat.JSON
-    console = terminal.screen(stderr=as_json)
+    if as_json and terminal.MANNER.get().json:
+        raise InputError("expected either --json (the result) or --progress json (its events)")
+    terminal.MANNER.set(terminal.MANNER.get()._replace(events=as_json))
     with _json_events(progress) as emit:
-        file = read_case_file(case)
+        work = terminal.CaseCommand(case)
+        file = work.file
         target = output if output is not None else file.resolve(file.case.output.folder)
         shown_too = (target / "uncertainty" / "uncertainty.nc",)
         if not (fresh or as_json) and is_finished(file, target, shown_too):
-            report = target / terminal.RUN_REPORT
-            date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
-            typer.echo(report.read_text(encoding="utf-8"))
-            words = f"Finished {date}. Case, files and software are the same; nothing was solved "
-            terminal.print_wrapped(
-                console, f"{words}again (--fresh does). {terminal.RUN_CLOSING} {target}"
-            )
+            _show_again(work, target)
             return
         require_writable(target)
         terminal.RESULTS_FOLDER.set(target)
@@ -75,8 +71,31 @@ def run(
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            solve_run(console, emit, file, target, figures, fresh)
-            note_finished(file, target, shown_too)
+            report = solve_run(work, emit, target, figures, fresh)
+            note_finished(file, target, shown_too, report)
+
+
+def _show_again(work: terminal.CaseCommand, target: Path) -> None:
+    """Print the report on a finished run once more, as wide as the terminal is now."""
+    from gripscale.case_file.folder import finished_report
+
+    console = work.console
+    time = (target / terminal.RUN_REPORT).stat().st_mtime
+    terminal.print_parts(console, finished_report(target))
+    console.print()
+    terminal.print_wrapped(
+        console,
+        f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}. Case, files and software are the "
+        f"same; nothing was solved again (--fresh does). {terminal.RUN_CLOSING} {target}",
+    )
+    if any(terminal.MANNER.get()):
+        from gripscale.case_file.prepare import named_files
+        from gripscale.questions.answer.answer import ANSWER_FILE, answer
+        from gripscale.questions.stored import load
+
+        stored = target / ANSWER_FILE  # of sine waves there is none, and nothing to solve
+        result = load(stored) if stored.is_file() else answer(work.case)
+        terminal.print_result(result, work.file.path, named_files(work.file))
 
 
 @contextmanager

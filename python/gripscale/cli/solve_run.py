@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import shlex
-from contextlib import nullcontext
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale import case_file, terminal
-from gripscale.case_file.folder import case_replaced
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
@@ -23,6 +21,7 @@ from gripscale.questions.chain.view import PredictionView, title
 from gripscale.questions.compare.page import judgement
 from gripscale.questions.cut_off.question import CutOff, cut_off_result
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
+from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.result import warning_lines
 from gripscale.questions.summary_table import SUMMARY_FILE
 from gripscale.questions.uncertainty.page import uncertainty_lines
@@ -45,22 +44,19 @@ REPORT_WIDTH = 110
 
 
 def solve_run(
-    console: Console,
+    work: terminal.CaseCommand,
     emit: events.OnEvent,
-    file: case_file.CaseFile,
     target: Path,
     figures: Figures,
     fresh: bool,
-) -> None:
-    """Prepare, solve, print and write a case, with an event for each step."""
-    chain = ChainRun.of(case_file.read_case(file), target, fresh=fresh)
-    other = case_replaced(file, target)
-    if other:
-        words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
-        terminal.print_wrapped(console, words)
+) -> Sequence[str | Table]:
+    """Prepare, solve, print and write a case, with an event for each step; return its report."""
+    chain, console = ChainRun.of(work.case, target, fresh=fresh), work.console
+    header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
+    work.open_results(target, "", header)
     with background_figures(chain, figures) as draw:
         answer, opening = _print_answer(console, chain, target)
-        effects = _solve(console, emit, file, chain, answer, draw)
+        effects = _solve(console, emit, work.file, chain, answer, draw)
         parts, heat = _parts(chain, answer, effects, target)
         solved = [answer.data] if answer.is_solved else []
         solved += [chain.dataset(name) for name in chain.predictions]
@@ -71,43 +67,39 @@ def solve_run(
             if effects is not None:
                 figures.save(effects_sheet(effects), "effects")
 
-        terminal.conclude(
-            console,
-            target,
+        report = work.conclude(
+            answer,
             parts,
+            answer_printed=True,
             results=solved,
             text=terminal.RUN_REPORT,
             closing=terminal.RUN_CLOSING,
-            opening=opening,
+            page=lambda page: write_report(target, page),
+            opening=[f"{header}: {chain.case.title}", *opening],
             width=REPORT_WIDTH,
             draw=draw_conditions,
         )
         emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
         if solved:
             emit(events.FileWritten(str(target / SUMMARY_FILE)))
-    page = target / "report.html"
-    if page.is_file() and page.stat().st_mtime < (target / "case.toml").stat().st_mtime:
-        words = shlex.join(["gripscale", "report", str(target)])
-        terminal.print_wrapped(console, f"{page.name} in it is older; `{words}` renews it")
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
+    return report
 
 
 def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answer, list[str]]:
     """Solve the answer of a case, print it above the inputs; return it and the lines printed."""
     case = chain.case
-    header = f"gripscale {version_of('gripscale')}, case {case.name}"
-    terminal.print_wrapped(console, header)
-    if case.below_measurement.down_to is not None:
-        terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
+    terminal.show_step(console, "solving the direct contact ...")
     result = chain.answer = answer(case, folder=target)
+    terminal.end_steps()
     lead, inputs = ["", *result.lines], ["", *_inputs(case)]
     for line in (*lead, *warning_lines(result.findings, terminal.RUN_REPORT), *inputs):
         terminal.print_wrapped(console, line)
-    return result, [header, *lead, *warning_lines(result.findings), *inputs]
+    return result, inputs
 
 
 def _solve(
@@ -128,19 +120,18 @@ def _solve(
         print_event(event)
         draw(event)
 
-    with console.status("solving") if console.is_terminal else nullcontext():
-        case_file.run_case(file, output=target, on_event=on_event, run=chain)
-        if answer.is_solved:
-            answer.save(target / ANSWER_FILE)
-            converged = answer.status == "converged"
-            emit(events.AnswerSolved(converged, answer.contact_fraction, answer.friction))
-            emit(events.FileWritten(str(target / ANSWER_FILE)))
-        if answer.curve is not None:
-            cut_off_result(answer.curve, case).save(target / "cut_off.nc")
-        effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
-        if effects is not None:
-            emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
-            emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
+    case_file.run_case(file, output=target, on_event=on_event, run=chain)
+    if answer.is_solved:
+        answer.save(target / ANSWER_FILE)
+        converged = answer.status == "converged"
+        emit(events.AnswerSolved(converged, answer.contact_fraction, answer.friction))
+        emit(events.FileWritten(str(target / ANSWER_FILE)))
+    if answer.curve is not None:
+        cut_off_result(answer.curve, case).save(target / "cut_off.nc")
+    effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
+    if effects is not None:
+        emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
+        emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
     return effects
 
 
@@ -167,26 +158,15 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> events.OnEvent:
             case events.ResultsReplaced():
                 terminal.print_wrapped(console, event.message)
             case events.WaveSolved():
-                if event.number == 1 and event.pass_number == 1:
-                    console.print()
-                    terminal.print_wrapped(console, title(event.speed, speed_unit))
-                elif event.number == 1:
-                    terminal.print_wrapped(console, f"  pass {event.pass_number}")
                 parts = [
-                    f"  wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
+                    f"{title(event.speed, speed_unit)}, pass {event.pass_number}, "
+                    f"wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
                     f"contact {event.contact_fraction:.3f}",
                 ]
                 if event.speed > 0.0:
                     parts.append(f"friction {event.friction:.3f}")
-                if event.status != "conditions not settled":
-                    parts.append(event.message)
                 parts.append("already solved" if event.stored else f"{event.seconds:.1f} s")
-                terminal.print_wrapped(console, ", ".join(parts))
-            case events.PredictionFinished(passes=int(passes)):
-                agree = "agree" if event.converged else f"do not agree ({event.message})"
-                terminal.print_wrapped(
-                    console, f"  rubber and contact {agree} after {passes} passes on these meshes"
-                )
+                terminal.show_step(console, ", ".join(parts))
 
     return print_event
 

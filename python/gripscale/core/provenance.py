@@ -12,6 +12,8 @@ from pathlib import Path
 
 from gripscale import _kernel
 
+CASE_TITLE = "case_title"
+"""Attribute of a result: rubber and surface of its case, in words."""
 COMMAND: ContextVar[str] = ContextVar("command", default="")
 """The command that makes a result, as it was typed; empty in Python."""
 

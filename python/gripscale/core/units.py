@@ -118,6 +118,16 @@ def spelled(unit: object, kind: str) -> str | None:
     return word if word in UNITS[kind] else None
 
 
+def si_unit(unit: str, size: float) -> str:
+    """Return the SI unit of numbers that are shown in a `unit` of this `size`."""
+    for kind, units in UNITS.items():
+        spelling = spelled(unit, kind)
+        if spelling is not None and math.isclose(units[spelling], size):
+            return next(iter(units))
+    is_formula = not unit.isascii() or " " in unit  # such as 2πA/λ, of a number without a unit
+    return unit if size == 1.0 and unit and not is_formula else "1"
+
+
 def quantity_in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
     """Return a number or array given in a `unit` of `kind` in the SI unit."""
     spelling = spelled(unit, kind)

@@ -23,6 +23,14 @@ def nearest_existing(path: Path) -> Path:
     return next((step for step in (path, *path.parents) if step.exists()), path)
 
 
+def path_between(folder: Path, path: Path) -> str:
+    """Return a path from a folder, or where none leads there, on another drive, the whole path."""
+    try:
+        return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+    except ValueError:
+        return path.resolve().as_posix()
+
+
 def make_folder(folder: Path) -> None:
     """Make `folder`; raise `FileError` if that fails."""
     try:

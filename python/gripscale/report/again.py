@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import PurePath
 from typing import Any
 
-from gripscale.core.provenance import versions
+from gripscale.core.provenance import CASE_TITLE, versions
 from gripscale.report.elements import Code, Element, Facts, Section, Text
 
 _KEY = "prediction_key"
@@ -14,6 +14,11 @@ _KEY = "prediction_key"
 def case_name(attrs: dict[Any, Any]) -> str:
     """Return the file name of the case of a result; empty where it is not known."""
     return PurePath(str(attrs.get("case_file", ""))).name
+
+
+def case_title(attrs: dict[Any, Any]) -> str:
+    """Return rubber and surface of a result in words, or what its case is called."""
+    return str(attrs.get(CASE_TITLE, "")) or case_name(attrs) or "a case"
 
 
 def rerun_section(attrs: dict[object, object]) -> Section:

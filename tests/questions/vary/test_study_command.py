@@ -8,10 +8,14 @@ import pytest
 
 from gripscale.core.status import Status
 from gripscale.io import netcdf
+from gripscale.terminal import PROGRESS_LINES
 from tests.samples import Shell, fail_waves
 
 
-def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> None:
+def test_command_solves_prints_draws_and_resumes(
+    shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(PROGRESS_LINES, "1")
     asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
     result = shell(*asked, "--static")
     assert result.exit_code == 0, result.output
@@ -20,7 +24,7 @@ def test_command_solves_prints_draws_and_resumes(shell: Shell, case: Path) -> No
         str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
     }
     files = {"case.toml", "study.nc", "study.txt", "summary.xlsx"}
-    assert written == files | {"figures/totals.png"}
+    assert written == files | {".case", "report.html", "figures/totals.png"}
     for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
         assert words in result.stdout
     data = netcdf.load_dataset(target / "study.nc")

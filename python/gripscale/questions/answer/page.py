@@ -26,7 +26,7 @@ from gripscale.questions.inputs.page import rubber_section, surface_section
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
 from gripscale.questions.words import HEADINGS, SYMBOLS
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
 
@@ -151,7 +151,7 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
     solved = reliance.is_solved(data)
     contact = contact_elements(data, record) if solved else []
     return Page.of(
-        f"Contact and friction: {case_name(data.attrs) or 'a case'}",
+        f"Contact and friction: {case_title(data.attrs)}",
         next(iter(basis_lines(data)), ""),
         [*no_answer_notices(data if solved else None), *findings],
         answer_cards(data) if solved else (),

@@ -9,7 +9,7 @@ import typer
 from gripscale import terminal
 
 
-@terminal.command
+@terminal.case_command
 def calibrate_command(
     case: terminal.CasePath,
     model: Annotated[

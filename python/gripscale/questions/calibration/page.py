@@ -24,7 +24,7 @@ from gripscale.questions.calibration.calibration_text import PARAMETERS, estimat
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.compare.charts_of_ladder import measured
 from gripscale.questions.uncertainty.page import as_elements
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Facts, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
@@ -170,7 +170,7 @@ def calibration_page(
     data: xr.Dataset, findings: Sequence[Finding], parts: Iterable[str | Table]
 ) -> Page:
     """Return the page of a calibration: the law, the points, and the profiles of parameters."""
-    case, failed = case_name(data.attrs), calibration_failure(data)
+    case, failed = case_title(data.attrs), calibration_failure(data)
     points, *tables = as_elements(parts)
     fit, residuals, profiles = map(image, calibration_pictures(data))
     cards = []

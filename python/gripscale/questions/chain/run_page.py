@@ -35,7 +35,7 @@ from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.uncertainty import page as uncertainty
 from gripscale.questions.vary import page_side_by_side as side_by_side
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import (
     Card,
     Element,
@@ -69,7 +69,7 @@ _OF_ANOTHER = Finding(Severity.WARNING, uncertainty.OF_ANOTHER, topic=Topic.SOUR
 
 def run_page(run: RunSource) -> Page:
     """Return the report of `run`."""
-    case = case_name(run.attrs)
+    case = case_title(run.attrs)
     tables = {table.name: table for table in wave_tables(run.by_wave)}
     stale = run.uncertainty is not None and run.own_uncertainty is None
     blocks = ("surface_x", "surface_pressure", "mesh_x")

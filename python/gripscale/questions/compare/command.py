@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gripscale.questions.compare.comparison import SolvedLadder
 
 
-@terminal.command
+@terminal.case_command
 def compare_command(
     case: terminal.CasePath,
     vary: Annotated[
@@ -52,7 +52,6 @@ def compare_command(
     cluster: terminal.Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.case_file import read_case, read_case_file
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.experiment.task import PREDICTIONS
@@ -63,6 +62,7 @@ def compare_command(
     from gripscale.questions.calibration.page import residual_table
     from gripscale.questions.chain.charts import effects_figure
     from gripscale.questions.compare import charts, comparison, ladder, page, question
+    from gripscale.questions.page_of_folder import write_report
     from gripscale.questions.result import warning_lines
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
@@ -70,12 +70,11 @@ def compare_command(
     from gripscale.questions.vary.effects import case_effects
 
     axes = None if vary is None else dict([axis.parse_vary(vary, comparison.COMPARED_OVER)])
-    file = read_case_file(case)
-    read = read_case(file)
-    opening = f"Comparison of models for {file.path}"
-    console, target = terminal.open_folder(file, output, "comparison", opening)
-    on_task = terminal.progress_printer(console)
-    solving: dict[str, Any] = {"workers": workers, "client": cluster, "on_task": on_task}
+    work = terminal.CaseCommand(case)
+    work.open_results(output, "comparison", f"Comparison of models for {work.file.path}")
+    console, target, read = work.console, work.target, work.case
+    solving = work.solving(workers) | {"client": cluster}
+    bench = {name: value for name, value in solving.items() if name != "folder"}
     stages: list[SolvedLadder] = []
 
     def print_stage(solved: SolvedLadder) -> None:
@@ -95,15 +94,14 @@ def compare_command(
         accuracy=accuracy,
         rungs=names,
         measured=None if measured is None else read_measured_friction(measured),
-        folder=target,
         on_stage=print_stage,
         **solving,
     )
     result.save(target / result.file)
     text = f"{Path(result.file).stem}.txt"
+    terminal.end_steps()
     console.print()
-    lead = [*result.lines, *warning_lines(result.findings, text)]
-    terminal.print_parts(console, lead)
+    terminal.print_parts(console, [*result.lines, *warning_lines(result.findings, text)])
     parts = list(result.parts())
     worth: list[xr.Dataset] = []
     residuals: xr.Dataset | None = None
@@ -113,21 +111,21 @@ def compare_command(
         if models and read.surface.measured is not None:
             models.append(DirectContact(tolerance=tolerance, conditions=read.conditions))
         store = target / PREDICTIONS
-        effects = (case_effects(read, model, target, store, **solving) for model in models)
+        effects = (case_effects(read, model, target, store, **bench) for model in models)
         worth = [effect for effect in effects if effect is not None]
-        residuals = comparison.at_measured(result.ladder, store, **solving)
+        residuals = comparison.at_measured(result.ladder, store, **bench)
     if worth:
         parts.append(page_side_by_side.effects_table(*worth))
     if residuals is not None:
         netcdf.save(residuals, target / "at_measured.nc")
         parts.append(residual_table(residuals))
-    sampled = stored_uncertainty(file.resolve(file.case.output.folder))
-    parts += uncertainty_lines(sampled, file.text, read.origin.digests)
+    sampled = stored_uncertainty(work.file.resolve(work.file.case.output.folder))
+    parts += uncertainty_lines(sampled, work.file.text, read.origin.digests)
     if axes is None and has_answer(result.data):
         parts += ["", page.best_line(result.data)]
 
     def draw() -> None:
-        figures = FigureFolder(target, file.case.output.figures)
+        figures = FigureFolder(target, work.file.case.output.figures)
         for name, figure in result.figures():
             figures.save(figure, name)
         if worth:
@@ -137,14 +135,12 @@ def compare_command(
             labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
             figures.save(charts.at_measured_figure(residuals, labels), "at_measured")
 
-    terminal.conclude(
-        console,
-        target,
+    work.conclude(
+        result,
         parts,
-        results=[result.data],
-        opening=[*result.lines, *warning_lines(result.findings)],
+        answer_printed=True,
         text=text,
         closing=f"Tables, figures and result ({result.file}) are in",
         draw=draw,
-        failure=result.failure,
+        page=lambda page: write_report(target, page),
     )

@@ -31,7 +31,7 @@ from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report import elements
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -272,7 +272,7 @@ _LADDER = (
 def comparison_page(compared: Compared) -> Page:
     """Return the report of a comparison alone."""
     first, ladder = compared.parts[0], compared.ladder
-    case = case_name(first.attrs) or "case.toml"
+    case = case_title(first.attrs)
     elements = comparison_elements(compared)
     sampled = compared.own_uncertainty
     stale = sampled is None and compared.uncertainty is not None

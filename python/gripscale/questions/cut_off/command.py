@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Annotated
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
+from gripscale.terminal import CasePath, OwnFolder, Workers, case_command, option
 
 
-@command
+@case_command
 def cut_off_command(
     case: CasePath,
     down_to: Annotated[

@@ -37,7 +37,7 @@ from gripscale.questions.cut_off.curve import (
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.words import HEADINGS, SYMBOLS
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
@@ -140,7 +140,7 @@ class CutOff(Result):
         return [*map(Text, self.basis), *charts, self.rules_table(), self.table()]
 
     def page_content(self) -> Page:
-        case = case_name(self.data.attrs) or "case.toml"
+        case = case_title(self.data.attrs)
         errors: list[Finding] = []
         cards: list[Card] = []
         if self.failure:

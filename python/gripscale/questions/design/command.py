@@ -7,13 +7,21 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, OwnFolder, Workers, command, option, print_wrapped
+from gripscale.terminal import (
+    CasePath,
+    Modulus,
+    OwnFolder,
+    Workers,
+    case_command,
+    option,
+    print_wrapped,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-@command
+@case_command
 def design_command(
     case: CasePath,
     goal: Annotated[
@@ -56,6 +64,7 @@ def design_command(
             metavar="FILE",
         ),
     ] = None,
+    modulus: Modulus = None,
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
@@ -93,7 +102,7 @@ def design_command(
         limits=CompoundLimits(largest_factor, factor_per_decade, points),
         levels=wanted,
         rubbers={
-            name: read_rubber(value, work.file)
+            name: read_rubber(value, work.file, modulus)
             for name, value in zip(names_of(others), others, strict=True)
         },
         roads={name: read_surface(name, work.file) for name in sorted({g.road for g in goals})},
@@ -103,4 +112,4 @@ def design_command(
     )
     write_targets(result.data, work.target)
     contents = "figure, and master curve, Prony series and rubber of each point (target_*)"
-    work.finish(result, contents, drawings="", page=True)
+    work.finish(result, contents, drawings="")

@@ -21,7 +21,7 @@ from gripscale.questions.design.design_text import (
     changed_frequencies,
     rolling_at_todays_friction,
 )
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section
 
 DECIDES = 1e-3
@@ -213,7 +213,7 @@ def design_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
     """Return the page of a design: the curve, then its points."""
     answer, *basis = design_lines(data)
     return Page.of(
-        f"Compound for {case_name(data.attrs) or 'a case'}",
+        f"Compound for {case_title(data.attrs)}",
         answer,
         findings,
         design_cards(data),

@@ -7,10 +7,10 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
+from gripscale.terminal import CasePath, Modulus, OwnFolder, Workers, case_command, option
 
 
-@command
+@case_command
 def sensitivity_command(
     case: CasePath,
     vary: Annotated[
@@ -40,6 +40,7 @@ def sensitivity_command(
             "change of speed, pressure or temperature: six further solutions a point.",
         ),
     ] = False,
+    modulus: Modulus = None,
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
@@ -53,7 +54,7 @@ def sensitivity_command(
     work.open_results(output, "sensitivity", f"What decides the friction of {work.file.path}")
     result = sensitivity(
         work.case,
-        vary=read_named_inputs(axes, work.file) or None,
+        vary=read_named_inputs(axes, work.file, modulus) or None,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,

@@ -46,7 +46,7 @@ from gripscale.questions.vary.axis import axes_of, points
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
 from gripscale.questions.words import SYMBOLS
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section, Text
 from gripscale.report.failures import Failure, explained, first_of
 
@@ -206,7 +206,7 @@ class Sensitivity(Result):
         traces = charts.height_traces(self.data, self.inputs)
         heights = [panel for name, trace in traces for panel in height_panels(trace, name)]
         return Page.of(
-            f"What decides the friction of {case_name(self.data.attrs) or 'a case'}",
+            f"What decides the friction of {case_title(self.data.attrs)}",
             lead,
             [
                 *(Finding(Severity.ERROR, explained(failure)) for failure in self.failures),

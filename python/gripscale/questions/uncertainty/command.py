@@ -9,7 +9,7 @@ from gripscale import terminal
 from gripscale.core.errors import InputError
 
 
-@terminal.command
+@terminal.case_command
 def uncertainty_command(
     case: terminal.CasePath,
     samples: Annotated[
@@ -109,7 +109,7 @@ def uncertainty_command(
         client=cluster,
         **work.solving(workers),
     )
-    work.finish(result, "tables and figures", page=True)
+    work.finish(result, "tables and figures")
 
 
 def _values_by_source(ranges: Sequence[str]) -> dict[str, str]:

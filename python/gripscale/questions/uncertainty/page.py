@@ -27,7 +27,7 @@ from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
 from gripscale.questions.words import SYMBOLS
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 
@@ -403,7 +403,7 @@ def as_elements(parts: Iterable[str | Table]) -> list[Element]:
 
 def uncertainty_page(data: xr.Dataset) -> Page:
     """Return what matters most to an answer with one figure, then the details, folded."""
-    case, models = case_name(data.attrs), ", ".join(map(str, data.model.values))
+    case, models = case_title(data.attrs), ", ".join(map(str, data.model.values))
     first, *others = map(image, uncertainty_pictures(data))
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]

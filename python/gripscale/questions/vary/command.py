@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 
 from gripscale import terminal
-from gripscale.terminal import CasePath, Cluster, OwnFolder, Workers, command, option
+from gripscale.terminal import CasePath, Cluster, Modulus, OwnFolder, Workers, case_command, option
 
 
-@command
+@case_command
 def study_command(
     case: CasePath,
     vary: Annotated[
@@ -37,6 +37,7 @@ def study_command(
     ] = 0.05,
     workers: Workers = None,
     cluster: Cluster = None,
+    modulus: Modulus = None,
     static: Annotated[
         bool | None,
         option("Also the rubber at rest; as the case says by default.", "--static/--no-static"),
@@ -51,14 +52,14 @@ def study_command(
 
     axes = parse_axes(vary)
     work = terminal.CaseCommand(case)
-    varied = read_named_inputs(axes, work.file)
+    varied = read_named_inputs(axes, work.file, modulus)
     planned = Study(work.case, varied, static=static, model=model, tolerance=tolerance)
     work.open_results(output, "study")
     stored = planned.stored(work.target)
     opening = planned.description()
     if stored is not None:
         opening = json.loads(stored.attrs["description"])
-    for line in [*opening, ""]:
+    for line in opening:
         terminal.print_wrapped(work.console, line)
     folder.save_case(work.file, work.target)
     data = planned.run(client=cluster, **work.solving(workers))

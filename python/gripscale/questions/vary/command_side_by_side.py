@@ -10,7 +10,7 @@ import typer
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import OwnFolder, Workers, argument, command, option
+from gripscale.terminal import Modulus, OwnFolder, Workers, argument, case_command, option
 
 
 def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
@@ -24,7 +24,7 @@ def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     return chosen
 
 
-@command
+@case_command
 def compare_surfaces_command(
     surfaces: Annotated[
         list[str],
@@ -63,10 +63,10 @@ def compare_surfaces_command(
         samples=samples or None,
         **work.solving(workers),
     )
-    work.finish(roads, "tables and figures", drawings="", page=True)
+    work.finish(roads, "tables and figures", drawings="")
 
 
-@command
+@case_command
 def compare_rubbers(
     rubbers: Annotated[
         list[str],
@@ -86,6 +86,7 @@ def compare_rubbers(
     temperature: Annotated[
         str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
     ] = None,
+    modulus: Modulus = None,
     uncertainty: Annotated[
         bool, typer.Option(help="Predict what each measurement leaves open, too.")
     ] = True,
@@ -100,15 +101,11 @@ def compare_rubbers(
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     work = terminal.CaseCommand(chosen)
-    opening = (
-        "Each compound is predicted first; then the range that the error of its measured moduli "
-        "leaves, on half-planes."
-    )
-    work.open_results(output, "rubbers", *[opening] * uncertainty)
+    work.open_results(output, "rubbers")
     compounds = compare_compounds(
         work.case,
         {
-            name: read_rubber(value, work.file)
+            name: read_rubber(value, work.file, modulus)
             for name, value in zip(names_of(rubbers), rubbers, strict=True)
         },
         temperature=kelvin,
@@ -116,4 +113,4 @@ def compare_rubbers(
         **work.solving(workers),
     )
     contents = "table and figures"
-    work.finish(compounds, contents, text="compounds.txt", drawings="", page=True)
+    work.finish(compounds, contents, text="compounds.txt", drawings="")
