@@ -130,6 +130,8 @@ RESULT_FILES = (
     "cut_off.nc",
     "effects_chain.nc",
     "report.txt",
+    "chain.txt",
+    "chain.txt",
     "summary.xlsx",
     SAVED_CASE,
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),

@@ -1,4 +1,4 @@
-"""`gripscale run CASE.toml`: the whole chain, from files to tables, figures and results."""
+"""`gripscale run CASE.toml`: the answer of a case, from files to tables, figures and results."""
 
 from __future__ import annotations
 
@@ -40,6 +40,12 @@ def run(
             "--fresh", help="Solve all anew, also what an earlier run of the same case finished."
         ),
     ] = False,
+    chain: Annotated[
+        bool,
+        typer.Option(
+            "--chain", help="Print the paper's chain of waves too, wave by wave, for comparison."
+        ),
+    ] = False,
     progress: Annotated[
         ProgressFormat,
         typer.Option(
@@ -48,11 +54,14 @@ def run(
         ),
     ] = ProgressFormat.TEXT,
 ) -> None:
-    """Predict contact area and friction of a case; goes on where it was stopped."""
+    """Answer with contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case_file.folder import is_finished, note_finished
     from gripscale.case_file.read import read_case_file
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
     from gripscale.io.folders import require_writable
+    from gripscale.questions.answer.answer import ANSWER_FILE
+    from gripscale.questions.chain.run import CHAIN_REPORT
+    from gripscale.questions.stored import load
 
     as_json = progress == ProgressFormat.JSON
     console = terminal.screen(stderr=as_json)
@@ -64,10 +73,14 @@ def run(
             report = target / terminal.RUN_REPORT
             date = datetime.fromtimestamp(report.stat().st_mtime).strftime("%Y-%m-%d %H:%M")
             typer.echo(report.read_text(encoding="utf-8"))
+            if chain and (target / CHAIN_REPORT).is_file():
+                typer.echo((target / CHAIN_REPORT).read_text(encoding="utf-8"))
             words = f"Finished {date}. Case, files and software are the same; nothing was solved "
             terminal.print_wrapped(
                 console, f"{words}again (--fresh does). {terminal.RUN_CLOSING} {target}"
             )
+            if (target / ANSWER_FILE).is_file():
+                terminal.print_wrapped(console, load(target / ANSWER_FILE).lines[0])
             return
         require_writable(target)
         terminal.RESULTS_FOLDER.set(target)
@@ -75,7 +88,7 @@ def run(
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            solve_run(console, emit, file, target, figures, fresh)
+            solve_run(console, emit, file, target, figures, fresh=fresh, show_chain=chain)
             note_finished(file, target, shown_too)
 
 

@@ -11,13 +11,14 @@ from gripscale import case_file, terminal
 from gripscale.case_file.folder import case_replaced
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
+from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, answer_with_inputs
 from gripscale.questions.answer.page import slopes_table
-from gripscale.questions.calibration.page import measured_lines
+from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.chain import events
 from gripscale.questions.chain.charts import effects_sheet, heat_sheet
 from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
-from gripscale.questions.chain.run import DYNAMIC, ChainRun
+from gripscale.questions.chain.run import CHAIN_REPORT, DYNAMIC, ChainRun
 from gripscale.questions.chain.run_figures import background_figures
 from gripscale.questions.chain.view import PredictionView, title
 from gripscale.questions.compare.page import judgement
@@ -30,6 +31,7 @@ from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.vary.effects import EFFECTS_FILE, case_effects
 from gripscale.questions.vary.inputs import effects_asked
 from gripscale.questions.vary.page_side_by_side import effects_table
+from gripscale.questions.words import OF_THE_PAPER
 from gripscale.report.failures import explained
 
 if TYPE_CHECKING:
@@ -50,20 +52,43 @@ def solve_run(
     file: case_file.CaseFile,
     target: Path,
     figures: Figures,
+    *,
     fresh: bool,
+    show_chain: bool,
 ) -> None:
     """Prepare, solve, print and write a case, with an event for each step."""
     chain = ChainRun.of(case_file.read_case(file), target, fresh=fresh)
+    case = chain.case
+    show_chain = show_chain or case.surface.measured is None
     other = case_replaced(file, target)
     if other:
         words = f"Replaces the results of {other} in {target}; --output DIR keeps both."
         terminal.print_wrapped(console, words)
+    header = f"gripscale {version_of('gripscale')}, case {case.name}"
+    terminal.print_wrapped(console, header)
     with background_figures(chain, figures) as draw:
-        answer, opening = _print_answer(console, chain, target)
-        effects = _solve(console, emit, file, chain, answer, draw)
-        parts, heat = _parts(chain, answer, effects, target)
-        solved = [answer.data] if answer.is_solved else []
-        solved += [chain.dataset(name) for name in chain.predictions]
+        if case.surface.measured is not None:
+            if case.below_measurement.down_to is not None:
+                words = "solving with the roughness below the measurement ..."
+                terminal.print_wrapped(console, words)
+            chain.answer = answer(case, folder=target)
+            _print_answer(console, case, chain.answer)
+        effects = _solve(console, emit, file, chain, draw, show_chain=show_chain)
+        if chain.answer is None:
+            waves = chain.dataset(next(iter(chain.predictions)))
+            chain.answer = answer_with_inputs(case, waves_answer(case, waves))
+            _print_answer(console, case, chain.answer)
+        _save_answer(chain.answer, case, target, emit)
+        of_chain, heat = _chain_parts(chain, effects)
+        opening = [header, "", *chain.answer.lines, *warning_lines(chain.answer.findings)]
+        parts, files = _parts(chain, chain.answer, target), {}
+        if case.surface.measured is None:
+            parts = [*of_chain, *parts]
+        else:
+            files = {CHAIN_REPORT: as_text(*of_chain, width=REPORT_WIDTH)}
+            if show_chain:
+                console.print()
+                terminal.print_parts(console, of_chain)
 
         def draw_conditions() -> None:
             if heat is not None:
@@ -75,20 +100,21 @@ def solve_run(
             console,
             target,
             parts,
-            results=solved,
+            results=[chain.answer.data, *(chain.dataset(name) for name in chain.predictions)],
             text=terminal.RUN_REPORT,
             closing=terminal.RUN_CLOSING,
-            opening=opening,
+            opening=[*opening, "", *_inputs(case)],
             width=REPORT_WIDTH,
+            files=files,
             draw=draw_conditions,
         )
         emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
-        if solved:
-            emit(events.FileWritten(str(target / SUMMARY_FILE)))
+        emit(events.FileWritten(str(target / SUMMARY_FILE)))
     page = target / "report.html"
     if page.is_file() and page.stat().st_mtime < (target / "case.toml").stat().st_mtime:
         words = shlex.join(["gripscale", "report", str(target)])
         terminal.print_wrapped(console, f"{page.name} in it is older; `{words}` renews it")
+    terminal.print_wrapped(console, chain.answer.lines[0])
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
@@ -96,18 +122,11 @@ def solve_run(
         raise failures[-1]
 
 
-def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answer, list[str]]:
-    """Solve the answer of a case, print it above the inputs; return it and the lines printed."""
-    case = chain.case
-    header = f"gripscale {version_of('gripscale')}, case {case.name}"
-    terminal.print_wrapped(console, header)
-    if case.below_measurement.down_to is not None:
-        terminal.print_wrapped(console, "solving with the roughness below the measurement ...")
-    result = chain.answer = answer(case, folder=target)
-    lead, inputs = ["", *result.lines], ["", *_inputs(case)]
-    for line in (*lead, *warning_lines(result.findings, terminal.RUN_REPORT), *inputs):
+def _print_answer(console: Console, case: Case, answer: Answer) -> None:
+    """Print an answer with its first findings, above the inputs of its case."""
+    findings = warning_lines(answer.findings, terminal.RUN_REPORT)
+    for line in ("", *answer.lines, *findings, "", *_inputs(case)):
         terminal.print_wrapped(console, line)
-    return result, [header, *lead, *warning_lines(result.findings), *inputs]
 
 
 def _solve(
@@ -115,8 +134,9 @@ def _solve(
     emit: events.OnEvent,
     file: case_file.CaseFile,
     chain: ChainRun,
-    answer: Answer,
     draw: events.OnEvent,
+    *,
+    show_chain: bool,
 ) -> xr.Dataset | None:
     """Solve and write the chain and, where the case asks for them, the effects of conditions."""
     case, target = chain.case, chain.folder
@@ -125,23 +145,30 @@ def _solve(
 
     def on_event(event: events.Event) -> None:
         emit(event)
-        print_event(event)
+        if show_chain or isinstance(event, events.ResultsReplaced):
+            print_event(event)
         draw(event)
 
-    with console.status("solving") if console.is_terminal else nullcontext():
+    words = f"solving {OF_THE_PAPER}, for comparison"
+    with console.status(words) if console.is_terminal else nullcontext():
         case_file.run_case(file, output=target, on_event=on_event, run=chain)
-        if answer.is_solved:
-            answer.save(target / ANSWER_FILE)
-            converged = answer.status == "converged"
-            emit(events.AnswerSolved(converged, answer.contact_fraction, answer.friction))
-            emit(events.FileWritten(str(target / ANSWER_FILE)))
-        if answer.curve is not None:
-            cut_off_result(answer.curve, case).save(target / "cut_off.nc")
         effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
         if effects is not None:
             emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
             emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
     return effects
+
+
+def _save_answer(answer: Answer, case: Case, target: Path, emit: events.OnEvent) -> None:
+    """Write an answer and its contact against the cut-off, with their events."""
+    answer.save(target / ANSWER_FILE)
+    friction, area = (
+        headline(answer.data, name).value for name in ("friction", "contact_fraction")
+    )
+    emit(events.AnswerSolved(answer.status == "converged", area, friction))
+    emit(events.FileWritten(str(target / ANSWER_FILE)))
+    if answer.curve is not None:
+        cut_off_result(answer.curve, case).save(target / "cut_off.nc")
 
 
 def _inputs(case: Case) -> list[str]:
@@ -191,11 +218,10 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> events.OnEvent:
     return print_event
 
 
-def _parts(
-    chain: ChainRun, answer: Answer, effects: xr.Dataset | None, target: Path
+def _chain_parts(
+    chain: ChainRun, effects: xr.Dataset | None
 ) -> tuple[list[str | Table], xr.Dataset | None]:
-    """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
-    case = chain.case
+    """Return tables of the chain, and the prediction that has heat to be drawn."""
     views = [PredictionView(chain.dataset(name), name) for name in chain.predictions]
     parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
     parts += [LEGEND] if views else []
@@ -205,14 +231,18 @@ def _parts(
         parts.append(heat_table(heat))
     if effects is not None:
         parts.append(effects_table(effects))
-    if answer.is_solved:
-        parts += slopes_table(answer.data)
-        parts += ["", *judgement(views[0], answer.data)] if views else []
-    if case.friction is not None and case.load.speed > 0.0:
-        parts += measured_lines(case.friction, case.load.speed, case.display_unit("speed"))
+    return parts, heat
+
+
+def _parts(chain: ChainRun, answer: Answer, target: Path) -> list[str | Table]:
+    """Return tables and sentences that stand below an answer."""
+    case = chain.case
+    parts: list[str | Table] = list(slopes_table(answer.data))
     sampled = stored_uncertainty(target)
     parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
     if answer.curve is not None:
         curve = CutOff(answer.curve)
         parts += ["", *curve.basis, curve.rules_table()]
-    return parts, heat
+    for name in list(chain.predictions)[:1]:
+        parts += ["", *judgement(PredictionView(chain.dataset(name)), answer.data)]
+    return parts

@@ -19,7 +19,6 @@ from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import STATUS, input_doubts_of
 from gripscale.questions.answer.best_estimate import BEST_ESTIMATES, DIRECT
-from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
 SUMMARY_FILE = "summary.xlsx"
@@ -29,7 +28,8 @@ OF_MODELS = ("rung", "model")
 """Dimensions of models side by side."""
 DOUBTS = "not_to_rely_on"
 FIRST = (
-    *("model", "best_friction", "best_friction_low", "best_friction_high"),
+    *("model", "best_total_friction", "best_total_friction_low", "best_total_friction_high"),
+    *("best_friction", "best_friction_low", "best_friction_high"),
     *("best_contact_fraction", "best_contact_fraction_low", "best_contact_fraction_high"),
     *("total_friction", "total_contact_fraction", STATUS, DOUBTS, "nominal_pressure"),
     *("nominal_speed", "footprint"),
@@ -88,7 +88,7 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
     """Return the columns of a result by name; `about` holds attributes that it may lack."""
     rows = _rows(data)
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
-    full = _with_intervals(data).assign_coords(numbered)
+    full = _at_rest_without_friction(data).assign_coords(numbered)
     columns = {
         str(name): _in_rows(full[name], rows, full)
         for name, variable in full.variables.items()
@@ -117,11 +117,10 @@ def _in_rows(number: xr.DataArray, rows: xr.DataArray, data: xr.Dataset) -> Colu
     return Column(name, full.transpose(*rows.dims).values.astype(object).ravel(), unit=unit)
 
 
-def _with_intervals(data: xr.Dataset) -> xr.Dataset:
-    """Return a result with both ends of the interval of each best estimate."""
-    for name in ("best_friction", "best_contact_fraction"):
-        if f"{name}_half_width" in data and f"{name}_low" not in data:
-            ends = interval_ends(data[name], data[f"{name}_half_width"])
-            for end, values in zip(("low", "high"), ends, strict=True):
-                data = data.assign({f"{name}_{end}": values.assign_attrs(units="1")})
-    return data
+def _at_rest_without_friction(data: xr.Dataset) -> xr.Dataset:
+    """Return a result without the friction of rubber at rest, which has none."""
+    speed = data.get("nominal_speed")
+    if speed is None or bool((speed > 0.0).all()):
+        return data
+    names = [name for name in ("total_friction", "total_friction_from_dissipation") if name in data]
+    return data.assign({name: data[name].where(speed > 0.0) for name in names})

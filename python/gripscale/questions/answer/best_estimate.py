@@ -57,12 +57,12 @@ class Factor:
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
 """Rungs whose ratio is the factor of finite strain."""
 ASSUMED_FINITE_STRAIN = Factor(
-    "finite_strain", "finite strain, assumed", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
+    "finite_strain", "large strain", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
 """Where these rungs were not solved: what windows and blocks of other roads showed."""
-LINES_TO_SURFACE = "step from lines to a surface"
+LINES_TO_SURFACE = "profile to surface"
 """Label of the factor from measured lines to the isotropic surface they lie on."""
-ISOTROPY_ASSUMED = "the step to a surface assumes an isotropic road"
+ISOTROPY_ASSUMED = "the step from profile to surface assumes an isotropic surface"
 """What an answer with this factor rests on, where nothing tells of ridges."""
 FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
 """A factor on each estimated quantity, with its error."""
@@ -85,8 +85,8 @@ ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_
 frictions the one that a coarse grid changes least."""
 
 
-AREA_TERM = "best_adhesive_friction"
-"""Name of the area term's friction over the contact area of a best estimate."""
+AREA_TERM, TOTAL = "best_adhesive_friction", "best_total_friction"
+"""Friction of the area term over the contact area of an answer, and with the hysteresis."""
 
 
 def best_estimate(
@@ -95,18 +95,18 @@ def best_estimate(
     *,
     sampled: SampledErrors | None = None,
 ) -> xr.Dataset:
-    """Return the best estimate of the solved rungs.
+    """Return the answer of the solved rungs.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it.
 
-    `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty` and the
-    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged or
-    where the profiles are too short to tell how well they represent the road (`_sampling_error`);
-    over `factor` the `_factor` on each with its `_factor_uncertainty`, NaN if not included.
-    `best_adhesive_friction` is there where an area term was asked for: its stress shears the area
-    of the best estimate, and no other.
+    `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty`, the ends
+    `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a direct
+    contact that converged or where the profiles are too short to tell how well they represent the
+    road (`_sampling_error`); over `factor` the `_factor` on each with its `_factor_uncertainty`,
+    NaN if not included. Where an area term was asked for, `best_adhesive_friction` is its stress on
+    the area of the answer, and `best_total_friction` the sum with the hysteresis.
     """
     has_direct = DIRECT in samples["rung"].values
     status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
@@ -129,6 +129,7 @@ def best_estimate(
     for share in SHARES_BY_SLOPE:
         if direct is not None and share in direct:
             data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
+    errors_of: dict[str, LogError] = {}
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
@@ -146,17 +147,56 @@ def best_estimate(
             every = [numbers[name][1] for numbers in solved]
             uncertainty = xr.concat([error.sigma for error in every], "factor")
             errors += [LogError(error.sigma.fillna(0.0), error.freedom) for error in every]
-        mean, error = mean * value.prod("factor"), combined(errors)
-        data[f"best_{name}"] = mean
-        data[f"best_{name}_uncertainty"] = error.sigma.where(mean.notnull())
-        data[f"best_{name}_half_width"] = half_width(error).where(mean.notnull())
+        errors_of[name] = combined(errors)
+        data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
         data[f"best_{name}_factor"] = value
         data[f"best_{name}_factor_uncertainty"] = uncertainty
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.usable(direct, "adhesive_friction").mean("sample")
-        if bool(term.notnull().any()):
-            data[AREA_TERM] = term * data["best_contact_fraction_factor"].prod("factor")
-    return data
+        data = with_area_term(
+            data, term * data["best_contact_fraction_factor"].prod("factor"), errors_of
+        )
+    return described(data)
+
+
+def described(data: xr.Dataset) -> xr.Dataset:
+    """Return an answer whose numbers have their meaning as attributes."""
+    return data.assign(
+        {
+            name: data[name].assign_attrs(variable_attributes(text))
+            for name, text in BEST_ESTIMATES.items()
+            if name in data
+        }
+    )
+
+
+def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
+    """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
+    there = value.notnull()
+    width = half_width(error).where(there)
+    low, high = interval_ends(value, width)
+    numbers = {"": value, "_uncertainty": error.sigma.where(there), "_half_width": width}
+    ends = {"_low": low, "_high": high}
+    return {f"best_{name}{end}": number for end, number in (numbers | ends).items()}
+
+
+def with_area_term(
+    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError]
+) -> xr.Dataset:
+    """Return an answer with the friction of its area term, and the total friction of both.
+
+    Unchanged where the term is NaN. Errors of hysteresis and contact area have common sources, such
+    as the surface: at worst they add up in full.
+    """
+    if not bool(term.notnull().any()):
+        return data
+    total = (data["best_friction"] + term).where(data["best_friction"] > 0.0)  # not at rest
+    share = term / total
+    friction, area = errors["friction"], errors["contact_fraction"]
+    sigma = (1.0 - share) * friction.sigma + share * area.sigma
+    freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
+    error = LogError(sigma, freedom)
+    return data.assign({AREA_TERM: term} | with_interval("total_friction", total, error))
 
 
 def _certain(sigma: xr.DataArray) -> LogError:
@@ -202,7 +242,7 @@ def _finite_strain(samples: xr.Dataset, unknown: xr.DataArray) -> tuple[str, Fac
             numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
     if not numbers or any(bool(value.isnull().any()) for value, _ in numbers.values()):
         return ASSUMED_FINITE_STRAIN.label, _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
-    return "finite strain", numbers
+    return "large strain", numbers
 
 
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
@@ -224,30 +264,43 @@ def _where_all_known(numbers: FactorNumbers) -> FactorNumbers:
     }
 
 
-_WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
-OF_A_POINT = {
-    "": "best estimate of the {}",
+_INTERVAL = {
+    "": "answer: {}",
     "_low": "low end of the 90 % interval of the {}",
     "_high": "high end of the 90 % interval of the {}",
     "_half_width": "relative half width of the 90 % interval of the {}",
-    "_sampling_error": "relative standard error of the {} from the sampling of the road",
+    "_uncertainty": "relative standard uncertainty of the {}",
+}
+_PARTS = {
+    "_sampling_error": "relative standard error of the {} from the sampling of the surface",
+    "_grid_error": "relative standard error of the {} from the grid of the direct contact",
     "_factor": "factor on the {} of the direct contact, NaN if not included",
     "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
 }
-"""What is kept of the best estimate of a prediction: end of its name, and meaning."""
-POINT_ESTIMATES = frozenset(
-    ["factor_label", *(f"best_{name}{end}" for name in ESTIMATED for end in OF_A_POINT)]
+BEST_ESTIMATES = {
+    f"best_{name}{end}": text.format(words)
+    for name, words, ends in (
+        ("total_friction", "friction μ of hysteresis and area term", _INTERVAL),
+        ("friction", "friction μ of the hysteresis", _INTERVAL | _PARTS),
+        ("contact_fraction", "real contact area A_r/A_0", _INTERVAL | _PARTS),
+    )
+    for end, text in ends.items()
+} | {
+    AREA_TERM: "friction μ of the area term over the contact area of the answer",
+    **{f"best_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
+    **{f"best_{share}": text for share, text in SHARES_BY_SLOPE.items()},
+}
+"""All numbers of an answer, and their meaning."""
+_OF_A_COMPARISON = ("_uncertainty", "_grid_error", "share", "_by_slope")
+POINT_ESTIMATES = (
+    "factor_label",
+    *(name for name in BEST_ESTIMATES if not name.endswith(_OF_A_COMPARISON)),
 )
 """Names that `with_best_estimate` adds for the rubber that slides."""
-BEST_ESTIMATES = POINT_ESTIMATES - {"factor_label"} | {
-    *(f"best_{name}{end}" for name in ESTIMATED for end in ("_uncertainty", "_grid_error")),
-    *(f"best_{share}" for share in (*BASIS_SHARES, *SHARES_BY_SLOPE)),
-}
-"""Names of all numbers of a best estimate."""
 
 
 def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
-    """Return predictions of the direct contact with the best estimate of each.
+    """Return predictions of the direct contact with the answer of each.
 
     Parameters
     ----------
@@ -257,9 +310,8 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        With `best_contact_fraction` and `best_friction` over the axes of the study, the ends `_low`
-        and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of rubber
-        at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
+        With `POINT_ESTIMATES` over the axes of the study, as `best_estimate` names them, and of
+        rubber at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
         result, or the surface is too short for an interval.
     """
     if UPPER_HEIGHT not in data:  # no direct contact
@@ -277,19 +329,17 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
         stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
         data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
         label = parts[(0,) * total.ndim]["factor_label"]
-        data["factor_label"] = label.assign_attrs(
-            variable_attributes("factors of the best estimate")
-        )
+        data["factor_label"] = label.assign_attrs(variable_attributes("factors of the answer"))
     return data
 
 
 def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
-    """Return the best estimate of one prediction of a study, a sample of all its profiles."""
+    """Return the answer of a prediction of a study, which is a sample of all its profiles."""
     names = [*reduce.SAMPLED_QUANTITIES, *(f"{name}_error" for name in reduce.SMOOTH)]
     names.append("adhesive_friction")
     names += [name.removeprefix("total_") for name in BASIS]
     numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
-    if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
+    if prefix:
         numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
     sample = xr.Dataset({name: (("rung", "sample"), [[value]]) for name, value in numbers.items()})
     sample[STATUS] = ("rung", "sample"), np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object)
@@ -297,17 +347,6 @@ def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
         rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
     )
     best = best_estimate(sample)
-    kept = best[["factor_label"]]
-    for name in ("contact_fraction",) if prefix else ESTIMATED:
-        value = best[f"best_{name}"]
-        ends = interval_ends(value, best[f"best_{name}_half_width"])
-        best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
-        for end, text in OF_A_POINT.items():
-            part = best[f"best_{name}{end}"].reset_coords(drop=True)
-            kept[f"best_{name}{end}"] = part.assign_attrs(
-                variable_attributes(text.format(_WORDS[name]))
-            )
-    if AREA_TERM in best:
-        text = "friction coefficient of the area term over the best estimate of the contact area"
-        kept[AREA_TERM] = best[AREA_TERM].assign_attrs(variable_attributes(text))
-    return kept
+    at_rest = {name for name in best if prefix and "friction" in str(name)}
+    names = [name for name in POINT_ESTIMATES if name in best and name not in at_rest]
+    return best[names].reset_coords(drop=True)

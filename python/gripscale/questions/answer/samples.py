@@ -46,7 +46,6 @@ def sample_numbers(
     `curve_wavelength`. Friction at rest is zero. An area term of `conditions` that the model does
     not know is that of its contact area at the temperature before the contact.
     """
-    rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in model.BASIS:
@@ -54,8 +53,7 @@ def sample_numbers(
     for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]
-    if rest:
-        numbers |= {name: 0.0 * numbers[name] for name in SAMPLED_QUANTITIES if "friction" in name}
+    if float(answer["nominal_speed"]) == 0.0:
         numbers["friction_error"] = math.nan
     if model.ADHESIVE_FRICTION in answer or conditions is None:
         numbers["adhesive_friction"] = float(answer.get(model.ADHESIVE_FRICTION, math.nan))

@@ -35,7 +35,7 @@ from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
 from gripscale.model import with_adhesive
-from gripscale.questions.answer.reliance import answer_interval, answer_number
+from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
 from gripscale.questions.vary.axis import EFFECTS, MODELS
@@ -157,7 +157,7 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
 
 def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Mark]:
     """Yield the best estimate with its interval, if there is one."""
-    best, (low, high) = answer_number(view.data, quantity), answer_interval(view.data, quantity)
+    best, low, high = headline(view.data, quantity)
     if not np.isfinite(best):
         return
     measured = np.isfinite(low)

@@ -23,13 +23,13 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
+from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
-from gripscale.questions.answer.best_estimate import AREA_TERM
 from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
+from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
-from gripscale.questions.words import AXIS_TITLES
+from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -233,12 +233,10 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
             low = np.maximum(values - spread, 1e-3 * values)
             marks.append(ShadedBand(x, low, values + spread, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"best_{name}_factor"]).any():
-        best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
-        ends = {"low": best * np.exp(-np.arcsinh(width)), "high": best * np.exp(np.arcsinh(width))}
-        marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
-        if name == "friction" and AREA_TERM in comparison:
-            both = best + comparison[AREA_TERM].values
-            marks.append(Series(x, both, INK, f"{BEST}, with the area term", "dashdot"))
+        answer = believed(comparison, name)
+        values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
+        marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0,
+                            low=ends[0], high=ends[1]))  # fmt: skip
     adhesive = with_adhesive(comparison) if name == "friction" else None
     for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,
                                  strict=adhesive is not None):  # fmt: skip
@@ -298,7 +296,7 @@ def measured_sheet(
     """
     speed_unit = display_unit_of(data.attrs, "speed")
     panels = []
-    series = zip(ladder.measured(data), ladder.measured_points(data, speed_unit), strict=True)
+    series = zip(measured_series(data), ladder.measured_points(data, speed_unit), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(

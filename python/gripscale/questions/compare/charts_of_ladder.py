@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from gripscale.charts import style
 from gripscale.charts.chart import Series
 from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
-from gripscale.core.arrays import Array
-from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
+from gripscale.core.units import DisplayUnit
+from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
+from gripscale.questions.answer.reliance import headline
 
 ASIDE = ("windows",)
-"""Groups of other surfaces, which only give the factors of the best estimate."""
+"""Groups of other surfaces, which only give factors of the answer."""
 SEEN = 0.01
 """Share of friction or area from which on a wavelength is drawn: longer waves do nothing."""
 
@@ -93,61 +94,9 @@ MARKERS = "osD^v"
 """Of measurements at several temperatures or pressures."""
 
 
-class MeasuredSeries(NamedTuple):
-    """Measured friction at one temperature and pressure over rising speed [m/s]."""
-
-    state: str
-    """Temperature, and pressure if there are several; empty if unknown."""
-    speed: Array
-    friction: Array
-    spread: Array
-    rows: NDArray[np.intp]
-    """Their places among the points of the measurement, which are in any order."""
-
-    @property
-    def label(self) -> str:
-        """What figures and tables call it."""
-        return f"measured, {self.state}" if self.state else "measured"
-
-    def at(self, speed: float) -> tuple[float, float] | None:
-        """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
-        if not self.speed[0] <= speed <= self.speed[-1]:
-            return None
-        at, speeds = math.log(speed), np.log(self.speed)
-        friction, spread = (np.interp(at, speeds, row) for row in (self.friction, self.spread))
-        return float(friction), float(spread)
-
-
-def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
-    """Yield what was measured at each temperature, to the kelvin, and each pressure."""
-    if "measured_friction" not in data:
-        return
-    kelvin = np.round(data.measured_temperature.values)
-    pascal = data.measured_pressure.values
-    several = np.unique(pascal).size > 1
-    by_speed = np.argsort(data.measured_speed.values, kind="stable")
-    pressure_unit = display_unit_of(data.attrs, "pressure")
-    for temperature in np.unique(kelvin):
-        for pressure in np.unique(pascal):
-            here = np.isclose(kelvin, temperature, equal_nan=True)
-            here &= np.isclose(pascal, pressure, rtol=0.0, atol=0.0, equal_nan=True)
-            if not here.any():
-                continue
-            rows = by_speed[here[by_speed]]
-            words = []
-            if not math.isnan(temperature):
-                words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
-            if several and not math.isnan(pressure):
-                words.append(pressure_unit.text(float(pressure), 3))
-            speed, friction, spread = (
-                data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
-            )
-            yield MeasuredSeries(", ".join(words), speed, friction, spread, rows)
-
-
 def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Series]:
     """Yield the points of each measured series over speed, in `speed_unit`, with their spread."""
-    for number, series in enumerate(measured(data)):
+    for number, series in enumerate(measured_series(data)):
         spread = np.nan_to_num(series.spread)
         ends: dict[str, Any] = {"low": series.friction - spread, "high": series.friction + spread}
         yield Series(speed_unit.of(series.speed), series.friction, INK, series.label, "",
@@ -155,7 +104,7 @@ def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Serie
                      clip=False, **ends)  # fmt: skip
 
 
-BEST = "best estimate"
+BEST = "answer"
 STAR = " *"
 """Behind the label of a rung whose friction rests partly on the rubber beyond its measured band."""
 
@@ -212,7 +161,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
 
 
 def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
-    """Yield the factors of the best estimate, and the estimate where it differs from its base."""
+    """Yield the factors of the answer, and the answer itself where it has any."""
     factors = comparison[f"best_{name}_factor"].values
     if not math.isfinite(float(comparison[f"best_{name}"])):
         return
@@ -225,14 +174,14 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
         yield Row(label, value * factor, sigma, value, factor)
         value *= factor
     if np.isfinite(factors).any():
-        best = float(comparison[f"best_{name}"])
-        width = float(np.arcsinh(comparison[f"best_{name}_half_width"]))
-        yield Row(BEST, best, width, marker="*", colour=ORANGE)
+        answer = headline(comparison, name)
+        width = math.log(answer.high / answer.value)
+        yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)
 
 
 def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the measured friction at the speed of the comparison, by temperature."""
-    for series in measured(comparison):
+    for series in measured_series(comparison):
         point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
         if point is None:
             note = "not at this speed" if name == "friction" else "–"

@@ -28,6 +28,7 @@ from gripscale.questions.answer import best_estimate as estimates
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.intervals import half_width
+from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
 from gripscale.questions.compare.ladder import WINDOWS, ComparisonSetup, Rung, chosen
 from gripscale.questions.vary.axis import Axis
@@ -56,7 +57,7 @@ class SolvedLadder:
     measured: MeasuredFriction | None = None
     """Friction measured elsewhere, to be put beside the models."""
     factors: Sequence[Factor] = ()
-    """Factors of the best estimate known from elsewhere."""
+    """Factors of the answer known from elsewhere."""
     rubbers: Sequence[MeasuredRubber] = ()
     """The rubbers of the setups with their sources and doubts."""
 
@@ -302,7 +303,7 @@ def at_measured(
 
 
 def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
-    """Return means, scatter, factors and the best estimate of the rungs of a comparison."""
+    """Return means, scatter, factors and the answer of the rungs of a comparison."""
     samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
     outer = () if axis is None else (axis.name,)
     wavelength = np.empty(0)
@@ -323,9 +324,12 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     for name in reduce.SAMPLED_QUANTITIES:
         text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
-    best = estimates.best_estimate(samples, comparison.factors)
-    for name in estimates.BASIS_SHARES:
-        add(f"best_{name}", best[f"best_{name}"], model.BASIS[f"total_{name}"])
+    if comparison.case.surface.measured is None:
+        chain = samples.isel(rung=0, sample=0, drop=True)
+        names = ["friction", "contact_fraction", "adhesive_friction"]
+        best = estimate_of_waves(chain[names].where(reduce.converged(chain)))
+    else:
+        best = estimates.best_estimate(samples, comparison.factors)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
     for name, text in _WORDS.items():
@@ -345,25 +349,14 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         add(f"sample_{name}", values, f"{text} by sample", "rung", "sample")
         curves = reduce.running(samples, name, wavelength)
         add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
-        for part, long_name in (
-            ("", f"best estimate of the {text}"),
-            ("_uncertainty", f"{about} best estimate"),
-            ("_sampling_error", f"{about} {text}, from the sampling of the road"),
-            ("_grid_error", f"{about} {text}, from the grid of the direct contact"),
-            ("_half_width", f"relative half width of the 90 % interval of the {text}"),
-        ):
-            add(f"best_{name}{part}", best[f"best_{name}{part}"], long_name)
-        text = f"factor on the {text}, NaN if not included"
-        add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
-        uncertainty = best[f"best_{name}_factor_uncertainty"]
-        add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
+    for name in estimates.BEST_ESTIMATES:
+        if name in best and "slope" not in best[name].dims:
+            dims = [dim for dim in ("factor",) if dim in best[name].dims]
+            add(name, best[name], best[name].attrs["long_name"], *dims)
     adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
     if adhesive.notnull().any():
         text = "friction coefficient of the area term"
         add(model.ADHESIVE_FRICTION, adhesive, text, "rung")
-        if estimates.AREA_TERM in best:
-            text += " over the best estimate of the contact area"
-            add(estimates.AREA_TERM, best[estimates.AREA_TERM], text)
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
         add(name, (beyond if name in beyond else exponents)[name], text, "rung")
@@ -398,7 +391,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     for name, text in words.items():
         column = [getattr(rung, name) for rung in comparison.rungs]
         data[name] = labelled("rung", np.array(column, dtype=object), "1", text, _SOURCE)
-    labels, text = best.factor_label.values, "factors of the best estimate"
+    labels, text = best.factor_label.values, "factors of the answer"
     data["factor_label"] = labelled("factor", labels, "1", text, _SOURCE)
     measured = comparison.measured
     data |= {} if measured is None else measured_variables(measured)

@@ -1,4 +1,4 @@
-"""How the models compare: the answer beside the chain and the theories, with a best estimate.
+"""How the models compare: the answer beside the chain and the theories.
 
 result = gs.compare(case, rungs=["waves", "measured"])
 result.data.total_friction
@@ -25,7 +25,7 @@ from gripscale.io.table import Table, significant
 from gripscale.model import INPUT_DOUBTS, input_doubts_of
 from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
-from gripscale.questions.answer.findings import answer_notices
+from gripscale.questions.answer.findings import answer_notices, measured_at_load
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
@@ -33,7 +33,7 @@ from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
 from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
-from gripscale.questions.words import SYMBOLS
+from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
 
@@ -65,8 +65,8 @@ class Comparison(Result):
             return tuple(answer_lines(self.data))
         ranges = []
         for name, symbol in reversed(SYMBOLS.items()):
-            values = self.data[f"best_{name}"].values
-            if np.isfinite(values).any():
+            if is_estimated(self.data, name):
+                values = self.data[believed(self.data, name)].values
                 low, high = (significant(float(pick(values))) for pick in (np.nanmin, np.nanmax))
                 ranges.append(f"{symbol} = {low} to {high}")
         text = ", ".join(ranges) or "none"
@@ -80,7 +80,7 @@ class Comparison(Result):
 
     @property
     def failure(self) -> str:
-        """Which models failed; empty if the best estimate stands without them."""
+        """Which models failed; empty if the answer stands without them."""
         if bool(self.data.best_contact_fraction.notnull().all()):
             return ""
         failed = [
@@ -149,7 +149,7 @@ def compare(
     measured : MeasuredFriction, optional
         Friction measured elsewhere; that of the case by default.
     factors : sequence of Factor
-        Factors of the best estimate known from elsewhere; under one load only.
+        Factors of the answer known from elsewhere; under one load only.
     accuracy : float
         Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
         their factor is known to a third of it, or of what the rest of the estimate leaves open.
@@ -195,6 +195,8 @@ def compare(
         data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
     if doubtful:
         data = data.assign_attrs({INPUT_DOUBTS: to_json([*input_doubts_of(data), *doubtful])})
+    if vary is None:
+        data = data.assign(measured_at_load(case, ladder.measured))
     result = Comparison(data)
     result.ladder = ladder
     return result

@@ -12,12 +12,12 @@ from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Serie
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
-from gripscale.questions.answer.reliance import answer_interval, answer_number
+from gripscale.questions.answer.reliance import answer_number
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import MODELS
 from gripscale.questions.vary.charts import varied_axis
-from gripscale.questions.words import ANSWER, AXIS_TITLES
+from gripscale.questions.words import ANSWER, AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,7 +110,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            answer = answer_number(data, name), *answer_interval(data, name)
+            answer = answer_number(data, name)
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
@@ -211,9 +211,10 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
                 Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
                        filled=False, clip=False),
             ]  # fmt: skip
-        best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
-        low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
-        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, best, INK, ANSWER)]
+        answer, low, high = (
+            data[f"{believed(data, name)}{end}"].values for end in ("", "_low", "_high")
+        )
+        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, answer, INK, ANSWER)]
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return Sheet(panels, keys=[case]).on_paper()

@@ -19,14 +19,14 @@ from gripscale.model import status_words
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
-from gripscale.questions.answer.reliance import has_answer, is_measured
+from gripscale.questions.answer.reliance import has_answer, headline, is_measured
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
-from gripscale.questions.words import SYMBOLS
+from gripscale.questions.words import SYMBOLS, believed
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
@@ -74,9 +74,9 @@ def answer_table(data: xr.Dataset, axis: str) -> Table:
     labels = [name_of(data, axis, at) for at in range(data.sizes[axis])]
     columns = [Column(axis, labels)]
     for name, symbol in HEADS.items():
-        best = data[f"best_{name}"]
-        columns.append(Column(f"best_{name}", best.values, symbol))
-        ends = np.transpose(interval_ends(best, data[f"best_{name}_half_width"]))
+        best = believed(data, name)
+        columns.append(Column(best, data[best].values, symbol))
+        ends = np.transpose([data[f"{best}_{end}"].values for end in ("low", "high")])
         columns.append(Column(f"{name}_interval", ends, f"{100.0 * LEVEL:.0f} % interval"))
     return Table("answers", columns, f"Answer by {axis}", keys=1)
 
@@ -97,14 +97,22 @@ def interval_sentence(data: xr.Dataset) -> str:
     text = f"interval: with the errors of the inputs, from {count} samples"
     if missing := not_stated(data):
         text += f", but for {', '.join(missing)}"
-    widths = [data[f"best_{name}_{OF_RUN}"] for name in HEADS]
-    if axis_of(data) or not all(np.isfinite(width) for width in widths):
-        return f"{text}; `gripscale run` states sampling of the road, grid and factors only"
-    of_run = data.assign(
-        {f"best_{name}_half_width": data[f"best_{name}_{OF_RUN}"] for name in HEADS}
-    )
-    ranges = [f"{symbol} {answer.interval_text(of_run, name)}" for name, symbol in HEADS.items()]
+    ranges = [] if axis_of(data) else list(filter(None, _ranges_of_run(data)))
+    if not ranges:
+        return f"{text}; `gripscale run` states sampling of the surface, grid and factors only"
     return f"{text}; `gripscale run`, without them: {', '.join(ranges)}"
+
+
+def _ranges_of_run(data: xr.Dataset) -> Iterator[str]:
+    """Yield the intervals without errors of the inputs, with their symbols."""
+    ends: dict[str, xr.DataArray] = {}
+    for name in (*HEADS, "total_friction"):
+        if (of_run := f"best_{name}_{OF_RUN}") in data:
+            low, high = interval_ends(data[f"best_{name}"], data[of_run])
+            ends |= {f"best_{name}_low": low, f"best_{name}_high": high}
+    for name, symbol in HEADS.items():
+        if interval := headline(data.assign(ends), name).interval:
+            yield f"{symbol} {interval}"
 
 
 def not_stated(data: xr.Dataset) -> list[str]:
@@ -339,9 +347,7 @@ def uncertainty_lines(
     if axis := axis_of(data):
         return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
     lines = []
-    answered = [
-        f"{head} = {answer.number_and_interval(data, name)}" for name, head in _widened(data)
-    ]
+    answered = [f"{head} = {headline(data, name)}" for name, head in _widened(data)]
     if answered:
         count = _samples(data.isel(model=0))
         lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
@@ -358,9 +364,9 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
     if data is None or axis_of(data):
         return []
     count = _samples(data.isel(model=0))
-    detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
+    detail = f"{100.0 * LEVEL:.0f} % interval of the answer; {count}"
     cards = [
-        Card(f"{head}, inputs sampled", answer.interval_text(data, name), detail)
+        Card(f"{head}, inputs sampled", headline(data, name).interval, detail)
         for name, head in _widened(data)
     ]
     return cards or [
@@ -373,7 +379,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
 def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield name and symbol of each number whose interval holds errors of the inputs."""
     if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from (pair for pair in HEADS.items() if answer.interval_text(data, pair[0]))
+        yield from (pair for pair in HEADS.items() if headline(data, pair[0]).interval)
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:

@@ -102,6 +102,7 @@ def summary(data: xr.Dataset) -> str:
 
 _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
     "friction_from_dissipation": model.TOTALS["total_friction_from_dissipation"],
+    "adhesive_friction": "friction coefficient of the area term",
     "outside_band": model.OUTSIDE_BAND[model.FRICTION_OUTSIDE_BAND][1],
 }
 """What is kept of each sample, and its meaning."""
