@@ -110,7 +110,7 @@ def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
     dynamic = result.predictions[0]
     rows = [ComparedRun(run, dynamic, result.direct), ComparedRun(run, dynamic, None)]
     states = next(column.values for column in runs_table(rows).columns if column.name == "status")
-    assert list(states) == ["best estimate not to be relied on", "complete"]
+    assert list(states) == ["answer not to be relied on", "complete"]
     reason, numbers, *others = answer_elements(run)
     assert reason.sentence.startswith("Answer: none to rely on. The measured surface is too small")
     assert isinstance(numbers, Cards)

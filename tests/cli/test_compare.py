@@ -96,7 +96,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     for label in data.label.values:
         assert str(label) in printed
     words, lines = " ".join(printed.split()), list(filter(None, printed.splitlines()))
-    assert "finite strain, assumed" in words
+    assert "large strain ± 5.0 % (assumed)" in words
     too_short = "Answer: none to rely on. The measured surface is too small"
     assert words.index(too_short) < words.index("Best estimate (90 %): A_r/A_0 = ")
     numbers = r"A_r/A_0 = [\d.]+( ± [\d.]+ %)?, mu = [\d.]+( ± [\d.]+ %)?"

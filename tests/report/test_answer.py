@@ -20,16 +20,18 @@ from gripscale.report.elements import Page
 
 
 def answered(**changed: float) -> xr.Dataset:
-    """Return the variables of a best estimate: friction 0.2, contact fraction 0.03."""
+    """Return the variables of an answer: friction 0.2, contact fraction 0.03."""
     numbers = {
         "nominal_pressure": 3e5,
         "nominal_speed": 0.3,
         "cutoff_wavelength": 1e-4,
         "best_friction": 0.2,
-        "best_friction_half_width": math.sinh(math.log(1.25)),
+        "best_friction_low": 0.16,
+        "best_friction_high": 0.25,
         "best_friction_sampling_error": 0.03,
         "best_contact_fraction": 0.03,
-        "best_contact_fraction_half_width": math.sinh(math.log(1.2)),
+        "best_contact_fraction_low": 0.025,
+        "best_contact_fraction_high": 0.036,
         "best_contact_fraction_sampling_error": 0.02,
         "best_steep_share": 0.5,
         "best_missing_share": 0.06,
@@ -40,7 +42,7 @@ def answered(**changed: float) -> xr.Dataset:
         "total_decades_above_band": 2.3,
     } | changed
     columns = {
-        "factor_label": ["finite strain, assumed", LINES_TO_SURFACE],
+        "factor_label": ["large strain", LINES_TO_SURFACE],
         "best_friction_factor": [1.0, 0.95],
         "best_contact_fraction_factor": [1.0, 0.68],
         "best_friction_factor_uncertainty": [0.05, 0.11],
@@ -58,11 +60,15 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
         "Answer: μ = 0.200 (0.160 to 0.250), A_r/A_0 = 0.0300 (0.0250 to 0.0360) (90 % intervals)"
     )
     text = " ".join(below)
-    assert "for 3 bar and 0.3 m/s, roughness down to 0.1 mm" in text
-    assert "finite strain, assumed (1 ± 5.0 %)" in text
-    assert "step from lines to a surface (μ × 0.950, A_r/A_0 × 0.680)" in text
-    assert "the step to a surface assumes an isotropic road" in text
-    assert "errors of the inputs are not in the interval" in text
+    assert "For 3 bar and 0.3 m/s, roughness down to 0.1 mm." in text
+    assert (
+        "Solved on your profiles at small strain (μ 0.211, area 0.0441), then corrected: large "
+        "strain ± 5.0 % (assumed); profile to surface: friction -5.0 %, area -32 %."
+    ) in text
+    assert (
+        "Not in the interval: errors of the inputs (`gripscale uncertainty`), and lay: with ridges "
+        "3:1 the area changes up to 1.5 times."
+    ) in text
     assert [line.strip() for line in below] == list(basis_lines(answered()))
 
 
@@ -72,8 +78,35 @@ def test_at_rest_there_is_an_area_only() -> None:
     assert [card.value for card in answer_cards(answered(nominal_speed=0.0))] == ["0.0300"]
 
 
+def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
+    total = {"": 0.9, "_low": 0.7, "_high": 1.2}
+    data = answered(
+        best_adhesive_friction=0.7, **{f"best_total_friction{end}": v for end, v in total.items()}
+    )
+    first, *_ = answer_lines(data)
+    parts = "0.200 of hysteresis and 0.700 of the area term"
+    assert first == (
+        f"Answer: μ = 0.900 (0.700 to 1.20): {parts}; A_r/A_0 = 0.0300 (0.0250 to 0.0360) "
+        "(90 % intervals)"
+    )
+    friction, _ = answer_cards(data)
+    assert (friction.value, friction.detail) == ("0.900", f"answer; 0.700 to 1.20 (90 %); {parts}")
+
+
+def test_measured_friction_stands_beside_the_answer_and_is_the_first_finding() -> None:
+    """0.2 of 0.5 measured is 60 % too little; it stands before what changes more."""
+    data = answered(measured_friction_of_load=0.5, measured_spread_of_load=0.02)
+    data.measured_friction_of_load.attrs["state"] = "20 °C"
+    assert "  Measured: μ = 0.500 ± 0.020 at 20 °C." in list(answer_lines(data))
+    first, *_ = ranked([*answer_notices(data), Finding(Severity.ERROR, "no numbers")])
+    assert first.sentence == (
+        "The answer is 60 % below the measured friction, 0.500 ± 0.020 at 20 °C, which lies "
+        "outside its interval."
+    )
+    assert first.friction == pytest.approx(-0.6)
+
+
 def test_no_answer_says_why() -> None:
-    assert "Only the direct contact of a measured surface" in next(answer_lines(None))
     failed = answered(best_contact_fraction=math.nan).assign(prediction_status="tolerance not met")
     assert list(answer_lines(failed)) == [
         "Answer: none. The direct contact of the measured surface has no result: tolerance not met."
@@ -85,11 +118,9 @@ def test_no_answer_says_why() -> None:
 @pytest.mark.parametrize(
     ("changed", "why"),
     [
-        ({"best_friction_half_width": 3.0}, "The ends of the interval are more than a factor"),
+        ({"best_friction_high": 0.41}, "The ends of the interval are more than a factor"),
         (
-            dict.fromkeys(
-                ("best_friction_half_width", "best_contact_fraction_half_width"), math.nan
-            ),
+            dict.fromkeys(("best_friction_low", "best_contact_fraction_low"), math.nan),
             "The measured surface is too small to tell how well it represents its road:",
         ),
         ({"best_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),

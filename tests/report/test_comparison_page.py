@@ -39,8 +39,7 @@ def test_page_has_table_estimate_and_figures(
     friction = float(compared[0].total_friction[1])
     assert float(rows[1][5]) == pytest.approx(friction, rel=0.005)
     assert all(cell for row in rows for cell in row)
-    assert "finite strain (μ × 0.980, A_r/A_0 × 1.02)" in page.text
-    assert "step from lines to a surface (" in page.text
+    assert "large strain: friction -2.0 %, area +2.0 %; profile to surface: " in page.text
 
 
 def test_failed_sample_is_loud(compared_folder: Path) -> None:

@@ -74,7 +74,7 @@ def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
     assert f" at 0.3 m/s to {last} (" in answer
     assert answer.endswith(" at 3 m/s (90 % intervals).")
     assert held == "  for 3 bar, roughness down to 2 mm, 2 predictions, none without a result"
-    assert factors.startswith("  from direct contact of the measured surface × finite strain")
+    assert factors.startswith("  from direct contact of the measured surface × large strain")
     assert rests.endswith("intervals leave out errors of the master curve")
 
 

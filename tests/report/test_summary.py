@@ -11,7 +11,6 @@ import xarray as xr
 
 from gripscale.core.finding import doubt, to_json
 from gripscale.io.text_table import read_sheets
-from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.summary_table import SUMMARY_FILE, summary_table, write_summary
 
 UNIT = {"units": "1"}
@@ -26,7 +25,7 @@ def study(**attributes: object) -> xr.Dataset:
             "prediction_status": (place, status),
             "prediction_key": (place, np.array([["a", "b"], ["c", "d"]], dtype=object)),
             "best_friction": (place, [[0.2, math.nan], [0.4, 0.8]], UNIT),
-            "best_friction_half_width": (place, [[0.1, math.nan], [0.2, 0.3]], UNIT),
+            "best_friction_low": (place, [[0.1, math.nan], [0.2, 0.3]], UNIT),
             "upper_height": ((), 1.7, UNIT),
             "hardness": ("rubber", [60.0, 70.0], {"units": "Pa"}),
             "friction": ((*place, "scale"), np.zeros((2, 2, 3)), UNIT),
@@ -54,9 +53,7 @@ def test_a_row_for_each_point_of_a_study() -> None:
     assert failed["best_friction [-]"] is None
     assert failed["prediction_status"] == "wave 2 failed"
     assert last["best_friction [-]"] == 0.8
-    low, high = interval_ends(xr.DataArray(0.8), xr.DataArray(0.3))
-    assert last["best_friction_low [-]"] == pytest.approx(float(low), rel=1e-15)
-    assert last["best_friction_high [-]"] == pytest.approx(float(high), rel=1e-15)
+    assert last["best_friction_low [-]"] == 0.3
     assert [row["hardness [Pa]"] for row in (first, failed)] == [60.0, 70.0]
     assert first["upper_height [-]"] == last["upper_height [-]"] == 1.7
     assert first["nominal_pressure [Pa]"] == 3e5
@@ -109,7 +106,7 @@ def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
         {
             "status": ("rung", words),
             "best_friction": ((), 0.2, UNIT),
-            "best_friction_half_width": ((), 0.1, UNIT),
+            "best_friction_low": ((), 0.1, UNIT),
             "cutoff_wavelength": ((), 1e-4, {"units": "m"}),
         },
         {"rung": ["chain", "direct"]},
@@ -118,6 +115,14 @@ def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
     assert (chain["best_friction [-]"], direct["best_friction [-]"]) == (None, 0.2)
     assert chain["best_friction_low [-]"] is None
     assert chain["cutoff_wavelength [m]"] == direct["cutoff_wavelength [m]"] == 1e-4
+
+
+def test_rubber_at_rest_has_no_friction() -> None:
+    moving, rest = (
+        xr.Dataset({"prediction_status": "converged", "nominal_speed": v, "total_friction": 0.0})
+        for v in (1.0, 0.0)
+    )
+    assert [row["total_friction"] for row in rows(moving, rest)] == [0.0, None]
 
 
 def test_excel_reads_it(tmp_path: Path) -> None:

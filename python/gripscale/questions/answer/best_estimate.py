@@ -153,7 +153,7 @@ def best_estimate(
         data[f"best_{name}_factor_uncertainty"] = uncertainty
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.usable(direct, "adhesive_friction").mean("sample")
-        data = with_area_term(
+        data = with_total_friction(
             data, term * data["best_contact_fraction_factor"].prod("factor"), errors_of
         )
     return described(data)
@@ -180,7 +180,7 @@ def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, 
     return {f"best_{name}{end}": number for end, number in (numbers | ends).items()}
 
 
-def with_area_term(
+def with_total_friction(
     data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError]
 ) -> xr.Dataset:
     """Return an answer with the friction of its area term, and the total friction of both.
@@ -291,10 +291,10 @@ BEST_ESTIMATES = {
     **{f"best_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }
 """All numbers of an answer, and their meaning."""
-_OF_A_COMPARISON = ("_uncertainty", "_grid_error", "share", "_by_slope")
+_LEFT_OUT = ("friction_uncertainty", "fraction_uncertainty", "_grid_error", "share", "_by_slope")
 POINT_ESTIMATES = (
     "factor_label",
-    *(name for name in BEST_ESTIMATES if not name.endswith(_OF_A_COMPARISON)),
+    *(name for name in BEST_ESTIMATES if not name.endswith(_LEFT_OUT)),
 )
 """Names that `with_best_estimate` adds for the rubber that slides."""
 

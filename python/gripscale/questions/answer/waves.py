@@ -19,8 +19,8 @@ from gripscale.questions.answer.best_estimate import (
     BASIS_SHARES,
     ESTIMATED,
     described,
-    with_area_term,
     with_interval,
+    with_total_friction,
 )
 from gripscale.questions.answer.intervals import LogError
 
@@ -41,7 +41,7 @@ def estimate_of_waves(
         best[f"best_{name}_sampling_error"] = best[f"best_{name}_grid_error"] = unknown
         for part in ("factor", "factor_uncertainty"):
             best[f"best_{name}_{part}"] = unknown.expand_dims(factor=0)
-    best = with_area_term(best, numbers["adhesive_friction"], errors)
+    best = with_total_friction(best, numbers["adhesive_friction"], errors)
     return described(best.assign({f"best_{share}": unknown for share in BASIS_SHARES}))
 
 
