@@ -122,5 +122,5 @@ def _at_rest_without_friction(data: xr.Dataset) -> xr.Dataset:
     speed = data.get("nominal_speed")
     if speed is None or bool((speed > 0.0).all()):
         return data
-    names = [name for name in ("total_friction", "total_friction_from_dissipation") if name in data]
-    return data.assign({name: data[name].where(speed > 0.0) for name in names})
+    frictions = [name for name in data if str(name).startswith(("best_friction", "total_friction"))]
+    return data.assign({name: data[name].where(speed > 0.0) for name in frictions})

@@ -125,15 +125,15 @@ def best_estimate(
     for share in BASIS_SHARES:
         data[f"best_{share}"] = unknown
         if direct is not None and share in direct:
-            data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
+            data[f"best_{share}"] = reduce.mean(direct, share)
     for share in SHARES_BY_SLOPE:
         if direct is not None and share in direct:
-            data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
+            data[f"best_{share}"] = reduce.mean(direct, share)
     errors_of: dict[str, LogError] = {}
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
-            mean, road = reduce.usable(direct, name).mean("sample"), reduce.road_error(direct, name)
+            mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
             # even within the estimated error, and the same for all profiles
             grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
         errors = [road, _certain(grid)]
@@ -152,7 +152,7 @@ def best_estimate(
         data[f"best_{name}_factor"] = value
         data[f"best_{name}_factor_uncertainty"] = uncertainty
     if direct is not None and "adhesive_friction" in direct:
-        term = reduce.usable(direct, "adhesive_friction").mean("sample")
+        term = reduce.mean(direct, "adhesive_friction")
         data = with_total_friction(
             data, term * data["best_contact_fraction_factor"].prod("factor"), errors_of
         )
@@ -214,8 +214,7 @@ def _of_surface(samples: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
     direct = samples.sel(rung=DIRECT, drop=True)
     lines, *line = (
-        reduce.usable(direct, name).mean("sample")
-        for name in ("contact_fraction", "upper_height", "relative_load")
+        reduce.mean(direct, name) for name in ("contact_fraction", "upper_height", "relative_load")
     )
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
     laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio

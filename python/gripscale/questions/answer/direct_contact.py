@@ -130,7 +130,7 @@ def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[
     thin = solve_design(design, Bench(None), reduce.sample_numbers)
     changes, counting = {}, False
     for name in estimated_names(totals):
-        means = [reduce.usable(part, ESTIMATED[name]).mean("sample") for part in (thin, samples)]
+        means = [reduce.mean(part, ESTIMATED[name]) for part in (thin, samples)]
         changes[name] = float(means[0] / means[1]) - 1.0
         sampling = float(totals[f"best_{name}_sampling_error"])
         counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
@@ -199,10 +199,7 @@ def direct_contact_totals(
     the cut-off below the measurement (`continued_curve`); `sampled` widens the interval by the
     errors of the inputs.
     """
-    means = {
-        name: float(reduce.usable(samples, name).mean("sample"))
-        for name in reduce.SAMPLED_QUANTITIES
-    }
+    means = {name: float(reduce.mean(samples, name)) for name in reduce.SAMPLED_QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     best = best_estimate(
         samples.expand_dims(rung=[DIRECT]),
@@ -230,5 +227,5 @@ def direct_contact_totals(
             totals.attrs[ISOTROPIC] = finding.sentence
     if traces := trace_variables(samples):
         totals = totals.assign(traces.variables)
-    area_term = reduce.usable(samples, "adhesive_friction").mean("sample")
+    area_term = reduce.mean(samples, "adhesive_friction")
     return model.with_area_term(totals, float(area_term))

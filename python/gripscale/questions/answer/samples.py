@@ -53,6 +53,8 @@ def sample_numbers(
     for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]
+    lines = () if task.surface.measured is None else task.surface.measured.cleaned
+    numbers["length"] = sum(line.length for line in lines) or math.nan
     if float(answer["nominal_speed"]) == 0.0:
         numbers["friction_error"] = math.nan
     if model.ADHESIVE_FRICTION in answer or conditions is None:
@@ -164,6 +166,14 @@ def usable(samples: xr.Dataset, name: str) -> xr.DataArray:
     return samples[name].where(converged(samples))
 
 
+def mean(samples: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the mean of a number over the samples that may be used, by their length."""
+    values = usable(samples, name)
+    if "length" not in samples:
+        return values.mean("sample")
+    return values.weighted(samples["length"].fillna(1.0)).mean("sample")
+
+
 def spread(values: xr.DataArray) -> xr.DataArray:
     """Return the standard deviation over the samples; NaN for fewer than two."""
     count = values.count("sample")
@@ -186,9 +196,9 @@ def in_quadrature(*parts: xr.DataArray) -> xr.DataArray:
 
 def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
     """Return the mean error of the samples as their models estimate it, relative."""
-    error = usable(samples, f"{name.removesuffix('_from_dissipation')}_error").mean("sample")
-    mean = usable(samples, name).mean("sample")
-    return error / abs(mean).where(mean != 0.0)
+    error = mean(samples, f"{name.removesuffix('_from_dissipation')}_error")
+    value = mean(samples, name)
+    return error / abs(value).where(value != 0.0)
 
 
 def road_error(samples: xr.Dataset, name: str) -> LogError:
@@ -201,6 +211,7 @@ def road_error(samples: xr.Dataset, name: str) -> LogError:
     values, there = usable(samples, name), converged(samples)
     of_piece = f"{name.removesuffix('_from_dissipation')}_sampling_error"
     if of_piece in samples and bool((samples[of_piece].notnull() | ~there).all() and there.any()):
+        values = values * samples.get("length", 1.0)
         total = values.sum("sample")
         error = ((values * usable(samples, of_piece)) ** 2).sum("sample") ** 0.5
         return LogError(error / total.where(total > 0.0), usable(samples, "freedom").sum("sample"))

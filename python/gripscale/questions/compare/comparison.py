@@ -323,7 +323,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
 
     for name in reduce.SAMPLED_QUANTITIES:
         text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
-        add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
+        add(f"total_{name}", reduce.mean(samples, name), text, "rung")
     if comparison.case.surface.measured is None:
         chain = samples.isel(rung=0, sample=0, drop=True)
         names = ["friction", "contact_fraction", "adhesive_friction"]
@@ -336,7 +336,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"
         add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "rung")
-        error = reduce.usable(samples, f"{name}_error").mean("sample")
+        error = reduce.mean(samples, f"{name}_error")
         add(f"{name}_error", error, f"error of the {text} as the model estimates it", "rung")
         rungs = [samples.isel(rung=at) for at in range(samples.sizes["rung"])]
         uncertainty = xr.concat([reduce.relative_uncertainty(rung, name) for rung in rungs], "rung")
@@ -353,7 +353,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         if name in best and "slope" not in best[name].dims:
             dims = [dim for dim in ("factor",) if dim in best[name].dims]
             add(name, best[name], best[name].attrs["long_name"], *dims)
-    adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
+    adhesive = reduce.mean(samples, "adhesive_friction")
     if adhesive.notnull().any():
         text = "friction coefficient of the area term"
         add(model.ADHESIVE_FRICTION, adhesive, text, "rung")
