@@ -16,7 +16,7 @@ from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
-from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.best_estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.findings import (
@@ -145,7 +145,23 @@ def _corrections(data: xr.Dataset) -> str:
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
     corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
-    return f"Solved on {where} at small strain ({solved}){corrected}."
+    return f"Solved on {where} at small strain ({solved}){corrected}.{_beside_run(data)}"
+
+
+def _beside_run(data: xr.Dataset) -> str:
+    """Return what a run answers, where large strain was solved for a comparison; else empty."""
+    factors = {
+        name: float(data[f"best_{name}_factor"].values[0])
+        for name in reliance.estimated_names(data)
+    }
+    solved = data.factor_label.values[0] == ASSUMED_FINITE_STRAIN.label
+    if not solved or np.allclose(list(factors.values()), 1.0):
+        return ""
+    numbers = ", ".join(
+        f"{_SHORT[name]} {significant(float(data[f'best_{name}']) / factor)}"
+        for name, factor in factors.items()
+    )
+    return f" `gripscale run`, which assumes no change by large strain, has {numbers}."
 
 
 def _in_interval(data: xr.Dataset) -> Iterator[str]:

@@ -81,7 +81,7 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
                 yield "Fewer than two samples have an answer."
             return
         yield (
-            "The measured surface is too small to tell how well it represents its road: it holds "
+            "The measured surface is too small to tell whether it stands for the whole: it holds "
             "fewer than four pieces of two largest waves."
         )
     elif any(number.high > 2.0 * number.value for number in numbers):

@@ -17,7 +17,7 @@ from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
 from gripscale.questions.answer import page as answer
-from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.best_estimate import DIRECT, TOTAL
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.reliance import has_answer, headline, is_measured
 from gripscale.questions.uncertainty import propagation
@@ -137,21 +137,23 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     for name in names:
         sigma = part[f"best_{name}_part_error"].values[ranked]
         share = sigma**2 / float(part[f"best_{name}_uncertainty"]) ** 2
+        of_sum = name == "friction" and TOTAL in part
+        group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
         columns += [
-            Column(f"{name}_error", sigma, "±", group=HEADS[name], format=percent),
-            Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
+            Column(f"{name}_error", sigma, "±", group=group, format=percent),
+            Column(f"{name}_share", share, "share", group=group, format="{:.0%}".format),
         ]
         tangent = first_order_of(part, name)
         if tangent.keys() & set(columns[0].values):
             column, text = f"{name}_first_order", ("± by", "derivatives")
             values = [tangent.get(label, math.nan) for label in columns[0].values]
-            columns.append(Column(column, values, *text, group=HEADS[name], format=percent))
+            columns.append(Column(column, values, *text, group=group, format=percent))
     error = part[f"best_{names[0]}_part_share_error"].values[ranked]
     notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
     if NOT_ALONE in part.part_label.values:
         notes.append(
             f"{NOT_ALONE[0].upper()}{NOT_ALONE[1:]}: steps, interactions, and what a stretch of "
-            "road does beyond its correlation."
+            "surface does beyond its correlation."
         )
     unseen = [
         str(label)
@@ -204,7 +206,7 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
 
 def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
     """Yield what matters most to the samples of a model whose answer has no parts."""
-    without_shares = []
+    without_shares, count = [], data.sizes["sample"]
     for title, part in model_places(data):
         if np.isfinite(part.friction_share).any():
             if str(part.model.item()) != DIRECT:
@@ -212,8 +214,10 @@ def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
         elif int(part.failed) < part.sizes["sample"]:
             without_shares.append(title)
     if without_shares:
-        where = "; ".join(without_shares)
-        yield f"Too few samples, or no friction, to tell what single inputs add: {where}."
+        where = f" ({'; '.join(without_shares)})" if len(without_shares) > 1 else ""
+        moving = bool((data.friction_case > 0.0).any())
+        why = f"{count} samples are too few" if moving else "Without friction it is not possible"
+        yield f"{why} to split the error between inputs{where}."
 
 
 def left_out_sentences(data: xr.Dataset) -> Iterator[str]:

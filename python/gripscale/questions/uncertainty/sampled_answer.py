@@ -191,7 +191,7 @@ def _with_parts(
             parts.append((text, math.sqrt(variance), share_error))
         if not of_road:
             road = float(total[f"best_{name}_sampling_error"])
-            parts.append(("stretch of road measured", road, math.nan))
+            parts.append(("stretch of surface measured", road, math.nan))
         if math.isfinite(grid := float(total[f"best_{name}_grid_error"])):
             parts.append(("grid of the answer", grid, math.nan))
         factors = total[f"best_{name}_factor_uncertainty"].values.tolist()

@@ -192,7 +192,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     if AREA_TERM in data:
         term = data[AREA_TERM]
         low, high = float(term.min()), float(term.max())
-        yield f"an area term of {significant(low)} to {significant(high)} comes on top"
+        yield f"{significant(low)} to {significant(high)} of the friction is the area term"
     if has_intervals:
         yield "intervals leave out errors of the master curve"
 

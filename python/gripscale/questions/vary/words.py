@@ -14,6 +14,9 @@ _AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""
 
 _WORDS = {
+    "best_total_friction": "friction μ with the area term, answer",
+    "best_total_friction_low": "its 90 %, from",
+    "best_total_friction_high": "to",
     "best_friction_low": "its 90 %, from",
     "best_friction_high": "to",
     "best_contact_fraction_low": "its 90 %, from",
