@@ -100,7 +100,7 @@ def test_results_file_holds_the_chain_and_its_inputs(
 
 def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) -> None:
     titles, *rows = read_sheets(done[1] / "summary.xlsx")["summary"]
-    assert titles[:4] == ("model", *(f"best_friction{end} [-]" for end in ("", "_low", "_high")))
+    assert titles[:4] == ("model", *(f"answer_friction{end} [-]" for end in ("", "_low", "_high")))
     assert [row[0] for row in rows] == ["direct", "chain", "chain"]
     by_name = [dict(zip(titles, row, strict=True)) for row in rows]
     for name, row in zip(("answer", "dynamic", "static"), by_name, strict=True):
@@ -111,8 +111,8 @@ def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) 
         assert row["prediction_status"] == "converged"
         assert row["surface_source"].endswith("road.txt")
     direct = netcdf.load_dataset(done[1] / "answer.nc")
-    friction = float(direct.best_friction)
-    assert by_name[0]["best_friction [-]"] == pytest.approx(friction, rel=1e-15)
+    friction = float(direct.answer_friction)
+    assert by_name[0]["answer_friction [-]"] == pytest.approx(friction, rel=1e-15)
     assert by_name[0]["not_to_rely_on"] == no_answer(direct) or None
 
 

@@ -138,8 +138,8 @@ def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
     yield "table", [float(table[column].values[0]) for column in columns]
     varied = gs.vary(asked.case, pressure=[asked.case.load.pressure]).data
     yield "vary", [float(varied[believed(varied, name)][0]) for name in asked.names]
-    rung = ["direct"] if asked.case.surface.measured else ["chain_half_plane"]
-    yield "compare", asked.of(gs.compare(asked.case, rungs=rung).data)
+    member = ["direct"] if asked.case.surface.measured else ["chain_half_plane"]
+    yield "compare", asked.of(gs.compare(asked.case, models=member).data)
 
 
 def test_one_number_through_every_door(asked: Asked) -> None:

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from gripscale.core.finding import Finding, Severity, Topic, doubt, ranked, to_json
-from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
 from gripscale.questions.answer.reliance import no_answer
@@ -25,16 +25,16 @@ def answered(**changed: float) -> xr.Dataset:
         "nominal_pressure": 3e5,
         "nominal_speed": 0.3,
         "cutoff_wavelength": 1e-4,
-        "best_friction": 0.2,
-        "best_friction_low": 0.16,
-        "best_friction_high": 0.25,
-        "best_friction_sampling_error": 0.03,
-        "best_contact_fraction": 0.03,
-        "best_contact_fraction_low": 0.025,
-        "best_contact_fraction_high": 0.036,
-        "best_contact_fraction_sampling_error": 0.02,
-        "best_steep_share": 0.5,
-        "best_missing_share": 0.06,
+        "answer_friction": 0.2,
+        "answer_friction_low": 0.16,
+        "answer_friction_high": 0.25,
+        "answer_friction_sampling_error": 0.03,
+        "answer_contact_fraction": 0.03,
+        "answer_contact_fraction_low": 0.025,
+        "answer_contact_fraction_high": 0.036,
+        "answer_contact_fraction_sampling_error": 0.02,
+        "answer_steep_share": 0.5,
+        "answer_missing_share": 0.06,
         "total_friction": 0.2,
         "total_friction_from_dissipation": 0.2,
         "total_friction_outside_band": 0.25,
@@ -43,10 +43,10 @@ def answered(**changed: float) -> xr.Dataset:
     } | changed
     columns = {
         "factor_label": ["large strain", LINES_TO_SURFACE],
-        "best_friction_factor": [1.0, 0.95],
-        "best_contact_fraction_factor": [1.0, 0.68],
-        "best_friction_factor_uncertainty": [0.05, 0.11],
-        "best_contact_fraction_factor_uncertainty": [0.03, 0.11],
+        "answer_friction_factor": [1.0, 0.95],
+        "answer_contact_fraction_factor": [1.0, 0.68],
+        "answer_friction_factor_uncertainty": [0.05, 0.11],
+        "answer_contact_fraction_factor_uncertainty": [0.03, 0.11],
     }
     return xr.Dataset(
         numbers | {name: ("factor", np.array(values)) for name, values in columns.items()},
@@ -73,7 +73,7 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
 
 
 def test_at_rest_there_is_an_area_only() -> None:
-    first, *_ = answer_lines(answered(nominal_speed=0.0, best_friction=0.0))
+    first, *_ = answer_lines(answered(nominal_speed=0.0, answer_friction=0.0))
     assert first.startswith("Answer: no friction at rest; A_r/A_0 = 0.0300 (")
     assert [card.value for card in answer_cards(answered(nominal_speed=0.0))] == ["0.0300"]
 
@@ -81,7 +81,8 @@ def test_at_rest_there_is_an_area_only() -> None:
 def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
     total = {"": 0.9, "_low": 0.7, "_high": 1.2}
     data = answered(
-        best_adhesive_friction=0.7, **{f"best_total_friction{end}": v for end, v in total.items()}
+        answer_adhesive_friction=0.7,
+        **{f"answer_total_friction{end}": v for end, v in total.items()},
     )
     first, *_ = answer_lines(data)
     parts = "0.200 of hysteresis and 0.700 of the area term"
@@ -107,7 +108,9 @@ def test_measured_friction_stands_beside_the_answer_and_is_the_first_finding() -
 
 
 def test_no_answer_says_why() -> None:
-    failed = answered(best_contact_fraction=math.nan).assign(prediction_status="tolerance not met")
+    failed = answered(answer_contact_fraction=math.nan).assign(
+        prediction_status="tolerance not met"
+    )
     assert list(answer_lines(failed)) == [
         "Answer: none. The direct contact of the measured surface has no result: tolerance not met."
     ]
@@ -118,12 +121,12 @@ def test_no_answer_says_why() -> None:
 @pytest.mark.parametrize(
     ("changed", "why"),
     [
-        ({"best_friction_high": 0.41}, "The ends of the interval are more than a factor"),
+        ({"answer_friction_high": 0.41}, "The ends of the interval are more than a factor"),
         (
-            dict.fromkeys(("best_friction_low", "best_contact_fraction_low"), math.nan),
+            dict.fromkeys(("answer_friction_low", "answer_contact_fraction_low"), math.nan),
             "The measured surface is too small to tell how well it represents its road:",
         ),
-        ({"best_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
+        ({"answer_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
         (
             {"total_friction_outside_band": 0.89},
             "89 % of the friction lies up to 2.3 decades above the measured band.",
@@ -160,7 +163,7 @@ def test_warnings_stand_by_what_they_change() -> None:
 
 def test_two_frictions_that_disagree_are_warned_of() -> None:
     numbers = {"total_friction": 0.24, "total_friction_from_dissipation": 0.2}
-    worst = ranked(answer_notices(answered(**numbers, best_steep_share=0.0)))[1]
+    worst = ranked(answer_notices(answered(**numbers, answer_steep_share=0.0)))[1]
     assert worst.friction == pytest.approx(0.2)
     assert "differ by 20 %" in worst.sentence
 

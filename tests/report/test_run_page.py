@@ -199,10 +199,10 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     run = read_result(changed_run(lambda data: data))
     assert isinstance(run, RunSource)
     assert "answer" not in [card.detail for card in run_cards(run)]
-    numbers = {"best_friction": 0.25, "best_contact_fraction": 0.04, "cutoff_wavelength": 1e-3}
+    numbers = {"answer_friction": 0.25, "answer_contact_fraction": 0.04, "cutoff_wavelength": 1e-3}
     ends = {f"{name}_{end}": numbers[name] for name in list(numbers)[:2] for end in ("low", "high")}
     whole = run.predictions[0].data.drop_dims("scale").assign(numbers | ends)
-    whole = whole.assign(best_friction_high=0.3, factor_label=("factor", ["large strain"]))
+    whole = whole.assign(answer_friction_high=0.3, factor_label=("factor", ["large strain"]))
     for name in list(numbers)[:2]:
         whole[f"{name}_factor"] = whole[f"{name}_factor_uncertainty"] = ("factor", [1.0])
         whole[f"{name}_sampling_error"] = 0.02

@@ -22,11 +22,11 @@ ANSWER = "answer (90 %)"
 def believed(data: xr.Dataset, name: str) -> str:
     """Return the name of the best there is in a study of a number such as `friction`."""
     if name == "friction" and is_estimated(data, "total_friction"):  # there is an area term
-        return "best_total_friction"
-    return f"best_{name}" if is_estimated(data, name) else f"total_{name}"
+        return "answer_total_friction"
+    return f"answer_{name}" if is_estimated(data, name) else f"total_{name}"
 
 
 def is_estimated(data: xr.Dataset, name: str) -> bool:
     """Return whether a study has the answer of a number such as `friction`."""
-    answer = f"best_{name}"
+    answer = f"answer_{name}"
     return answer in data and bool(data[answer].notnull().any())

@@ -28,7 +28,7 @@ def case(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         (at / name).write_bytes((folder / name).read_bytes())
     called("uncertainty", at / "case.toml", "--samples", 10, "--without", "waves")
     called("run", at / "case.toml")
-    called("compare", at / "case.toml", "--rungs", "direct")
+    called("compare", at / "case.toml", "--models", "direct")
     return at / "case.toml"
 
 

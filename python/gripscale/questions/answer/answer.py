@@ -4,7 +4,7 @@
     answer.friction, answer.friction_interval
 
 The measured surface is pressed and slid as a whole; known factors lead to finite strain and from
-lines to a surface (`gripscale.questions.answer.best_estimate`). `gripscale run` prints this object.
+lines to a surface (`gripscale.questions.answer.estimate`). `gripscale run` prints this object.
 """
 
 from __future__ import annotations

@@ -61,7 +61,7 @@ def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     yield from (share for share in guesses(data) if share.effect <= MOST_ON_GUESSES)
     yield from from_json(data.attrs.get(FINDINGS, ""))
     direct = direct_of(data)
-    steep = float(data.get("best_steep_share", math.nan))
+    steep = float(data.get("answer_steep_share", math.nan))
     if steep > WORTH_SAYING:
         yield Finding(
             Severity.WARNING,

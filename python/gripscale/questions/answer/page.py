@@ -16,9 +16,9 @@ from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
-from gripscale.questions.answer.best_estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
+from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
     measured_words,
@@ -127,9 +127,9 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
 def _corrections(data: xr.Dataset) -> str:
     """Return what the direct contact alone says, and each factor on it."""
     names, labels = reliance.estimated_names(data), data.factor_label.values
-    factors = {name: data[f"best_{name}_factor"].values for name in names}
+    factors = {name: data[f"answer_{name}_factor"].values for name in names}
     solved = ", ".join(
-        f"{_SHORT[name]} {significant(float(data[f'best_{name}']) / np.nanprod(factors[name]))}"
+        f"{_SHORT[name]} {significant(float(data[f'answer_{name}']) / np.nanprod(factors[name]))}"
         for name in names
     )
     steps = []
@@ -139,7 +139,7 @@ def _corrections(data: xr.Dataset) -> str:
             continue
         text = ", ".join(f"{word} {signed_percent(value - 1.0)}" for word, value in values.items())
         if np.allclose(list(values.values()), 1.0):  # assumed to change nothing
-            sigma = float(data[f"best_{names[0]}_factor_uncertainty"][at])
+            sigma = float(data[f"answer_{names[0]}_factor_uncertainty"][at])
             steps.append(f"{label} ± {percent_text(sigma)} (assumed)")
         else:
             steps.append(f"{label}: {text}")
@@ -151,14 +151,14 @@ def _corrections(data: xr.Dataset) -> str:
 def _beside_run(data: xr.Dataset) -> str:
     """Return what a run answers, where large strain was solved for a comparison; else empty."""
     factors = {
-        name: float(data[f"best_{name}_factor"].values[0])
+        name: float(data[f"answer_{name}_factor"].values[0])
         for name in reliance.estimated_names(data)
     }
     solved = data.factor_label.values[0] == ASSUMED_FINITE_STRAIN.label
     if not solved or np.allclose(list(factors.values()), 1.0):
         return ""
     numbers = ", ".join(
-        f"{_SHORT[name]} {significant(float(data[f'best_{name}']) / factor)}"
+        f"{_SHORT[name]} {significant(float(data[f'answer_{name}']) / factor)}"
         for name, factor in factors.items()
     )
     return f" `gripscale run`, which assumes no change by large strain, has {numbers}."
@@ -167,7 +167,7 @@ def _beside_run(data: xr.Dataset) -> str:
 def _in_interval(data: xr.Dataset) -> Iterator[str]:
     """Yield the error of the sampling, and what is assumed, left out or not in the interval."""
     name, labels = reliance.estimated_names(data)[0], data.factor_label.values
-    sampling = float(data[f"best_{name}_sampling_error"])
+    sampling = float(data[f"answer_{name}_sampling_error"])
     if math.isfinite(sampling):
         yield f"sampling of the surface: ± {percent_text(sampling)} (standard error)"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
@@ -179,7 +179,7 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
         )
     missing = [
         str(label)
-        for label, value in zip(labels, data[f"best_{name}_factor"], strict=True)
+        for label, value in zip(labels, data[f"answer_{name}_factor"], strict=True)
         if value.isnull()
     ]
     if missing:
@@ -226,14 +226,14 @@ def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
 
 def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
     """Yield which slopes of the surface carry load and make friction, where that is known."""
-    if "best_friction_by_slope" not in direct:
+    if "answer_friction_by_slope" not in direct:
         return
     ends = direct.slope.values.tolist()
     names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
     columns = [
-        Column(name, direct[f"best_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
+        Column(name, direct[f"answer_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
         for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
-        if direct[f"best_{name}_by_slope"].notnull().all()
+        if direct[f"answer_{name}_by_slope"].notnull().all()
     ]
     caption = "Shares by slope of the surface, direct contact"
     yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)

@@ -15,7 +15,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io.table import significant
-from gripscale.questions.answer.best_estimate import DIRECT, TOTAL
+from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -26,16 +26,16 @@ WORTH_NAMING = 0.005
 
 
 def has_answer(data: xr.Dataset) -> bool:
-    """Return whether a result of one load holds a best estimate of the contact area."""
-    area = data.get("best_contact_fraction")
+    """Return whether a result of one load holds an answer of the contact area."""
+    area = data.get("answer_contact_fraction")
     return area is not None and not area.ndim and math.isfinite(float(area))
 
 
 def direct_of(data: xr.Dataset) -> xr.Dataset:
     """Return the model of a comparison that its answer is of; the result of a run as it is."""
-    if "rung" not in data.dims:
+    if "model" not in data.dims:
         return data
-    return data.sel(rung=DIRECT) if DIRECT in data.rung else data.isel(rung=0)
+    return data.sel(model=DIRECT) if DIRECT in data.model else data.isel(model=0)
 
 
 def no_answer(data: xr.Dataset) -> str:
@@ -66,7 +66,7 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
             friction=beyond.share,
             topic=Topic.RUBBER,
         )
-    missing = float(data.get("best_missing_share", math.nan))
+    missing = float(data.get("answer_missing_share", math.nan))
     if missing > WORTH_NAMING:
         text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."
         yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
@@ -138,7 +138,7 @@ class AnswerNumber(NamedTuple):
 def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
     """Return a number of the answer of one load, such as `total_friction`; NaN without one."""
     ends = ("", "_low", "_high") if has_answer(data) else ()
-    numbers = [float(data.get(f"best_{name}{end}", math.nan)) for end in ends]
+    numbers = [float(data.get(f"answer_{name}{end}", math.nan)) for end in ends]
     return AnswerNumber(*(numbers or [math.nan] * 3))
 
 

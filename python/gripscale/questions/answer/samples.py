@@ -202,7 +202,7 @@ def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def road_error(samples: xr.Dataset, name: str) -> LogError:
-    """Return how well the mean of a number over the samples of one rung stands for its road.
+    """Return how well the mean of a number over the samples of one model stands for its road.
 
     From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
     else from the scatter of the samples, or of the means of several subjects (profiles), because
@@ -234,7 +234,7 @@ def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
-    """Return the ratio of the means of two rungs, and its relative standard error.
+    """Return the ratio of the means of two models, and its relative standard error.
 
     The error is from the scatter of the ratios of subjects that both have, or else from the scatter
     of both; the truth lies evenly within the errors that the models estimate.
@@ -266,7 +266,7 @@ def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
 
 
 def paired(first: xr.Dataset, second: xr.Dataset) -> bool:
-    """Return whether two rungs have one sample each of the same two subjects or more."""
+    """Return whether two models have one sample each of the same two subjects or more."""
     subjects, others = (
         samples["subject"].values[_present(samples)].tolist() for samples in (first, second)
     )

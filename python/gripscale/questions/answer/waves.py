@@ -15,7 +15,7 @@ from gripscale.chain.chain import Chain
 from gripscale.experiment.task import Task
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.best_estimate import (
+from gripscale.questions.answer.estimate import (
     BASIS_SHARES,
     ESTIMATED,
     described,
@@ -28,7 +28,7 @@ from gripscale.questions.answer.intervals import LogError
 def estimate_of_waves(
     numbers: xr.Dataset, errors: Mapping[str, LogError] = MappingProxyType({})
 ) -> xr.Dataset:
-    """Return friction and contact fraction of a chain as `best_estimate` does, with no factors.
+    """Return friction and contact fraction of a chain as `answer_of_samples` does, with no factors.
 
     `numbers` are its `sample_numbers` under one load or several. Without `errors` of what they
     depend on there is no interval.
@@ -38,11 +38,11 @@ def estimate_of_waves(
     best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
     for name in ESTIMATED:
         best = best.assign(with_interval(name, numbers[name], errors[name]))
-        best[f"best_{name}_sampling_error"] = best[f"best_{name}_grid_error"] = unknown
+        best[f"answer_{name}_sampling_error"] = best[f"answer_{name}_grid_error"] = unknown
         for part in ("factor", "factor_uncertainty"):
-            best[f"best_{name}_{part}"] = unknown.expand_dims(factor=0)
+            best[f"answer_{name}_{part}"] = unknown.expand_dims(factor=0)
     best = with_total_friction(best, numbers["adhesive_friction"], errors)
-    return described(best.assign({f"best_{share}": unknown for share in BASIS_SHARES}))
+    return described(best.assign({f"answer_{share}": unknown for share in BASIS_SHARES}))
 
 
 def answer_of_waves(

@@ -51,7 +51,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     """Draw real contact area and friction of each named prediction, such as dynamic and static.
 
     Filled symbols are the running values, open symbols and thin lines those of each wave; a model
-    without waves is a level line at its total, with its best estimate as a band if it has one.
+    without waves is a level line at its total, with its answer as a band if it has one.
     Friction leaves out what is at rest, which has none;
     of a prediction without a single converged wave the legend says that there is nothing to draw.
     Lines are dashed beyond the measured band of the rubber.
@@ -156,7 +156,7 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
 
 
 def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Mark]:
-    """Yield the best estimate with its interval, if there is one."""
+    """Yield the answer with its interval, if there is one."""
     best, low, high = headline(view.data, quantity)
     if not np.isfinite(best):
         return

@@ -1,4 +1,4 @@
-"""What comparisons show: the look of each rung, rows of the ladder, measured friction."""
+"""What comparisons show: the look of each model, rows of the ladder, measured friction."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ SEEN = 0.01
 
 
 class Look(NamedTuple):
-    """Colour, dash and marker of a rung.
+    """Colour, dash and marker of a model.
 
-    A rung differs from the others by marker as well as by colour. Its line is solid or dotted:
+    A model differs from the others by marker as well as by colour. Its line is solid or dotted:
     dashed is what rests on the rubber beyond its measured band.
     """
 
@@ -53,11 +53,11 @@ OTHER_LOOKS = (
     Look(INK, "solid", "h"),
     Look(GREY, "dotted", "p"),
 )
-"""For rungs that have no look of their own, in turn."""
+"""For models that have no look of their own, in turn."""
 
 
 def looks(names: list[str]) -> list[Look]:
-    """Return the look of each named rung, in order."""
+    """Return the look of each named model, in order."""
     strangers = [name for name in names if name not in LOOKS]
     return [
         LOOKS.get(name) or OTHER_LOOKS[strangers.index(name) % len(OTHER_LOOKS)] for name in names
@@ -65,29 +65,29 @@ def looks(names: list[str]) -> list[Look]:
 
 
 def flawed(comparison: xr.Dataset) -> list[bool]:
-    """Return for each rung whether a sample of it failed."""
+    """Return for each model whether a sample of it failed."""
     few: list[bool] = (comparison["converged_samples"] < comparison["samples"]).values.tolist()
     return few
 
 
 def varied(comparison: xr.Dataset) -> str:
     """Return the axis of a comparison, or an empty text if nothing was varied."""
-    return next((str(dim) for dim in comparison.total_friction.dims if dim != "rung"), "")
+    return next((str(dim) for dim in comparison.total_friction.dims if dim != "model"), "")
 
 
 def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
-    """Return for each octave whether a rung has friction or lost area down to it."""
+    """Return for each octave whether a model has friction or lost area down to it."""
     friction, area = comparison.running_friction, comparison.running_contact_fraction
     if not friction.size:  # maps and windows at finite strain have no octaves
         return np.zeros(0, dtype=np.bool_)
     begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
-    return np.asarray((begun | (area < 1.0 - SEEN)).any("rung").values)
+    return np.asarray((begun | (area < 1.0 - SEEN)).any("model").values)
 
 
 def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
-    """Return the comparison without the rungs of other surfaces, unless it has no others."""
+    """Return the comparison without the models of other surfaces, unless it has no others."""
     chosen = [str(group) not in ASIDE for group in comparison.group.values]
-    return comparison.isel(rung=chosen) if any(chosen) else comparison
+    return comparison.isel(model=chosen) if any(chosen) else comparison
 
 
 MARKERS = "osD^v"
@@ -106,7 +106,7 @@ def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Serie
 
 BEST = "answer"
 STAR = " *"
-"""Behind the label of a rung whose friction rests partly on the rubber beyond its measured band."""
+"""Behind the label of a model whose friction rests partly on rubber beyond its measured band."""
 
 
 @dataclass(frozen=True)
@@ -137,16 +137,16 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
     comparison = on_the_surface(comparison)
     values = dict(
-        zip(comparison.rung.values, comparison[f"total_{name}"].values.tolist(), strict=True)
+        zip(comparison.model.values, comparison[f"total_{name}"].values.tolist(), strict=True)
     )
-    for at, (rung, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
-        solved = comparison.isel(rung=at)
-        theory, judge = str(solved.group.item()) == "theory", rung == DirectContact.name
+    for at, (member, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
+        solved = comparison.isel(model=at)
+        theory, judge = str(solved.group.item()) == "theory", member == DirectContact.name
         samples = solved[f"sample_{name}"].values
         star = STAR if style.predictions_beyond(solved) else ""
         yield Row(
             f"{solved.label.item()}{star}",
-            values[rung],
+            values[member],
             float(solved[f"{name}_uncertainty"]),
             math.nan if theory else values.get(str(solved.follows.item()), math.nan),
             float(solved[f"{name}_factor"]),
@@ -154,7 +154,7 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
             marker="D" if judge else "s" if theory else "o",
             colour=GREY if theory else ORANGE if judge else INK,
             filled=not bad,
-            note="failed" if math.isnan(values[rung]) and not theory else "none",
+            note="failed" if math.isnan(values[member]) and not theory else "none",
         )
     yield from _best(comparison, name, values.get(DirectContact.name, math.nan))
     yield from _measured(comparison, name)
@@ -162,15 +162,15 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
 
 def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
     """Yield the factors of the answer, and the answer itself where it has any."""
-    factors = comparison[f"best_{name}_factor"].values
-    if not math.isfinite(float(comparison[f"best_{name}"])):
+    factors = comparison[f"answer_{name}_factor"].values
+    if not math.isfinite(float(comparison[f"answer_{name}"])):
         return
     for at, factor in enumerate(factors):
         label = f"× {comparison.factor_label.values[at]}"
         if not math.isfinite(factor):
             yield Row(label, math.nan, note="not included")
             continue
-        sigma = float(comparison[f"best_{name}_factor_uncertainty"][at])
+        sigma = float(comparison[f"answer_{name}_factor_uncertainty"][at])
         yield Row(label, value * factor, sigma, value, factor)
         value *= factor
     if np.isfinite(factors).any():

@@ -16,7 +16,7 @@ from gripscale.core.finding import Finding, Severity, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
-from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, basis_lines
@@ -95,7 +95,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     """Return area and friction of each model of the ladder, with all that qualifies them.
 
     Spread and error are relative to the number, the factor is from the model before. `comparison`
-    has no axis but `rung`.
+    has no axis but `model`.
     """
 
     def per_cent(value: float) -> str:
@@ -143,7 +143,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         )
         for end in ("below", "above")
     ]
-    strong = [i for i, name in enumerate(comparison.rung.values) if str(name) == DIRECT]
+    strong = [i for i, name in enumerate(comparison.model.values) if str(name) == DIRECT]
     return Table(
         "ladder", columns, "The ladder of models", [_NOTE], bad=flawed(comparison), strong=strong
     )
@@ -166,12 +166,12 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
             "{:.3g}".format,
         )
     ]
-    for at, rung in enumerate(data.rung.values):
+    for at, member in enumerate(data.model.values):
         flags = zip(failed[:, at], beyond[:, at], strict=True)
         marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]
         values = data[f"total_{name}"].values[:, at]
-        heading = str(rung).replace("_", " ")
-        columns.append(Column(str(rung), values, heading, marks=marks, bad=failed[:, at]))
+        heading = str(member).replace("_", " ")
+        columns.append(Column(str(member), values, heading, marks=marks, bad=failed[:, at]))
     if is_estimated(data, name) and is_measured(data):
         texts = [str(headline(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
         columns.insert(1, Column("answer", texts, "answer (90 %)", words=False))
@@ -205,12 +205,12 @@ def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
     if has_answer(ladder):
         yield from answer_cards(ladder)
         return
-    rung = ladder.isel(rung=0)
-    bad = int(rung.converged_samples) < int(rung.samples)
+    member = ladder.isel(model=0)
+    bad = int(member.converged_samples) < int(member.samples)
     for name, symbol in SYMBOLS.items():
         words = f"{HEADINGS[name].capitalize()} {symbol}"
-        detail = f"{rung.label.item()}; ± {elements.percent_text(rung[f'{name}_uncertainty'])}"
-        yield Card(words, elements.number_text(rung[f"total_{name}"]), detail, bad)
+        detail = f"{member.label.item()}; ± {elements.percent_text(member[f'{name}_uncertainty'])}"
+        yield Card(words, elements.number_text(member[f"total_{name}"]), detail, bad)
 
 
 def best_line(comparison: xr.Dataset) -> str:

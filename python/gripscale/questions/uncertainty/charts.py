@@ -50,7 +50,7 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
             f"Friction and contact area over the {axis} with their bands.",
         )
         return
-    if data.sizes.get("part") and np.isfinite(data.best_contact_fraction_uncertainty):
+    if data.sizes.get("part") and np.isfinite(data.answer_contact_fraction_uncertainty):
         yield Picture(
             "answer",
             parts_figure(data),
@@ -78,14 +78,14 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 def parts_figure(data: xr.Dataset) -> Figure:
     """Draw the standard errors that the interval of an answer is made of, the largest on top."""
-    names = [name for name in _TOTALS if np.isfinite(data[f"best_{name}_uncertainty"])]
-    ranked = np.argsort(data[f"best_{names[0]}_part_error"].values, kind="stable")
+    names = [name for name in _TOTALS if np.isfinite(data[f"answer_{name}_uncertainty"])]
+    ranked = np.argsort(data[f"answer_{names[0]}_part_error"].values, kind="stable")
     labels = data.part_label.values[ranked]
     drawn = {*data.label.values.tolist(), NOT_ALONE, TOGETHER}
     rows = PlotAxis(ticks={float(row): str(label) for row, label in enumerate(labels)})
     panels = []
     for name in names:
-        sigma = 100.0 * data[f"best_{name}_part_error"].values[ranked]
+        sigma = 100.0 * data[f"answer_{name}_part_error"].values[ranked]
         bars: list[Mark] = [
             Bars(0.0, error, row - 0.3, row + 0.3, BLUE if label in drawn else ORANGE)
             for row, (label, error) in enumerate(zip(labels, sigma, strict=True))

@@ -17,7 +17,7 @@ from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
 from gripscale.questions.answer import page as answer
-from gripscale.questions.answer.best_estimate import DIRECT, TOTAL
+from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.reliance import has_answer, headline, is_measured
 from gripscale.questions.uncertainty import propagation
@@ -107,9 +107,9 @@ def _ranges_of_run(data: xr.Dataset) -> Iterator[str]:
     """Yield the intervals without errors of the inputs, with their symbols."""
     ends: dict[str, xr.DataArray] = {}
     for name in (*HEADS, "total_friction"):
-        if (of_run := f"best_{name}_{OF_RUN}") in data:
-            low, high = interval_ends(data[f"best_{name}"], data[of_run])
-            ends |= {f"best_{name}_low": low, f"best_{name}_high": high}
+        if (of_run := f"answer_{name}_{OF_RUN}") in data:
+            low, high = interval_ends(data[f"answer_{name}"], data[of_run])
+            ends |= {f"answer_{name}_low": low, f"answer_{name}_high": high}
     for name, symbol in HEADS.items():
         if interval := headline(data.assign(ends), name).interval:
             yield f"{symbol} {interval}"
@@ -132,11 +132,11 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     """Return the parts of the interval of an answer: standard errors and shares of variance."""
     moving = float(part.nominal_speed) > 0.0
     names = [name for name in HEADS if moving or name != "friction"]
-    ranked = np.argsort(-part[f"best_{names[0]}_part_error"].values, kind="stable")
+    ranked = np.argsort(-part[f"answer_{names[0]}_part_error"].values, kind="stable")
     columns = [Column("part", part.part_label.values[ranked].tolist(), "not known")]
     for name in names:
-        sigma = part[f"best_{name}_part_error"].values[ranked]
-        share = sigma**2 / float(part[f"best_{name}_uncertainty"]) ** 2
+        sigma = part[f"answer_{name}_part_error"].values[ranked]
+        share = sigma**2 / float(part[f"answer_{name}_uncertainty"]) ** 2
         of_sum = name == "friction" and TOTAL in part
         group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
         columns += [
@@ -148,7 +148,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             column, text = f"{name}_first_order", ("± by", "derivatives")
             values = [tangent.get(label, math.nan) for label in columns[0].values]
             columns.append(Column(column, values, *text, group=group, format=percent))
-    error = part[f"best_{names[0]}_part_share_error"].values[ranked]
+    error = part[f"answer_{names[0]}_part_share_error"].values[ranked]
     notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
     if NOT_ALONE in part.part_label.values:
         notes.append(
@@ -185,11 +185,11 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
     sampled = dict(
         zip(
             part.part_label.values.tolist(),
-            part.best_friction_part_error.values.tolist(),
+            part.answer_friction_part_error.values.tolist(),
             strict=True,
         )
     )
-    least = math.sqrt(_LEAST_SHARE) * float(part.best_friction_uncertainty)
+    least = math.sqrt(_LEAST_SHARE) * float(part.answer_friction_uncertainty)
     apart = [
         f"{label} ({percent(tangent[label])}, {percent(error)})"
         for label, error in sampled.items()

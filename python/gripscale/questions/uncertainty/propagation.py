@@ -321,7 +321,7 @@ def propagate(
     Returns
     -------
     xarray.Dataset
-        The answer of the case (`best_friction`, `best_contact_fraction`, ..., as of `gripscale
+        The answer of the case (`answer_friction`, `answer_contact_fraction`, ..., as of `gripscale
         run`) with its interval and what that is made of, see `sampled_answer`.
         Over `model`, what is varied, and `sample`: `friction`, `contact_fraction` and `status`,
         with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`

@@ -13,7 +13,7 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
-from gripscale.questions.answer.best_estimate import BEST_ESTIMATES
+from gripscale.questions.answer.estimate import ANSWER_NUMBERS
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
@@ -187,7 +187,7 @@ def totals_of(data: xr.Dataset) -> list[str]:
         and not str(name).endswith(("_key", "_status_word"))
         and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
     ]
-    return sorted(names, key=lambda name: name not in BEST_ESTIMATES)
+    return sorted(names, key=lambda name: name not in ANSWER_NUMBERS)
 
 
 def totals_table(data: xr.Dataset) -> Table | None:

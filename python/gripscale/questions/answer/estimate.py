@@ -1,4 +1,4 @@
-"""A best estimate: the profile as measured, times what else is known to matter.
+"""The estimate of an answer: the profile as measured, times what else is known to matter.
 
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
@@ -55,11 +55,11 @@ class Factor:
 
 
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
-"""Rungs whose ratio is the factor of finite strain."""
+"""Models whose ratio is the factor of finite strain."""
 ASSUMED_FINITE_STRAIN = Factor(
     "finite_strain", "large strain", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
-"""Where these rungs were not solved: what windows and blocks of other roads showed."""
+"""Where these models were not solved: what windows and blocks of other roads showed."""
 LINES_TO_SURFACE = "profile to surface"
 """Label of the factor from measured lines to the isotropic surface they lie on."""
 ISOTROPY_ASSUMED = "the step from profile to surface assumes an isotropic surface"
@@ -69,7 +69,7 @@ FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
 
 
 class SampledErrors(NamedTuple):
-    """Errors of a best estimate that samples of its inputs show."""
+    """Errors of an answer that samples of its inputs show."""
 
     errors: Mapping[str, Sequence[LogError]]
     """Of each estimated quantity."""
@@ -85,31 +85,32 @@ ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_
 frictions the one that a coarse grid changes least."""
 
 
-AREA_TERM, TOTAL = "best_adhesive_friction", "best_total_friction"
+AREA_TERM, TOTAL = "answer_adhesive_friction", "answer_total_friction"
 """Friction of the area term over the contact area of an answer, and with the hysteresis."""
 
 
-def best_estimate(
+def answer_of_samples(
     samples: xr.Dataset,
     supplied: Sequence[Factor] = (),
     *,
     sampled: SampledErrors | None = None,
 ) -> xr.Dataset:
-    """Return the answer of the solved rungs.
+    """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it.
 
-    `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty`, the ends
-    `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a direct
-    contact that converged or where the profiles are too short to tell how well they represent the
-    road (`_sampling_error`); over `factor` the `_factor` on each with its `_factor_uncertainty`,
-    NaN if not included. Where an area term was asked for, `best_adhesive_friction` is its stress on
-    the area of the answer, and `best_total_friction` the sum with the hysteresis.
+    `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
+    ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
+    direct contact that converged or where the profiles are too short to tell how well they
+    represent the surface (`_sampling_error`); over `factor` the `_factor` on each with its
+    `_factor_uncertainty`, NaN if not included. Where an area term was asked for,
+    `answer_adhesive_friction` is its stress on the area of the answer, and `answer_total_friction`
+    the sum with the hysteresis.
     """
-    has_direct = DIRECT in samples["rung"].values
-    status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
+    has_direct = DIRECT in samples["model"].values
+    status = samples["prediction_status"].isel(model=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if has_direct:
@@ -121,14 +122,14 @@ def best_estimate(
     labels = [label for label, _ in factors.values()]
     solved = [_where_all_known(numbers) for _, numbers in factors.values()]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
-    direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
+    direct = samples.sel(model=DIRECT, drop=True) if has_direct else None
     for share in BASIS_SHARES:
-        data[f"best_{share}"] = unknown
+        data[f"answer_{share}"] = unknown
         if direct is not None and share in direct:
-            data[f"best_{share}"] = reduce.mean(direct, share)
+            data[f"answer_{share}"] = reduce.mean(direct, share)
     for share in SHARES_BY_SLOPE:
         if direct is not None and share in direct:
-            data[f"best_{share}"] = reduce.mean(direct, share)
+            data[f"answer_{share}"] = reduce.mean(direct, share)
     errors_of: dict[str, LogError] = {}
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
@@ -139,8 +140,8 @@ def best_estimate(
         errors = [road, _certain(grid)]
         if sampled is not None:
             errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
-        data[f"best_{name}_sampling_error"] = road.sigma
-        data[f"best_{name}_grid_error"] = grid
+        data[f"answer_{name}_sampling_error"] = road.sigma
+        data[f"answer_{name}_grid_error"] = grid
         value = uncertainty = unknown.expand_dims(factor=0)
         if solved:
             value = xr.concat([numbers[name][0] for numbers in solved], "factor")
@@ -149,12 +150,12 @@ def best_estimate(
             errors += [LogError(error.sigma.fillna(0.0), error.freedom) for error in every]
         errors_of[name] = combined(errors)
         data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
-        data[f"best_{name}_factor"] = value
-        data[f"best_{name}_factor_uncertainty"] = uncertainty
+        data[f"answer_{name}_factor"] = value
+        data[f"answer_{name}_factor_uncertainty"] = uncertainty
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.mean(direct, "adhesive_friction")
         data = with_total_friction(
-            data, term * data["best_contact_fraction_factor"].prod("factor"), errors_of
+            data, term * data["answer_contact_fraction_factor"].prod("factor"), errors_of
         )
     return described(data)
 
@@ -164,7 +165,7 @@ def described(data: xr.Dataset) -> xr.Dataset:
     return data.assign(
         {
             name: data[name].assign_attrs(variable_attributes(text))
-            for name, text in BEST_ESTIMATES.items()
+            for name, text in ANSWER_NUMBERS.items()
             if name in data
         }
     )
@@ -177,7 +178,7 @@ def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, 
     low, high = interval_ends(value, width)
     numbers = {"": value, "_uncertainty": error.sigma.where(there), "_half_width": width}
     ends = {"_low": low, "_high": high}
-    return {f"best_{name}{end}": number for end, number in (numbers | ends).items()}
+    return {f"answer_{name}{end}": number for end, number in (numbers | ends).items()}
 
 
 def with_total_friction(
@@ -190,7 +191,7 @@ def with_total_friction(
     """
     if not bool(term.notnull().any()):
         return data
-    total = (data["best_friction"] + term).where(data["best_friction"] > 0.0)  # not at rest
+    total = (data["answer_friction"] + term).where(data["answer_friction"] > 0.0)  # not at rest
     share = term / total
     friction, area = errors["friction"], errors["contact_fraction"]
     sigma = (1.0 - share) * friction.sigma + share * area.sigma
@@ -207,12 +208,12 @@ def _certain(sigma: xr.DataArray) -> LogError:
 def _are_lines(samples: xr.Dataset) -> bool:
     """Return whether samples of the direct contact are lines of a surface, not a map."""
     heights = samples.get("upper_height")
-    return heights is not None and bool(heights.sel(rung=DIRECT).notnull().any())
+    return heights is not None and bool(heights.sel(model=DIRECT).notnull().any())
 
 
 def _of_surface(samples: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
-    direct = samples.sel(rung=DIRECT, drop=True)
+    direct = samples.sel(model=DIRECT, drop=True)
     lines, *line = (
         reduce.mean(direct, name) for name in ("contact_fraction", "upper_height", "relative_load")
     )
@@ -229,12 +230,12 @@ def _of_surface(samples: xr.Dataset) -> FactorNumbers:
 def _finite_strain(samples: xr.Dataset, unknown: xr.DataArray) -> tuple[str, FactorNumbers]:
     """Return label and numbers of the factor of finite strain, assumed where it is not solved.
 
-    Its error is the scatter of the samples of both rungs and, evenly, as much again as the factor
+    Its error is the scatter of the samples of both models and, evenly, as much again as the factor
     changes, for what the samples leave out.
     """
     numbers: FactorNumbers = {}
-    if set(FINITE_STRAIN) <= set(samples["rung"].values.tolist()):
-        over, under = (samples.sel(rung=rung, drop=True) for rung in FINITE_STRAIN)
+    if set(FINITE_STRAIN) <= set(samples["model"].values.tolist()):
+        over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
         for name, measure in ESTIMATED.items():
             value, error = reduce.ratio(over, under, measure)
             changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
@@ -276,8 +277,8 @@ _PARTS = {
     "_factor": "factor on the {} of the direct contact, NaN if not included",
     "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
 }
-BEST_ESTIMATES = {
-    f"best_{name}{end}": text.format(words)
+ANSWER_NUMBERS = {
+    f"answer_{name}{end}": text.format(words)
     for name, words, ends in (
         ("total_friction", "friction μ of hysteresis and area term", _INTERVAL),
         ("friction", "friction μ of the hysteresis", _INTERVAL | _PARTS),
@@ -286,19 +287,19 @@ BEST_ESTIMATES = {
     for end, text in ends.items()
 } | {
     AREA_TERM: "friction μ of the area term over the contact area of the answer",
-    **{f"best_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
-    **{f"best_{share}": text for share, text in SHARES_BY_SLOPE.items()},
+    **{f"answer_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
+    **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }
 """All numbers of an answer, and their meaning."""
 _LEFT_OUT = ("friction_uncertainty", "fraction_uncertainty", "_grid_error", "share", "_by_slope")
-POINT_ESTIMATES = (
+POINT_NUMBERS = (
     "factor_label",
-    *(name for name in BEST_ESTIMATES if not name.endswith(_LEFT_OUT)),
+    *(name for name in ANSWER_NUMBERS if not name.endswith(_LEFT_OUT)),
 )
-"""Names that `with_best_estimate` adds for the rubber that slides."""
+"""Names that `with_answer` adds for the rubber that slides."""
 
 
-def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
+def with_answer(data: xr.Dataset) -> xr.Dataset:
     """Return predictions of the direct contact with the answer of each.
 
     Parameters
@@ -309,9 +310,9 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        With `POINT_ESTIMATES` over the axes of the study, as `best_estimate` names them, and of
-        rubber at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
-        result, or the surface is too short for an interval.
+        With `POINT_NUMBERS` over the axes of the study, as `answer_of_samples` names them, and of
+        rubber at rest `static_answer_contact_fraction` and so on. NaN where the direct contact has
+        no result, or the surface is too short for an interval.
     """
     if UPPER_HEIGHT not in data:  # no direct contact
         return data
@@ -340,12 +341,15 @@ def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
     numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
     if prefix:
         numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
-    sample = xr.Dataset({name: (("rung", "sample"), [[value]]) for name, value in numbers.items()})
-    sample[STATUS] = ("rung", "sample"), np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object)
-    sample = sample.assign_coords(
-        rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
+    sample = xr.Dataset({name: (("model", "sample"), [[value]]) for name, value in numbers.items()})
+    sample[STATUS] = (
+        ("model", "sample"),
+        np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object),
     )
-    best = best_estimate(sample)
+    sample = sample.assign_coords(
+        model=[DIRECT], subject=(("model", "sample"), np.array([["surface"]], dtype=object))
+    )
+    best = answer_of_samples(sample)
     at_rest = {name for name in best if prefix and "friction" in str(name)}
-    names = [name for name in POINT_ESTIMATES if name in best and name not in at_rest]
+    names = [name for name in POINT_NUMBERS if name in best and name not in at_rest]
     return best[names].reset_coords(drop=True)
