@@ -63,7 +63,7 @@ def test_factors_of_rungs_and_from_elsewhere(solved: Make, together: Make) -> No
     supplied = Factor("map", "map", LogNormalValue(0.5, 0.2), LogNormalValue(1.3, 0.1), 6.0)
     best = answer_of_samples(models, [supplied])
     assert best.answer_friction_factor.notnull().all()
-    assert best.factor_label.values.tolist() == ["finite strain", "map"]
+    assert best.factor_label.values.tolist() == ["large strain", "map"]
     value, error = ratio(finite, small, "friction_from_dissipation")
     assert value == pytest.approx(0.975)
     assert best.answer_friction == pytest.approx(0.2 * 0.975 * 1.3)
