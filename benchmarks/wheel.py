@@ -27,7 +27,7 @@ START = (
 )
 MORE = (
     ("run", "road/results/case.toml"),
-    ("compare", "road/case.toml", "--rungs", "chain,measured"),
+    ("compare", "road/case.toml", "--models", "chain,measured"),
     ("init", "made_up", "--example", "synthetic"),
     ("run", "made_up/case.toml"),
     ("keys", "load"),

@@ -383,9 +383,9 @@ def models(shipped: Shipped) -> Figure:
     for (label, data), colour, marker in looks:
         at = [float(data.total_contact_fraction)], [float(data.total_friction)]
         marks.append(Series(*at, colour, label, "", marker=marker, size=7.0))
-    area, friction = float(direct.best_contact_fraction), float(direct.best_friction)
+    area, friction = float(direct.answer_contact_fraction), float(direct.answer_friction)
     widths = (
-        np.arcsinh(float(direct[f"best_{name}_half_width"]))
+        np.arcsinh(float(direct[f"answer_{name}_half_width"]))
         for name in ("contact_fraction", "friction")
     )
     (left, right), (low, high) = (
@@ -410,10 +410,10 @@ def errors(shipped: Shipped) -> Figure:
         for label, error in zip(data.label.values, data.source_friction_error.values, strict=True)
     ]
     factors = zip(
-        direct.factor_label.values, direct.best_friction_factor_uncertainty.values, strict=True
+        direct.factor_label.values, direct.answer_friction_factor_uncertainty.values, strict=True
     )
     parts += [(f"factor: {label}", float(error), ORANGE) for label, error in factors]
-    parts.append(("grid of the answer", float(direct.best_friction_grid_error), ORANGE))
+    parts.append(("grid of the answer", float(direct.answer_friction_grid_error), ORANGE))
     parts.sort(key=lambda part: part[1])
     rows = PlotAxis(ticks={float(row): label for row, (label, *_) in enumerate(parts)}, grid=False)
     bars = [

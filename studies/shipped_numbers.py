@@ -17,7 +17,7 @@ import xarray as xr
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.questions.answer.answer import answer
-from gripscale.questions.answer.page import number_and_interval
+from gripscale.questions.answer.reliance import headline
 from gripscale.questions.compare.page import best_line
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -29,8 +29,8 @@ def of_run() -> dict[str, Any]:
     """Return what `gripscale run` answers."""
     data = answer(read_case(CASE)).data
     return {
-        "run: friction": number_and_interval(data, "friction"),
-        "run: contact area": number_and_interval(data, "contact_fraction"),
+        "run: friction": str(headline(data, "friction")),
+        "run: contact area": str(headline(data, "contact_fraction")),
     }
 
 

@@ -334,8 +334,9 @@ class Case:
         others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
         findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
         fit = self.measured_rubber.fit
-        texts = [] if fit is None else [f"Rubber: {text}." for text in fit.findings]
-        findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER) for text in texts]
+        if fit is not None and fit.findings:
+            text = f"Rubber, doubts of its measurement and series: {'; '.join(fit.findings)}."
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         findings += [f.about("Surface") for f in surface.findings if f not in others]
         if self.load.thickness is not None:
             text = (

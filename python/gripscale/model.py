@@ -335,6 +335,8 @@ def predicted_answer(
 
     if set(totals) != set(TOTALS):
         raise ValueError(f"totals must be {', '.join(TOTALS)}; got {', '.join(totals)}")
+    if load.speed == 0.0:  # no friction at rest, whatever rounding says
+        totals |= {name: 0.0 * abs(totals[name]) for name in totals if "friction" in name}
     variables = {name: number(totals[name], "1", text) for name, text in TOTALS.items()}
     for name, (part, text) in OUTSIDE_BAND.items():
         variables[name] = number(getattr(extrapolation, part), "1", text)

@@ -135,7 +135,7 @@ def map_over_lines(
 ) -> MapOverLines:
     """Compare synthetic isotropic maps of a measured surface with their lines.
 
-    Multiply contact and friction of the measured line by the factors for a best estimate of the
+    Multiply contact and friction of the measured line by the factors for an answer of the
     surface, if the maps' lines match the measured ones.
 
     Raises `InputError` if an argument is out of its range.

@@ -88,19 +88,19 @@ def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
     run = SimpleNamespace(text=(ran / "case.toml").read_text())
     dynamic, *rest = result.predictions
     assert result.direct is not None
-    direct = result.direct.assign(best_friction_half_width=0.2)  # of a longer road
+    direct = result.direct.assign(answer_friction_half_width=0.2)  # of a longer road
     compared = [ComparedRun(run, dynamic, direct)]
     compared += [ComparedRun(run, view, None) for view in rest]
     columns = {column.name: column.values for column in runs_table(compared).columns}
-    assert columns["best_friction"][0] == float(result.direct.best_friction)
-    low, high = columns["best_friction_interval"][0]
-    assert (high - low) / (2.0 * columns["best_friction"][0]) == pytest.approx(0.2)
-    assert "best_contact_fraction_interval" not in columns
+    assert columns["answer_friction"][0] == float(result.direct.answer_friction)
+    low, high = columns["answer_friction_interval"][0]
+    assert (high - low) / (2.0 * columns["answer_friction"][0]) == pytest.approx(0.2)
+    assert "answer_contact_fraction_interval" not in columns
     assert columns["friction"][0] == dynamic.total("friction")
     names = list(columns)
-    assert names.index("best_friction") < names.index("friction")
+    assert names.index("answer_friction") < names.index("friction")
     alone = runs_table([ComparedRun(run, dynamic, None)])
-    assert "best_friction" not in {column.name for column in alone.columns}
+    assert "answer_friction" not in {column.name for column in alone.columns}
 
 
 def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
@@ -110,7 +110,7 @@ def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
     dynamic = result.predictions[0]
     rows = [ComparedRun(run, dynamic, result.direct), ComparedRun(run, dynamic, None)]
     states = next(column.values for column in runs_table(rows).columns if column.name == "status")
-    assert list(states) == ["best estimate not to be relied on", "complete"]
+    assert list(states) == ["answer not to be relied on", "complete"]
     reason, numbers, *others = answer_elements(run)
     assert reason.sentence.startswith("Answer: none to rely on. The measured surface is too small")
     assert isinstance(numbers, Cards)

@@ -233,7 +233,7 @@ def test_the_case_without_a_trap_has_no_doubt(tmp_path: Path) -> None:
 
 
 def test_an_answer_on_plates_is_none_to_rely_on() -> None:
-    names = ("best_friction", "best_contact_fraction")
+    names = ("answer_friction", "answer_contact_fraction")
     values = dict.fromkeys(names, 0.5) | {f"{name}_half_width": 0.1 for name in names}
     data = xr.Dataset({**values, "nominal_speed": 1.0})
     assert no_answer(data) == ""
@@ -258,7 +258,7 @@ def test_a_study_on_a_misread_rubber_says_so(tmp_path: Path, vary: dict[str, Any
 
 def test_comparisons_with_a_misread_rubber_say_so(tmp_path: Path) -> None:
     misread = write(tmp_path, dma=dma_text(60.0, "0.2"))
-    ladder = gs.compare(read_case(misread), rungs=["direct"]).data
+    ladder = gs.compare(read_case(misread), models=["direct"]).data
     roads = compare_surfaces(
         read_case(misread), {"a": "case", "b": "case"}, tmp_path / "roads", samples=None
     )
@@ -357,7 +357,7 @@ def test_a_study_and_a_comparison_under_impossible_loads_say_so(tmp_path: Path) 
         tmp_path / "study", workers=1
     )
     assert str(input_doubts_of(study)[0]).startswith("Speed = 1e+06 m/s is not between")
-    over = gs.compare(read_case(file), vary={"speed": "1,1e6"}, rungs=["persson"]).data
+    over = gs.compare(read_case(file), vary={"speed": "1,1e6"}, models=["persson"]).data
     assert over.attrs[INPUT_DOUBTS] == study.attrs[INPUT_DOUBTS]
 
 

@@ -25,8 +25,8 @@ def legend(figure: Figure) -> list[str]:
 
 
 def with_answer(data: xr.Dataset, half_width: float = 0.26) -> xr.Dataset:
-    numbers = {f"best_{name}": ((), value) for name, value in BEST.items()}
-    return data.assign(numbers | {f"best_{name}_half_width": ((), half_width) for name in BEST})
+    numbers = {f"answer_{name}": ((), value) for name, value in BEST.items()}
+    return data.assign(numbers | {f"answer_{name}_half_width": ((), half_width) for name in BEST})
 
 
 @pytest.mark.parametrize("half_width", [0.26, math.nan])

@@ -444,8 +444,8 @@ def test_numbers_of_a_comparison_end_before_its_factors(monkeypatch: pytest.Monk
         Row("sines", 0.0091, 0.0, 0.0066, 1.37, samples=(0.0043, 0.0118)),
     ]
     monkeypatch.setattr(ladder, "rows_of", lambda comparison, name: rows)
-    names = {"rung": ["chain", "sines"], "label": ("rung", ["chain", "sines"])}
-    data = xr.Dataset({"nominal_speed": 0.3, "group": ("rung", ["measured"] * 2)}, names)
+    names = {"model": ["chain", "sines"], "label": ("model", ["chain", "sines"])}
+    data = xr.Dataset({"nominal_speed": 0.3, "group": ("model", ["measured"] * 2)}, names)
     figure = comparison_figure(data)
     png(figure)
     for axes in figure.axes:

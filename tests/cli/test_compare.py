@@ -62,7 +62,7 @@ def comparison(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[
     target = folder / "out"
     words = (
         "compare", inputs / "case.toml", "--seeds", 2, "--output", target,
-        "--measured", folder / "mu.csv", "--rungs", "waves,measured,theory",
+        "--measured", folder / "mu.csv", "--models", "waves,measured,theory",
     )  # fmt: skip
     environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
     result = CliRunner().invoke(app, [str(word) for word in words], env=environment)
@@ -82,7 +82,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     assert beside.model.values.tolist() == asked
     assert np.isfinite(beside.difference).all()
     data = netcdf.load_dataset(target / "comparison.nc")
-    assert data.rung.values.tolist() == RUNGS
+    assert data.model.values.tolist() == RUNGS
     assert data.samples.values.tolist() == [1, 1, 2, 2, 1, 1]
     assert (data.status == "converged").all()
     # A spread belongs to what was drawn more than once, and only to that.
@@ -98,7 +98,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     for label in data.label.values:
         assert str(label) in printed
     words, lines = " ".join(printed.split()), list(filter(None, printed.splitlines()))
-    assert "finite strain, assumed" in words
+    assert "large strain ± 5.0 % (assumed)" in words
     too_short = "Answer: none to rely on. The measured surface is too small"
     assert words.index(too_short) < words.index("Best estimate (90 %): A_r/A_0 = ")
     numbers = r"A_r/A_0 = [\d.]+( ± [\d.]+ %)?, mu = [\d.]+( ± [\d.]+ %)?"
@@ -109,8 +109,8 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
 
 @pytest.mark.parametrize("group", ["waves", "measured", "theory", "windows"])
 def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group: str) -> None:
-    data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(rung=[4])
-    data = data.assign_coords(group=("rung", [group]))
+    data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(model=[4])
+    data = data.assign_coords(group=("model", [group]))
     for octaves in (data, data.isel(wavelength=slice(0))):  # maps and blocks have no octaves
         assert next(name for name, _ in comparison_figures(octaves)) == "comparison"
         labels = [row.label for row in rows_of(octaves, "friction")]
@@ -122,8 +122,8 @@ def test_factors_lead_from_the_chain_to_the_profile_as_measured(
     comparison: tuple[str, Path],
 ) -> None:
     data = netcdf.load_dataset(comparison[1] / "comparison.nc")
-    aside = (data.group == "theory") | (data.rung == "chain_upper")
-    path = data.isel(rung=~aside.values)
+    aside = (data.group == "theory") | (data.model == "chain_upper")
+    path = data.isel(model=~aside.values)
     for name in ("contact_fraction", "friction"):
         ends = path[f"total_{name}"].values[[0, -1]]
         assert np.nanprod(path[f"{name}_factor"]) == pytest.approx(ends[1] / ends[0])
@@ -139,7 +139,7 @@ def test_factors_lead_from_the_chain_to_the_profile_as_measured(
 def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     results = read_case(inputs / "case.toml")
     asked = ["chain_half_plane", "direct"]
-    made = gs.compare(results, seeds=1, tolerance=0.02, rungs=asked).ladder
+    made = gs.compare(results, seeds=1, tolerance=0.02, models=asked).ladder
     means = made.data.total_friction
     measured = results.surface.measured
     assert measured is not None
@@ -148,7 +148,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     alone = gs.solve_rough_contact(
         results.rubber, measured.profiles[0][1], smallest_wavelength=smallest, **load
     )
-    direct = made.samples.sel(rung="direct").isel(sample=0)
+    direct = made.samples.sel(model="direct").isel(sample=0)
     for name in (
         "contact_fraction",
         "friction",
@@ -169,11 +169,11 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
         points=128,
         **load,
     )
-    assert means.sel(rung="chain_half_plane") == chain.friction
+    assert means.sel(model="chain_half_plane") == chain.friction
     quick = solve_direct_contact(results)
     assert quick is not None
     # Estimated errors of 10 % and 2 %.
-    assert float(quick.friction.mean()) == pytest.approx(float(means.sel(rung="direct")), rel=0.12)
+    assert float(quick.friction.mean()) == pytest.approx(float(means.sel(model="direct")), rel=0.12)
 
 
 def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
@@ -183,7 +183,7 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
         "scales = 3\ns_wavelength = 3", 'scales = 4\ntop_height_fraction = 0.5\ncut_off = "4 mm"'
     )
     results = read_case(case)
-    direct = gs.compare(results, rungs=["direct"], tolerance=0.02).data.isel(rung=0)
+    direct = gs.compare(results, models=["direct"], tolerance=0.02).data.isel(model=0)
     measured = results.surface.measured
     assert measured is not None
     load = {"pressure": 3e5, "speed": 0.3}
@@ -191,17 +191,17 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
         results.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
     )
     assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-9)
-    upper = gs.compare(results, rungs=["chain_upper"]).data.squeeze("rung")
+    upper = gs.compare(results, models=["chain_upper"]).data.squeeze("model")
     own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
     chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
     assert float(upper.total_friction) == pytest.approx(chain.friction, rel=1e-6)
     assert float(upper.total_contact_fraction) == pytest.approx(chain.contact_fraction, rel=1e-6)
     case.write_text(case.read_text() + "[chain]\npressure_classes = 4\n")
-    rungs = gs.compare(read_case(case), rungs=["waves"]).data
-    assert rungs.rung.values.tolist() == ["chain_half_plane", "sines"]
+    models = gs.compare(read_case(case), models=["waves"]).data
+    assert models.model.values.tolist() == ["chain_half_plane", "sines"]
     own |= {"points": 128, "pressure_classes": 4}
     chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
-    assert rungs.total_friction.sel(rung="chain_half_plane") == chain.friction
+    assert models.total_friction.sel(model="chain_half_plane") == chain.friction
 
 
 def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
@@ -210,7 +210,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     monkeypatch.setenv(PROGRESS_LINES, "1")
     (tmp_path / "mu.csv").write_text(MEASURED)
     command = [
-        "compare", inputs / "case.toml", "--rungs", "chain_half_plane,direct,persson",
+        "compare", inputs / "case.toml", "--models", "chain_half_plane,direct,persson",
         "--vary", "speed=0.03,0.3", "--output", tmp_path / "out", "--measured", tmp_path / "mu.csv",
     ]  # fmt: skip
     first = shell(*command)
@@ -220,14 +220,14 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     pages = {"report.html", CASE_NOTE}
     assert written == tables | pages | {f"over_speed.{kind}" for kind in FORMATS}
     data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
-    assert data.total_friction.dims == ("speed", "rung")
-    alone = gs.compare(read_case(inputs / "case.toml"), rungs=["direct"]).data.isel(rung=0)
-    assert data.total_friction.sel(speed=0.3, rung="direct") == alone.total_friction
+    assert data.total_friction.dims == ("speed", "model")
+    alone = gs.compare(read_case(inputs / "case.toml"), models=["direct"]).data.isel(model=0)
+    assert data.total_friction.sel(speed=0.3, model="direct") == alone.total_friction
     friction = comparison_axis_figure(data).axes[1]
     lines = [line.get_ydata() for line in friction.lines if len(line.get_ydata()) == 2]
-    for rung in data.rung.values:
-        drawn = data.total_friction.sel(rung=rung).values
-        assert any(np.array_equal(line, drawn) for line in lines), rung
+    for member in data.model.values:
+        drawn = data.total_friction.sel(model=member).values
+        assert any(np.array_equal(line, drawn) for line in lines), member
     assert any(np.array_equal(line, data.measured_friction) for line in lines)
     next((tmp_path / "out" / "predictions").iterdir()).unlink()
     again = shell(*command)
@@ -245,10 +245,10 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
         ("--vary", "rubber=case", "vary must be one of speed, pressure"),
         ("--vary", "pressure_classes=1,2", "vary must be one of speed, pressure"),
         ("--vary", "speed=0.3", "speed must have at least two values; got 0.3"),
-        ("--rungs", "persion", "unknown rung persion; did you mean persson?"),
+        ("--models", "persion", "unknown model persion; did you mean persson?"),
         ("--seeds", "0", "seeds must be a whole number from 1 to 1000; got 0"),
         ("--measured", "none.csv", "none.csv: cannot be read (no such file)"),
-        ("--rungs", "klueppel_heinrich", "no rung of klueppel_heinrich applies to this case"),
+        ("--models", "klueppel_heinrich", "no model of klueppel_heinrich applies to this case"),
     ],
 )
 def test_what_cannot_be_compared_is_one_sentence(
@@ -268,10 +268,10 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     )
     case.write_text(case.read_text().replace("scales = 3", "scales = 6"))  # below the cut-off
     (case.parent / "mu.csv").write_text(MEASURED)
-    made = gs.compare(read_case(case), rungs=["theory"]).ladder
+    made = gs.compare(read_case(case), models=["theory"]).ladder
     assert made.measured is not None
-    assert [rung.name for rung in made.rungs] == ["persson", "klueppel_heinrich"]
-    theory = made.data.sel(rung="klueppel_heinrich")
+    assert [member.name for member in made.models] == ["persson", "klueppel_heinrich"]
+    theory = made.data.sel(model="klueppel_heinrich")
     results = read_case(case)
     assert results.surface.measured is not None
     alone = gs.theory.klueppel_heinrich(
@@ -292,8 +292,8 @@ def test_waves_by_hand_have_no_profile_to_judge_by(tmp_path: Path) -> None:
     case.write_text(WAVES_BY_HAND)
     results = read_case(case)
     assert solve_direct_contact(results) is None
-    rungs = gs.compare(results, seeds=1).ladder.rungs
-    assert [rung.name for rung in rungs] == ["chain_half_plane", "sines"]
+    models = gs.compare(results, seeds=1).ladder.models
+    assert [member.name for member in models] == ["chain_half_plane", "sines"]
 
 
 def test_nothing_rubs_at_rest(tmp_path: Path) -> None:
@@ -317,7 +317,7 @@ def test_what_was_measured_is_refused_before_anything_is_solved(
     case = tmp_path / "case.toml"
     case.write_text(case.read_text() + '\n[measured]\nfriction = "mu.csv"\n')
     (tmp_path / "mu.csv").write_text("speed [m/s],friction\n0.1,none\n")
-    options: dict[str, Any] = {"rungs": ["chain_half_plane"], "on_task": pytest.fail}
+    options: dict[str, Any] = {"models": ["chain_half_plane"], "on_task": pytest.fail}
     with pytest.raises(FileError, match=r"mu\.csv"):
         gs.compare(read_case(case), vary=vary, **options)
 
@@ -329,11 +329,11 @@ def test_the_axes_named_are_those_of_a_comparison(shell: Shell, inputs: Path) ->
     assert names == ", ".join(COMPARED_OVER)
 
 
-def test_rung_that_failed_is_open_and_says_why(inputs: Path) -> None:
+def test_model_that_failed_is_open_and_says_why(inputs: Path) -> None:
     made = gs.compare(
-        read_case(inputs / "case.toml"), seeds=1, rungs=["chain_half_plane", "direct"]
+        read_case(inputs / "case.toml"), seeds=1, models=["chain_half_plane", "direct"]
     ).ladder
-    direct = made.rungs[1]
+    direct = made.models[1]
     second = made.samples.isel(sample=[0])
     second["prediction_status"] = second.prediction_status.where(False, "tolerance not met")
     samples = xr.concat([made.samples, second], "sample")
@@ -384,7 +384,7 @@ def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(
 ) -> None:
     case = changed("[output]", '[measured]\nfriction = "mu.csv"\n[output]')
     (case.parent / "mu.csv").write_text(MEASURED.replace("speed [mm/s]", "speed"))
-    compare = ["compare", case, "--rungs", "chain_half_plane"]
+    compare = ["compare", case, "--models", "chain_half_plane"]
     for command in (["run", case], compare, [*compare, "--vary", "speed=0.03,0.3"]):
         result = shell(*command)
         assert result.exit_code == 0, result.output

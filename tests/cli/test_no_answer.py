@@ -91,7 +91,7 @@ def test_the_first_line_says_that_there_is_no_answer(
     shell: Shell, case: Path, make: Callable[[Path], None], statement: str
 ) -> None:
     make(case)
-    for words in (("run", case), ("compare", case, "--rungs", "chain_half_plane,direct")):
+    for words in (("run", case), ("compare", case, "--models", "chain_half_plane,direct")):
         result = shell(*words, columns=400)
         assert result.exit_code == 0, result.output
         lines = [line for line in result.stdout.splitlines() if line and line[0] not in "[gCS"]

@@ -59,13 +59,26 @@ def test_output_says_what_was_read_fitted_and_solved(done: tuple[Result, Path]) 
         "dma on road",
         "3 sine waves from",
         "Maxwell elements",
-        "Dynamic, 0.3 m/s",
-        "Static",
         "A_r/A_0",
         "spikes",
     ):
         assert words in output
     assert "wave 3 of 3" not in output  # progress is for terminals
+
+
+def test_the_chain_is_printed_where_it_is_asked_for(
+    done: tuple[Result, Path], inputs: Path, shell: Shell
+) -> None:
+    result, target = done
+    _, opening, last = result.output.split("Answer: ")
+    assert last.strip(), "the answer is the last thing"
+    assert opening.startswith(last.strip())
+    chain = (target / "chain.txt").read_text(encoding="utf-8")
+    again = shell("run", inputs / "case.toml", "--output", target, "--chain").output
+    for words in ("Dynamic, 0.3 m/s", "Static", "stretch"):
+        assert words in chain
+        assert words in again
+        assert words not in result.output
 
 
 def test_results_file_holds_the_chain_and_its_inputs(
@@ -89,7 +102,7 @@ def test_results_file_holds_the_chain_and_its_inputs(
 
 def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) -> None:
     titles, *rows = read_sheets(done[1] / "summary.xlsx")["summary"]
-    assert titles[:4] == ("model", *(f"best_friction{end} [-]" for end in ("", "_low", "_high")))
+    assert titles[:4] == ("model", *(f"answer_friction{end} [-]" for end in ("", "_low", "_high")))
     assert [row[0] for row in rows] == ["direct", "chain", "chain"]
     by_name = [dict(zip(titles, row, strict=True)) for row in rows]
     for name, row in zip(("answer", "dynamic", "static"), by_name, strict=True):
@@ -100,8 +113,8 @@ def test_summary_for_excel_has_a_row_for_each_answer(done: tuple[Result, Path]) 
         assert row["prediction_status"] == "converged"
         assert row["surface_source"].endswith("road.txt")
     direct = netcdf.load_dataset(done[1] / "answer.nc")
-    friction = float(direct.best_friction)
-    assert by_name[0]["best_friction [-]"] == pytest.approx(friction, rel=1e-15)
+    friction = float(direct.answer_friction)
+    assert by_name[0]["answer_friction [-]"] == pytest.approx(friction, rel=1e-15)
     assert by_name[0]["not_to_rely_on"] == no_answer(direct) or None
 
 
@@ -117,8 +130,7 @@ def test_case_is_copied_but_for_the_names_of_its_files(
 
 def test_report_holds_the_tables(done: tuple[Result, Path]) -> None:
     text = (done[1] / "report.txt").read_text(encoding="utf-8")
-    assert text.count("converged") == 6
-    assert "Static" in text
+    assert (done[1] / "chain.txt").read_text(encoding="utf-8").count("converged") == 6
     assert "s_wavelength = 3.000" in text
 
 
@@ -148,7 +160,9 @@ def test_wave_that_fails_keeps_what_was_solved(
     assert "wave 2 of 3" in result.stderr
     assert "iteration limit" in result.stderr
     assert len(result.stderr.splitlines()) == 1
-    assert "No totals: wave 2 did not converge" in result.stdout
+    assert "No totals: wave 2 did not converge" in (
+        case.parent / "results" / "chain.txt"
+    ).read_text(encoding="utf-8")
     data = netcdf.load_dataset(case.parent / "results" / "dynamic.nc")
     assert data.status.values.tolist() == ["converged", "iteration limit"]
     assert np.isfinite(data.running_friction.values).tolist() == [True, False]
@@ -199,8 +213,8 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
-    texts = {"case.toml", "report.txt", "summary.xlsx", "road.txt", "dma.txt", NOTE, CASE_NOTE}
-    texts |= {"report.html"}
+    texts = {"case.toml", "report.txt", "chain.txt", "summary.xlsx", "road.txt", "dma.txt", NOTE}
+    texts |= {CASE_NOTE, "report.html"}
     assert left == texts | {"dynamic.nc", "answer.nc", "notes.txt", "mine.png"}
 
 

@@ -38,7 +38,7 @@ def abilities(made: Experiments) -> list[str]:
             *_commands(),
             *_keys(),
             *_public_names(),
-            *(f"rung {rung.name} ({rung.group})" for rung in LADDER),
+            *(f"model {member.name} ({member.group})" for member in LADDER),
             *(f"status {status}" for status in Status),
             *_written(made.folder),
             *_variables(made.folder),

@@ -126,19 +126,19 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "run_map": ("run", "map.toml", "--output", "run_map"),
     "compare": (
         "compare", "road.toml", "--output", "compare", "--seeds", "1",
-        "--rungs", "chain,direct,theory",
+        "--models", "chain,direct,theory",
     ),
     "compare_ladder": (
         "compare", "plain.toml", "--output", "compare_ladder", "--seeds", "1",
-        "--rungs", "waves,measured,theory,windows",
+        "--models", "waves,measured,theory,windows",
     ),
     "compare_conditions": (
         "compare", "warm.toml", "--output", "compare_conditions",
-        "--rungs", "chain_half_plane,direct,persson",
+        "--models", "chain_half_plane,direct,persson",
     ),
     "compare_over_speed": (
         "compare", "plain.toml", "--output", "compare_over_speed", "--vary", "speed=0.1,1",
-        "--rungs", "chain_half_plane,direct,theory",
+        "--models", "chain_half_plane,direct,theory",
     ),
     "study": (
         "study", "plain.toml", "--output", "study", "--static", "--model", "chain",
@@ -190,7 +190,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "refused_axis_of_models": ("compare", "plain.toml", "--vary", "colour=red,blue"),
     "refused_model": ("study", "plain.toml", "--vary", "speed=0.1,1", "--model", "zebra"),
     "refused_effects": ("study", "warm.toml", "--vary", "effects=all,zebra"),
-    "refused_rung": ("compare", "plain.toml", "--rungs", "zebra"),
+    "refused_rung": ("compare", "plain.toml", "--models", "zebra"),
     "refused_source": ("uncertainty", "plain.toml", "--without", "zebra"),
     "refused_given": ("uncertainty", "plain.toml", "--range", "zebra=1:2"),
     "refused_uncertain_model": ("uncertainty", "plain.toml", "--model", "zebra"),

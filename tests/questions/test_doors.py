@@ -16,8 +16,8 @@ from tests.samples import Shell
 FRICTION = "friction.csv"
 QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
     "comparison": (
-        lambda case, **options: gs.compare(case, rungs=["waves", "measured"], **options),
-        ["compare", "--rungs", "waves,measured"],
+        lambda case, **options: gs.compare(case, models=["waves", "measured"], **options),
+        ["compare", "--models", "waves,measured"],
         "comparison.nc",
     ),
     "study": (

@@ -147,7 +147,7 @@ def compared(run_folder: Path) -> list[xr.Dataset]:
     """A comparison of the run's case, alone and over two speeds; a sample of it failed."""
     results = read_case(run_folder.parent / "case.toml")
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
-    options: dict[str, Any] = {"rungs": ["chain_half_plane", "direct", "persson"]}
+    options: dict[str, Any] = {"models": ["chain_half_plane", "direct", "persson"]}
     made = gs.compare(results, measured=measured, tolerance=0.2, **options).ladder
     factors = [
         Factor(

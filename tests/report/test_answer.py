@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from gripscale.core.finding import Finding, Severity, Topic, doubt, ranked, to_json
-from gripscale.questions.answer.best_estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
 from gripscale.questions.answer.reliance import no_answer
@@ -20,19 +20,21 @@ from gripscale.report.elements import Page
 
 
 def answered(**changed: float) -> xr.Dataset:
-    """Return the variables of a best estimate: friction 0.2, contact fraction 0.03."""
+    """Return the variables of an answer: friction 0.2, contact fraction 0.03."""
     numbers = {
         "nominal_pressure": 3e5,
         "nominal_speed": 0.3,
         "cutoff_wavelength": 1e-4,
-        "best_friction": 0.2,
-        "best_friction_half_width": math.sinh(math.log(1.25)),
-        "best_friction_sampling_error": 0.03,
-        "best_contact_fraction": 0.03,
-        "best_contact_fraction_half_width": math.sinh(math.log(1.2)),
-        "best_contact_fraction_sampling_error": 0.02,
-        "best_steep_share": 0.5,
-        "best_missing_share": 0.06,
+        "answer_friction": 0.2,
+        "answer_friction_low": 0.16,
+        "answer_friction_high": 0.25,
+        "answer_friction_sampling_error": 0.03,
+        "answer_contact_fraction": 0.03,
+        "answer_contact_fraction_low": 0.025,
+        "answer_contact_fraction_high": 0.036,
+        "answer_contact_fraction_sampling_error": 0.02,
+        "answer_steep_share": 0.5,
+        "answer_missing_share": 0.06,
         "total_friction": 0.2,
         "total_friction_from_dissipation": 0.2,
         "total_friction_outside_band": 0.25,
@@ -40,11 +42,11 @@ def answered(**changed: float) -> xr.Dataset:
         "total_decades_above_band": 2.3,
     } | changed
     columns = {
-        "factor_label": ["finite strain, assumed", LINES_TO_SURFACE],
-        "best_friction_factor": [1.0, 0.95],
-        "best_contact_fraction_factor": [1.0, 0.68],
-        "best_friction_factor_uncertainty": [0.05, 0.11],
-        "best_contact_fraction_factor_uncertainty": [0.03, 0.11],
+        "factor_label": ["large strain", LINES_TO_SURFACE],
+        "answer_friction_factor": [1.0, 0.95],
+        "answer_contact_fraction_factor": [1.0, 0.68],
+        "answer_friction_factor_uncertainty": [0.05, 0.11],
+        "answer_contact_fraction_factor_uncertainty": [0.03, 0.11],
     }
     return xr.Dataset(
         numbers | {name: ("factor", np.array(values)) for name, values in columns.items()},
@@ -58,23 +60,57 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
         "Answer: μ = 0.200 (0.160 to 0.250), A_r/A_0 = 0.0300 (0.0250 to 0.0360) (90 % intervals)"
     )
     text = " ".join(below)
-    assert "for 3 bar and 0.3 m/s, roughness down to 0.1 mm" in text
-    assert "finite strain, assumed (1 ± 5.0 %)" in text
-    assert "step from lines to a surface (μ × 0.950, A_r/A_0 × 0.680)" in text
-    assert "the step to a surface assumes an isotropic road" in text
-    assert "errors of the inputs are not in the interval" in text
+    assert "For 3 bar and 0.3 m/s, roughness down to 0.1 mm." in text
+    assert (
+        "Solved on your profiles at small strain (μ 0.211, area 0.0441), then corrected: large "
+        "strain ± 5.0 % (assumed); profile to surface: friction -5.0 %, area -32 %."
+    ) in text
+    assert (
+        "Not in the interval: errors of the inputs (`gripscale uncertainty`), and lay: with ridges "
+        "3:1 the area changes up to 1.5 times."
+    ) in text
     assert [line.strip() for line in below] == list(basis_lines(answered()))
 
 
 def test_at_rest_there_is_an_area_only() -> None:
-    first, *_ = answer_lines(answered(nominal_speed=0.0, best_friction=0.0))
+    first, *_ = answer_lines(answered(nominal_speed=0.0, answer_friction=0.0))
     assert first.startswith("Answer: no friction at rest; A_r/A_0 = 0.0300 (")
     assert [card.value for card in answer_cards(answered(nominal_speed=0.0))] == ["0.0300"]
 
 
+def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
+    total = {"": 0.9, "_low": 0.7, "_high": 1.2}
+    data = answered(
+        answer_adhesive_friction=0.7,
+        **{f"answer_total_friction{end}": v for end, v in total.items()},
+    )
+    first, *_ = answer_lines(data)
+    parts = "0.200 of hysteresis and 0.700 of the area term"
+    assert first == (
+        f"Answer: μ = 0.900 (0.700 to 1.20): {parts}; A_r/A_0 = 0.0300 (0.0250 to 0.0360) "
+        "(90 % intervals)"
+    )
+    friction, _ = answer_cards(data)
+    assert (friction.value, friction.detail) == ("0.900", f"answer; 0.700 to 1.20 (90 %); {parts}")
+
+
+def test_measured_friction_stands_beside_the_answer_and_is_the_first_finding() -> None:
+    """0.2 of 0.5 measured is 60 % too little; it stands before what changes more."""
+    data = answered(measured_friction_of_load=0.5, measured_spread_of_load=0.02)
+    data.measured_friction_of_load.attrs["state"] = "20 °C"
+    assert "  Measured: μ = 0.500 ± 0.020 at 20 °C." in list(answer_lines(data))
+    first, *_ = ranked([*answer_notices(data), Finding(Severity.ERROR, "no numbers")])
+    assert first.sentence == (
+        "The answer is 60 % below the measured friction, 0.500 ± 0.020 at 20 °C, which lies "
+        "outside its interval."
+    )
+    assert first.friction == pytest.approx(-0.6)
+
+
 def test_no_answer_says_why() -> None:
-    assert "Only the direct contact of a measured surface" in next(answer_lines(None))
-    failed = answered(best_contact_fraction=math.nan).assign(prediction_status="tolerance not met")
+    failed = answered(answer_contact_fraction=math.nan).assign(
+        prediction_status="tolerance not met"
+    )
     assert list(answer_lines(failed)) == [
         "Answer: none. The direct contact of the measured surface has no result: tolerance not met."
     ]
@@ -85,14 +121,12 @@ def test_no_answer_says_why() -> None:
 @pytest.mark.parametrize(
     ("changed", "why"),
     [
-        ({"best_friction_half_width": 3.0}, "The ends of the interval are more than a factor"),
+        ({"answer_friction_high": 0.41}, "The ends of the interval are more than a factor"),
         (
-            dict.fromkeys(
-                ("best_friction_half_width", "best_contact_fraction_half_width"), math.nan
-            ),
+            dict.fromkeys(("answer_friction_low", "answer_contact_fraction_low"), math.nan),
             "The measured surface is too small to tell how well it represents its road:",
         ),
-        ({"best_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
+        ({"answer_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
         (
             {"total_friction_outside_band": 0.89},
             "89 % of the friction lies up to 2.3 decades above the measured band.",
@@ -129,7 +163,7 @@ def test_warnings_stand_by_what_they_change() -> None:
 
 def test_two_frictions_that_disagree_are_warned_of() -> None:
     numbers = {"total_friction": 0.24, "total_friction_from_dissipation": 0.2}
-    worst = ranked(answer_notices(answered(**numbers, best_steep_share=0.0)))[1]
+    worst = ranked(answer_notices(answered(**numbers, answer_steep_share=0.0)))[1]
     assert worst.friction == pytest.approx(0.2)
     assert "differ by 20 %" in worst.sentence
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -39,8 +40,8 @@ def test_page_has_table_estimate_and_figures(
     friction = float(compared[0].total_friction[1])
     assert float(rows[1][5]) == pytest.approx(friction, rel=0.005)
     assert all(cell for row in rows for cell in row)
-    assert "finite strain (μ × 0.980, A_r/A_0 × 1.02)" in page.text
-    assert "step from lines to a surface (" in page.text
+    solved = re.search(r"large strain: friction -2.0 %, area \+\d.\d %; profile to surf", page.text)
+    assert solved is not None
 
 
 def test_failed_sample_is_loud(compared_folder: Path) -> None:

@@ -15,8 +15,8 @@ def test_measured_friction_at_a_speed_is_interpolated_in_its_logarithm() -> None
         temperature=[293.15, 293.15, 313.15, 313.15],
     )
     cold, warm = measured_lines(found, 0.1, display_unit("speed"))
-    assert cold.startswith("Measured, 20 °C: mu = 1.00 ± 0.060 at 0.1 m/s")
-    assert warm.startswith("Measured, 40 °C: mu = 0.800 ± 0.020 at 0.1 m/s")
+    assert cold.startswith("Measured, 20 °C: μ = 1.00 ± 0.060 at 0.1 m/s")
+    assert warm.startswith("Measured, 40 °C: μ = 0.800 ± 0.020 at 0.1 m/s")
 
 
 @pytest.mark.parametrize("speed", [0.001, 10.0])

@@ -95,7 +95,7 @@ def test_files_hold_every_digit_in_the_unit_of_the_column(tmp_path: Path) -> Non
 
 def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page() -> None:
     """A heading of many words would be one word a line where a table is wider than the page."""
-    long = "low end of the 90 % interval, over that of the first, best estimate of the friction"
+    long = "low end of the 90 % interval, over that of the first, answer of the friction"
     page = Table("t", [Column("low", np.array([1.0]), long)]).__html__()
     head = re.search(r'<th scope="col" class="">(low[^<]*)</th>', page)
     assert head is not None

@@ -21,12 +21,14 @@ from gripscale.core.finding import Finding, Severity, from_json, sentences, to_j
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.io import netcdf
+from gripscale.io.table import significant
 from gripscale.model import OUTSIDE_BAND, TOTALS, Load, predicted_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.run_page import notices, run_cards, run_page
 from gripscale.questions.inputs.page import rubber_facts
 from gripscale.questions.page_of_folder import read_result, write_report
+from gripscale.report.elements import Text
 from gripscale.surface import self_affine_profile
 from tests.samples import ZENER
 
@@ -196,21 +198,26 @@ def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) ->
 def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -> None:
     run = read_result(changed_run(lambda data: data))
     assert isinstance(run, RunSource)
-    assert "best estimate" not in [card.detail for card in run_cards(run)]
-    numbers = {"best_friction": 0.25, "best_contact_fraction": 0.04, "cutoff_wavelength": 1e-3}
-    widths = {f"{name}_half_width": 0.2 for name in ("best_friction", "best_contact_fraction")}
-    whole = run.predictions[0].data.drop_dims("scale").assign(numbers | widths)
-    first, second, chain, *_ = run_cards(replace(run, direct=whole))
+    assert "answer" not in [card.detail for card in run_cards(run)]
+    numbers = {"answer_friction": 0.25, "answer_contact_fraction": 0.04, "cutoff_wavelength": 1e-3}
+    ends = {f"{name}_{end}": numbers[name] for name in list(numbers)[:2] for end in ("low", "high")}
+    whole = run.predictions[0].data.drop_dims("scale").assign(numbers | ends)
+    whole = whole.assign(answer_friction_high=0.3, factor_label=("factor", ["large strain"]))
+    for name in list(numbers)[:2]:
+        whole[f"{name}_factor"] = whole[f"{name}_factor_uncertainty"] = ("factor", [1.0])
+        whole[f"{name}_sampling_error"] = 0.02
+    cards = list(run_cards(replace(run, direct=whole)))
+    first, second = cards  # no card of the chain
     assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
-    # 0.25 exp(-+asinh(0.2))
-    assert first.detail == "best estimate; 0.205 to 0.305 (90 %)"
+    assert first.detail == "answer; 0.250 to 0.300 (90 %)"
     assert (second.label, second.value) == ("Real contact area A_r/A_0", "0.0400")
-    assert chain.label == "Chain of waves, μ"
-    totals = (float(whole[f"total_{name}"]) for name in ("friction", "contact_fraction"))
-    friction, area = (total / best for total, best in zip(totals, (0.25, 0.04), strict=True))
-    text = f"{friction:.2g} times the friction and {area:.2g} times the contact area of the best"
-    (warning,) = (n for n in notices(replace(run, direct=whole)) if text in n.sentence)
-    assert warning.effect == pytest.approx(max(abs(friction - 1.0), abs(area - 1.0)))
+    page = run_page(replace(run, direct=whole))
+    (chapter,) = (section for section in page.sections if section.name == "results")
+    assert chapter.folded
+    assert chapter.title == "The paper's chain of waves, for comparison"
+    ratio = significant(float(whole.total_friction) / 0.25, 2)
+    texts = [element.text for element in chapter.elements if isinstance(element, Text)]
+    assert any(f"{ratio} times that of the answer" in text for text in texts)
     assert [chart.name for chart in contact_charts(run.by_wave, whole)][:2] == [
         "contact-area",
         "friction",

@@ -10,7 +10,7 @@ import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.io.table import significant
-from gripscale.questions import Study, with_best_estimate
+from gripscale.questions import Study, with_answer
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
@@ -40,7 +40,7 @@ def solved(folder: Path) -> xr.Dataset:
     """Two speeds, one of them that of the case, and the rubber at rest."""
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, static=True)
     assert study.model.name == "direct"
-    return with_best_estimate(study.run(folder / "study"))
+    return with_answer(study.run(folder / "study"))
 
 
 def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
@@ -51,64 +51,64 @@ def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Data
     for name in ("friction", "contact_fraction"):
         for end in ("", "_half_width", "_factor", "_sampling_error"):
             np.testing.assert_allclose(
-                point[f"best_{name}{end}"], run[f"best_{name}{end}"], rtol=1e-12
+                point[f"answer_{name}{end}"], run[f"answer_{name}{end}"], rtol=1e-12
             )
-        low, high = (float(point[f"best_{name}_{end}"]) for end in ("low", "high"))
-        value = float(point[f"best_{name}"])
+        low, high = (float(point[f"answer_{name}_{end}"]) for end in ("low", "high"))
+        value = float(point[f"answer_{name}"])
         assert low * high == pytest.approx(value**2)
-        half_width = float(run[f"best_{name}_half_width"])
+        half_width = float(run[f"answer_{name}_half_width"])
         assert (high - low) / (2.0 * value) == pytest.approx(half_width)
 
 
 def test_rubber_at_rest_has_its_own_best_estimate(solved: xr.Dataset) -> None:
-    ratio = float(solved.static_best_contact_fraction / solved.static_total_contact_fraction)
+    ratio = float(solved.static_answer_contact_fraction / solved.static_total_contact_fraction)
     assert 0.4 < ratio < 1.0  # the step from lines to their surface
-    assert solved.static_best_contact_fraction > solved.best_contact_fraction.max()
-    assert "static_best_friction" not in solved
+    assert solved.static_answer_contact_fraction > solved.answer_contact_fraction.max()
+    assert "static_answer_friction" not in solved
 
 
 def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
     answer, held, factors, rests = study_lines(solved)
-    first, last = (significant(float(value)) for value in solved.best_friction)
+    first, last = (significant(float(value)) for value in solved.answer_friction)
     assert answer.startswith(f"Answer: friction coefficient μ rises from {first} (")
     assert f" at 0.3 m/s to {last} (" in answer
     assert answer.endswith(" at 3 m/s (90 % intervals).")
     assert held == "  for 3 bar, roughness down to 2 mm, 2 predictions, none without a result"
-    assert factors.startswith("  from direct contact of the measured surface × finite strain")
+    assert factors.startswith("  from direct contact of the measured surface × large strain")
     assert rests.endswith("intervals leave out errors of the master curve")
 
 
 def test_table_and_figure_have_the_interval(solved: xr.Dataset) -> None:
     names = [column.name for column in study_table(solved).columns]
     assert names[1:5] == [
-        "best_friction",
-        "best_friction_interval",
-        "best_contact_fraction",
-        "best_contact_fraction_interval",
+        "answer_friction",
+        "answer_friction_interval",
+        "answer_contact_fraction",
+        "answer_contact_fraction_interval",
     ]
     figure = totals_figure(solved)
     bands = [place for axes in figure.axes for place in axes.collections]
     assert len(bands) == 2
     top = max(path.vertices[:, 1].max() for path in bands[1].get_paths())
-    assert top == pytest.approx(float(solved.best_friction_high.max()))
+    assert top == pytest.approx(float(solved.answer_friction_high.max()))
 
 
 def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) -> None:
     page = Page(write_report(folder / "study" / "study.nc", folder / "page.html"))
-    low, high = (significant(float(value)) for value in solved.best_friction)
+    low, high = (significant(float(value)) for value in solved.answer_friction)
     head = page.text.partition("What was varied")[0]  # up to the table of contents
     assert f"{low} to {high}" in head
-    assert "best estimate; ±" in head
+    assert "answer; ±" in head
     assert "Answer: friction coefficient μ rises from" in head
     figures = [a["id"] for _, a in page.tags if (a.get("id") or "").startswith("figure-")]
-    assert figures[0] == "figure-best_contact_fraction-over-speed"
+    assert figures[0] == "figure-answer_contact_fraction-over-speed"
     assert "figure-total_friction-over-speed" not in figures
 
 
 def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, model="chain")
     data = study.run(folder / "chain")
-    assert with_best_estimate(data) is data
+    assert with_answer(data) is data
     answer, _, advice = study_lines(data)
     assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
     assert "`--model direct`" in advice
@@ -148,6 +148,6 @@ def test_names_are_said_by_lowest_and_highest() -> None:
 
 def test_cards_are_the_range(solved: xr.Dataset) -> None:
     friction, area = study_cards(solved)
-    assert friction.value == " to ".join(significant(float(x)) for x in solved.best_friction)
+    assert friction.value == " to ".join(significant(float(x)) for x in solved.answer_friction)
     assert friction.detail.endswith("(90 %); 0.3 m/s to 3 m/s")
     assert area.label == "Real contact area A_r/A_0"

@@ -11,7 +11,6 @@ import xarray as xr
 
 from gripscale.core.finding import doubt, to_json
 from gripscale.io.text_table import read_sheets
-from gripscale.questions.answer.intervals import interval_ends
 from gripscale.questions.summary_table import SUMMARY_FILE, summary_table, write_summary
 
 UNIT = {"units": "1"}
@@ -25,8 +24,8 @@ def study(**attributes: object) -> xr.Dataset:
         {
             "prediction_status": (place, status),
             "prediction_key": (place, np.array([["a", "b"], ["c", "d"]], dtype=object)),
-            "best_friction": (place, [[0.2, math.nan], [0.4, 0.8]], UNIT),
-            "best_friction_half_width": (place, [[0.1, math.nan], [0.2, 0.3]], UNIT),
+            "answer_friction": (place, [[0.2, math.nan], [0.4, 0.8]], UNIT),
+            "answer_friction_low": (place, [[0.1, math.nan], [0.2, 0.3]], UNIT),
             "upper_height": ((), 1.7, UNIT),
             "hardness": ("rubber", [60.0, 70.0], {"units": "Pa"}),
             "friction": ((*place, "scale"), np.zeros((2, 2, 3)), UNIT),
@@ -51,17 +50,15 @@ def test_a_row_for_each_point_of_a_study() -> None:
     first, failed, _, last = rows(study())
     assert (first["speed [m/s]"], first["rubber"]) == (0.1, "soft")
     assert (failed["speed [m/s]"], failed["rubber"]) == (0.1, "hard")
-    assert failed["best_friction [-]"] is None
+    assert failed["answer_friction [-]"] is None
     assert failed["prediction_status"] == "wave 2 failed"
-    assert last["best_friction [-]"] == 0.8
-    low, high = interval_ends(xr.DataArray(0.8), xr.DataArray(0.3))
-    assert last["best_friction_low [-]"] == pytest.approx(float(low), rel=1e-15)
-    assert last["best_friction_high [-]"] == pytest.approx(float(high), rel=1e-15)
+    assert last["answer_friction [-]"] == 0.8
+    assert last["answer_friction_low [-]"] == 0.3
     assert [row["hardness [Pa]"] for row in (first, failed)] == [60.0, 70.0]
     assert first["upper_height [-]"] == last["upper_height [-]"] == 1.7
     assert first["nominal_pressure [Pa]"] == 3e5
     assert first["case_file"] == "case.toml"
-    assert list(first)[:4] == ["speed [m/s]", "rubber", "model", "best_friction [-]"]
+    assert list(first)[:4] == ["speed [m/s]", "rubber", "model", "answer_friction [-]"]
 
 
 def test_what_is_varied_or_of_no_answer_is_no_column() -> None:
@@ -84,21 +81,21 @@ def test_several_results_share_their_columns_and_files() -> None:
             attrs={"model": model, **files},
         )
         for name, model, files in (
-            ("best_friction", "direct", {}),
+            ("answer_friction", "direct", {}),
             ("total_friction", "chain", {"case_file": "case.toml"}),
         )
     )
     first, second = rows(direct, chain)
     assert (first["model"], second["model"]) == ("direct", "chain")
-    assert (first["best_friction [-]"], second["best_friction [-]"]) == (0.5, None)
+    assert (first["answer_friction [-]"], second["answer_friction [-]"]) == (0.5, None)
     assert (first["total_friction [-]"], second["total_friction [-]"]) == (None, 0.5)
     assert first["case_file"] == second["case_file"] == "case.toml"
 
 
 def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
     words = np.array(["converged", "none"], dtype=object)
-    comparison = xr.Dataset({"status": ("rung", words)}, {"rung": ["chain", "direct"]})
-    assert [row["rung"] for row in rows(comparison)] == ["chain", "direct"]
+    comparison = xr.Dataset({"status": ("model", words)}, {"model": ["chain", "direct"]})
+    assert [row["model"] for row in rows(comparison)] == ["chain", "direct"]
     design = xr.Dataset({"gain": ("point", [0.1, 0.2], UNIT), "rolling": ("point", [1.0, 1.1])})
     assert [(row["point"], row["gain [-]"]) for row in rows(design)] == [(0, 0.1), (1, 0.2)]
 
@@ -107,17 +104,25 @@ def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
     words = np.array(["converged", "converged"], dtype=object)
     comparison = xr.Dataset(
         {
-            "status": ("rung", words),
-            "best_friction": ((), 0.2, UNIT),
-            "best_friction_half_width": ((), 0.1, UNIT),
+            "status": ("model", words),
+            "answer_friction": ((), 0.2, UNIT),
+            "answer_friction_low": ((), 0.1, UNIT),
             "cutoff_wavelength": ((), 1e-4, {"units": "m"}),
         },
-        {"rung": ["chain", "direct"]},
+        {"model": ["chain", "direct"]},
     )
     chain, direct = rows(comparison)
-    assert (chain["best_friction [-]"], direct["best_friction [-]"]) == (None, 0.2)
-    assert chain["best_friction_low [-]"] is None
+    assert (chain["answer_friction [-]"], direct["answer_friction [-]"]) == (None, 0.2)
+    assert chain["answer_friction_low [-]"] is None
     assert chain["cutoff_wavelength [m]"] == direct["cutoff_wavelength [m]"] == 1e-4
+
+
+def test_rubber_at_rest_has_no_friction() -> None:
+    moving, rest = (
+        xr.Dataset({"prediction_status": "converged", "nominal_speed": v, "total_friction": 0.0})
+        for v in (1.0, 0.0)
+    )
+    assert [row["total_friction"] for row in rows(moving, rest)] == [0.0, None]
 
 
 def test_excel_reads_it(tmp_path: Path) -> None:

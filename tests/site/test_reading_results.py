@@ -62,8 +62,8 @@ def folder(tmp_path_factory):
             *("study", "--vary", "speed=0.3,0.6", "--workers", "1"),
             *("--model", "chain", "--output", str(folder / "results" / "chain")),
         ],
-        ["compare", "--rungs", "chain_half_plane,direct", "--measured", str(folder / "mu.csv")],
-        ["compare", "--rungs", "chain_half_plane", "--vary", "speed=0.3,0.6"],
+        ["compare", "--models", "chain_half_plane,direct", "--measured", str(folder / "mu.csv")],
+        ["compare", "--models", "chain_half_plane", "--vary", "speed=0.3,0.6"],
     ):
         command = [arguments[0], str(folder / "case.toml"), *arguments[1:]]
         outcome = CliRunner().invoke(app, command)
@@ -89,7 +89,7 @@ def test_the_variables_of_a_study_are_listed_with_their_units(folder):
 
 def test_the_variables_of_a_comparison_are_listed_with_their_units(folder):
     data = written(netcdf.load_dataset(folder / "comparison" / "comparison.nc"))
-    assert units("The files of a comparison") == {n: u for n, u in data.items() if n != "rung"}
+    assert units("The files of a comparison") == {n: u for n, u in data.items() if n != "model"}
 
 
 def test_the_figures_of_a_comparison_are_listed(folder):

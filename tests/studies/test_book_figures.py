@@ -67,7 +67,7 @@ def test_the_table_of_models_has_their_answers(shipped: Shipped) -> None:
 def test_the_shares_by_slope_are_those_of_the_direct_contact(shipped: Shipped) -> None:
     table = rows("rubber-friction.md")
     load, friction = (
-        shipped.direct[f"best_{name}_by_slope"].values for name in ("load", "friction")
+        shipped.direct[f"answer_{name}_by_slope"].values for name in ("load", "friction")
     )
     parts = {"below 0.5": slice(0, 2), "0.5 to 1": slice(2, 3), "above 1": slice(3, None)}
     for name, part in parts.items():
@@ -81,7 +81,7 @@ def test_the_answers_of_the_first_page_are_those_of_the_models(shipped: Shipped)
         "chain": (shipped.chain.total_contact_fraction, shipped.chain.total_friction),
         "direct contact": (direct.total_contact_fraction, direct.total_friction),
         "answer of `gripscale run`, with both corrections": (
-            direct.best_contact_fraction, direct.best_friction),
+            direct.answer_contact_fraction, direct.answer_friction),
     }  # fmt: skip
     for name, values in expected.items():
         assert [float(cell) for cell in table[name]] == [float(f"{float(v):.2g}") for v in values]

@@ -33,8 +33,8 @@ import gripscale as gs
 from gripscale.core.status import Status
 from gripscale.half_space import RoughContact
 from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.answer.best_estimate import DIRECT, ESTIMATED, best_estimate
 from gripscale.questions.answer.direct_contact import solve_direct_contact
+from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
 from gripscale.surface import HeightMap, Profile
 from studies import surface_families
 from tests.samples import MEASURED_DMA, ROOT
@@ -190,10 +190,10 @@ def estimate(which: Known) -> dict[str, Estimate]:
     )
     samples = solve_direct_contact(case)
     assert samples is not None
-    best = best_estimate(samples.expand_dims(rung=[DIRECT]), [SMALL_STRAIN])
+    best = answer_of_samples(samples.expand_dims(model=[DIRECT]), [SMALL_STRAIN])
     return {
         quantity: Estimate(
-            float(best[f"best_{name}"]), float(np.arcsinh(best[f"best_{name}_half_width"]))
+            float(best[f"answer_{name}"]), float(np.arcsinh(best[f"answer_{name}_half_width"]))
         )
         for quantity, name in zip(QUANTITIES, ESTIMATED, strict=True)
     }

@@ -31,8 +31,7 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.questions import page_of_folder
-from gripscale.questions.answer.intervals import interval_ends
-from gripscale.questions.answer.reliance import has_answer, no_answer
+from gripscale.questions.answer.reliance import has_answer, headline, no_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import PredictionView
@@ -293,8 +292,7 @@ def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
     runs = PlotAxis(low=-0.5, high=len(answers) - 0.5, ticks=ticks)
     panels = []
     for name in reversed(SYMBOLS):
-        value = np.array([float(direct[f"best_{name}"]) for _, direct in answers])
-        low, high = np.array([_interval(direct, name) for _, direct in answers], dtype=float).T
+        value, low, high = np.array([headline(direct, name) for _, direct in answers]).T
         points = Series(at, value, BLUE, dash="", marker="o", size=6.0, low=low, high=high)
         words = f"{HEADINGS[name]} {SYMBOLS[name]}"
         panels.append(
@@ -323,7 +321,7 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         ]
         totals.append(numbers if view.complete else [math.nan] * len(numbers))
         if direct is not None and no_answer(direct):
-            states.append("best estimate not to be relied on")
+            states.append("answer not to be relied on")
         else:
             states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
     speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
@@ -336,16 +334,13 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
     answers = [direct for _, _, direct in compared]
     for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
         estimates = [
-            (math.nan,) * 3
-            if answer is None
-            else (float(answer[f"best_{name}"]), *map(float, _interval(answer, name)))
-            for answer in answers
+            (math.nan,) * 3 if answer is None else headline(answer, name) for answer in answers
         ]
         value, *ends = zip(*estimates, strict=True)
-        columns.append(Column(f"best_{name}", value, SYMBOLS[name], group="best estimate"))
+        columns.append(Column(f"answer_{name}", value, SYMBOLS[name], group="answer"))
         if np.isfinite(ends).any():
             both = np.stack(ends, axis=1)
-            columns.append(Column(f"best_{name}_interval", both, "90 %", group="best estimate"))
+            columns.append(Column(f"answer_{name}_interval", both, "90 %", group="answer"))
     columns += [
         Column("friction", friction, "μ", group=_CHAIN),
         Column("contact_fraction", area, "A_r/A_0", group=_CHAIN),
@@ -360,10 +355,6 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
 
 
 _CHAIN = "chain of waves"
-
-
-def _interval(answer: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    return interval_ends(answer[f"best_{name}"], answer[f"best_{name}_half_width"])
 
 
 def changed_keys(first: str, other: str) -> Iterator[str]:

@@ -142,6 +142,7 @@ RESULT_FILES = (
     "effects_chain.nc",
     "report.txt",
     REPORT_PAGE,
+    "chain.txt",
     "summary.xlsx",
     SAVED_CASE,
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),

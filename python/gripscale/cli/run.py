@@ -1,4 +1,4 @@
-"""`gripscale run CASE.toml`: the whole chain, from files to tables, figures and results."""
+"""`gripscale run CASE.toml`: the answer of a case, from files to tables, figures and results."""
 
 from __future__ import annotations
 
@@ -40,6 +40,12 @@ def run(
             "--fresh", help="Solve all anew, also what an earlier run of the same case finished."
         ),
     ] = False,
+    chain: Annotated[
+        bool,
+        typer.Option(
+            "--chain", help="Print the paper's chain of waves too, wave by wave, for comparison."
+        ),
+    ] = False,
     progress: Annotated[
         ProgressFormat,
         typer.Option(
@@ -48,7 +54,7 @@ def run(
         ),
     ] = ProgressFormat.TEXT,
 ) -> None:
-    """Predict contact area and friction of a case; goes on where it was stopped."""
+    """Answer with contact area and friction of a case; goes on where it was stopped."""
     from gripscale.case_file.folder import is_finished, note_finished
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
     from gripscale.io.folders import require_writable
@@ -63,7 +69,7 @@ def run(
         target = output if output is not None else file.resolve(file.case.output.folder)
         shown_too = (target / "uncertainty" / "uncertainty.nc",)
         if not (fresh or as_json) and is_finished(file, target, shown_too):
-            _show_again(work, target)
+            _show_again(work, target, chain=chain)
             return
         require_writable(target)
         terminal.RESULTS_FOLDER.set(target)
@@ -71,31 +77,31 @@ def run(
         with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
             from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            report = solve_run(work, emit, target, figures, fresh)
+            report = solve_run(work, emit, target, figures, fresh=fresh, show_chain=chain)
             note_finished(file, target, shown_too, report)
 
 
-def _show_again(work: terminal.CaseCommand, target: Path) -> None:
+def _show_again(work: terminal.CaseCommand, target: Path, *, chain: bool) -> None:
     """Print the report on a finished run once more, as wide as the terminal is now."""
     from gripscale.case_file.folder import finished_report
+    from gripscale.case_file.prepare import named_files
+    from gripscale.questions.answer.answer import ANSWER_FILE
+    from gripscale.questions.chain.run import CHAIN_REPORT
+    from gripscale.questions.stored import load
 
-    console = work.console
+    console, answer = work.console, load(target / ANSWER_FILE)
     time = (target / terminal.RUN_REPORT).stat().st_mtime
     terminal.print_parts(console, finished_report(target))
+    if chain and (target / CHAIN_REPORT).is_file():
+        console.print((target / CHAIN_REPORT).read_text(encoding="utf-8"), soft_wrap=True)
     console.print()
     terminal.print_wrapped(
         console,
         f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}. Case, files and software are the "
         f"same; nothing was solved again (--fresh does). {terminal.RUN_CLOSING} {target}",
     )
-    if any(terminal.MANNER.get()):
-        from gripscale.case_file.prepare import named_files
-        from gripscale.questions.answer.answer import ANSWER_FILE, answer
-        from gripscale.questions.stored import load
-
-        stored = target / ANSWER_FILE  # of sine waves there is none, and nothing to solve
-        result = load(stored) if stored.is_file() else answer(work.case)
-        terminal.print_result(result, work.file.path, named_files(work.file))
+    terminal.print_wrapped(console, answer.lines[0])
+    terminal.print_result(answer, work.file.path, named_files(work.file))
 
 
 @contextmanager

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 from gripscale import case_file, terminal
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer
+from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, answer_with_inputs
 from gripscale.questions.answer.page import slopes_table
-from gripscale.questions.calibration.page import measured_lines
+from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.chain import events
 from gripscale.questions.chain.charts import effects_sheet, heat_sheet
 from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
-from gripscale.questions.chain.run import DYNAMIC, ChainRun
+from gripscale.questions.chain.run import CHAIN_REPORT, DYNAMIC, ChainRun
 from gripscale.questions.chain.run_figures import background_figures
 from gripscale.questions.chain.view import PredictionView, title
 from gripscale.questions.compare.page import judgement
@@ -29,6 +30,7 @@ from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.vary.effects import EFFECTS_FILE, case_effects
 from gripscale.questions.vary.inputs import effects_asked
 from gripscale.questions.vary.page_side_by_side import effects_table
+from gripscale.questions.words import OF_THE_PAPER
 from gripscale.report.failures import explained
 
 if TYPE_CHECKING:
@@ -48,18 +50,35 @@ def solve_run(
     emit: events.OnEvent,
     target: Path,
     figures: Figures,
+    *,
     fresh: bool,
+    show_chain: bool,
 ) -> Sequence[str | Table]:
     """Prepare, solve, print and write a case, with an event for each step; return its report."""
-    chain, console = ChainRun.of(work.case, target, fresh=fresh), work.console
+    case, console = work.case, work.console
+    chain, measured = ChainRun.of(case, target, fresh=fresh), case.surface.measured is not None
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
     work.open_results(target, "", header)
     with background_figures(chain, figures) as draw:
-        answer, opening = _print_answer(console, chain, target)
-        effects = _solve(console, emit, work.file, chain, answer, draw)
-        parts, heat = _parts(chain, answer, effects, target)
-        solved = [answer.data] if answer.is_solved else []
-        solved += [chain.dataset(name) for name in chain.predictions]
+        if measured:
+            terminal.show_step(console, "solving the direct contact ...")
+            chain.answer = answer(case, folder=target)
+            _print_answer(console, case, chain.answer)
+        effects = _solve(console, emit, work.file, chain, draw)
+        if chain.answer is None:
+            waves = chain.dataset(next(iter(chain.predictions)))
+            chain.answer = answer_with_inputs(case, waves_answer(case, waves))
+            _print_answer(console, case, chain.answer)
+        _save_answer(chain.answer, case, target, emit)
+        of_chain, heat = _chain_parts(chain, effects)
+        parts, files = _parts(chain, chain.answer, target), {}
+        if not measured:
+            parts = [*of_chain, *parts]
+        else:
+            files = {CHAIN_REPORT: as_text(*of_chain, width=REPORT_WIDTH)}
+            if show_chain:
+                console.print()
+                terminal.print_parts(console, of_chain)
 
         def draw_conditions() -> None:
             if heat is not None:
@@ -68,20 +87,21 @@ def solve_run(
                 figures.save(effects_sheet(effects), "effects")
 
         report = work.conclude(
-            answer,
+            chain.answer,
             parts,
             answer_printed=True,
-            results=solved,
+            results=[chain.answer.data, *(chain.dataset(name) for name in chain.predictions)],
             text=terminal.RUN_REPORT,
             closing=terminal.RUN_CLOSING,
             page=lambda page: write_report(target, page),
-            opening=[f"{header}: {chain.case.title}", *opening],
+            opening=[f"{header}: {case.title}", "", *_inputs(case)],
             width=REPORT_WIDTH,
+            files=files,
             draw=draw_conditions,
         )
         emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
-        if solved:
-            emit(events.FileWritten(str(target / SUMMARY_FILE)))
+        emit(events.FileWritten(str(target / SUMMARY_FILE)))
+    terminal.print_wrapped(console, chain.answer.lines[0])
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
@@ -90,16 +110,12 @@ def solve_run(
     return report
 
 
-def _print_answer(console: Console, chain: ChainRun, target: Path) -> tuple[Answer, list[str]]:
-    """Solve the answer of a case, print it above the inputs; return it and the lines printed."""
-    case = chain.case
-    terminal.show_step(console, "solving the direct contact ...")
-    result = chain.answer = answer(case, folder=target)
+def _print_answer(console: Console, case: Case, answer: Answer) -> None:
+    """Print an answer with its first findings, above the inputs of its case."""
     terminal.end_steps()
-    lead, inputs = ["", *result.lines], ["", *_inputs(case)]
-    for line in (*lead, *warning_lines(result.findings, terminal.RUN_REPORT), *inputs):
+    findings = warning_lines(answer.findings, terminal.RUN_REPORT)
+    for line in ("", *answer.lines, *findings, "", *_inputs(case)):
         terminal.print_wrapped(console, line)
-    return result, inputs
 
 
 def _solve(
@@ -107,7 +123,6 @@ def _solve(
     emit: events.OnEvent,
     file: case_file.CaseFile,
     chain: ChainRun,
-    answer: Answer,
     draw: events.OnEvent,
 ) -> xr.Dataset | None:
     """Solve and write the chain and, where the case asks for them, the effects of conditions."""
@@ -120,19 +135,25 @@ def _solve(
         print_event(event)
         draw(event)
 
+    terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
     case_file.run_case(file, output=target, on_event=on_event, run=chain)
-    if answer.is_solved:
-        answer.save(target / ANSWER_FILE)
-        converged = answer.status == "converged"
-        emit(events.AnswerSolved(converged, answer.contact_fraction, answer.friction))
-        emit(events.FileWritten(str(target / ANSWER_FILE)))
-    if answer.curve is not None:
-        cut_off_result(answer.curve, case).save(target / "cut_off.nc")
     effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
     if effects is not None:
         emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
         emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
     return effects
+
+
+def _save_answer(answer: Answer, case: Case, target: Path, emit: events.OnEvent) -> None:
+    """Write an answer and its contact against the cut-off, with their events."""
+    answer.save(target / ANSWER_FILE)
+    friction, area = (
+        headline(answer.data, name).value for name in ("friction", "contact_fraction")
+    )
+    emit(events.AnswerSolved(answer.status == "converged", area, friction))
+    emit(events.FileWritten(str(target / ANSWER_FILE)))
+    if answer.curve is not None:
+        cut_off_result(answer.curve, case).save(target / "cut_off.nc")
 
 
 def _inputs(case: Case) -> list[str]:
@@ -171,11 +192,10 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> events.OnEvent:
     return print_event
 
 
-def _parts(
-    chain: ChainRun, answer: Answer, effects: xr.Dataset | None, target: Path
+def _chain_parts(
+    chain: ChainRun, effects: xr.Dataset | None
 ) -> tuple[list[str | Table], xr.Dataset | None]:
-    """Return tables and sentences of a run, and the prediction that has heat to be drawn."""
-    case = chain.case
+    """Return tables of the chain, and the prediction that has heat to be drawn."""
     views = [PredictionView(chain.dataset(name), name) for name in chain.predictions]
     parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
     parts += [LEGEND] if views else []
@@ -185,14 +205,18 @@ def _parts(
         parts.append(heat_table(heat))
     if effects is not None:
         parts.append(effects_table(effects))
-    if answer.is_solved:
-        parts += slopes_table(answer.data)
-        parts += ["", *judgement(views[0], answer.data)] if views else []
-    if case.friction is not None and case.load.speed > 0.0:
-        parts += measured_lines(case.friction, case.load.speed, case.display_unit("speed"))
+    return parts, heat
+
+
+def _parts(chain: ChainRun, answer: Answer, target: Path) -> list[str | Table]:
+    """Return tables and sentences that stand below an answer."""
+    case = chain.case
+    parts: list[str | Table] = list(slopes_table(answer.data))
     sampled = stored_uncertainty(target)
     parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
     if answer.curve is not None:
         curve = CutOff(answer.curve)
         parts += ["", *curve.basis, curve.rules_table()]
-    return parts, heat
+    for name in list(chain.predictions)[:1]:
+        parts += ["", *judgement(PredictionView(chain.dataset(name)), answer.data)]
+    return parts

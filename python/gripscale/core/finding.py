@@ -35,6 +35,8 @@ class Topic(IntEnum):
     friction, the surface how the load is shared. Where the result comes from changes no number.
     """
 
+    MEASURED = -1
+    """Measured friction beside the answer: it judges the answer, and stands first."""
     SOLUTION = 0
     LOAD = 1
     RUBBER = 2
@@ -76,8 +78,13 @@ class Finding:
 
 
 def ranked(findings: Iterable[Finding]) -> list[Finding]:
-    """Return errors first, then findings by their effect, then those without a known effect."""
-    return sorted(findings, key=lambda f: (f.severity != Severity.ERROR, -f.effect, f.topic))
+    """Return measurements and errors first, then by effect, then those without a known effect."""
+
+    def rank(finding: Finding) -> tuple[bool, bool, float, Topic]:
+        measured, error = finding.topic == Topic.MEASURED, finding.severity == Severity.ERROR
+        return not measured, not error, -finding.effect, finding.topic
+
+    return sorted(findings, key=rank)
 
 
 def doubt(*parts: str | CaseKey, topic: Topic = Topic.SOURCE) -> Finding:

@@ -8,13 +8,15 @@ the rules of `gripscale.io.text_table` hold.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
@@ -22,7 +24,15 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.core.labels import labelled
-from gripscale.core.units import UNITS, listed, plain, quantity_in_si, spelled
+from gripscale.core.units import (
+    UNITS,
+    ZERO_CELSIUS,
+    display_unit_of,
+    listed,
+    plain,
+    quantity_in_si,
+    spelled,
+)
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
 from gripscale.model import PLAUSIBLE
 
@@ -287,3 +297,68 @@ def stored_measurement(data: xr.Dataset) -> MeasuredFriction | None:
     return MeasuredFriction(
         **columns, source=attrs.get("source", ""), assumed=attrs.get("assumed", "")
     )
+
+
+class MeasuredSeries(NamedTuple):
+    """Measured friction at one temperature and pressure over rising speed [m/s]."""
+
+    state: str
+    """Temperature, and pressure if there are several; empty if unknown."""
+    temperature: float
+    """[K]; NaN if unknown."""
+    speed: Array
+    friction: Array
+    spread: Array
+    rows: NDArray[np.intp]
+    """Their places among the points of the measurement, which are in any order."""
+
+    @property
+    def label(self) -> str:
+        """What figures and tables call it."""
+        return f"measured, {self.state}" if self.state else "measured"
+
+    def at(self, speed: float) -> tuple[float, float] | None:
+        """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
+        if not self.speed[0] <= speed <= self.speed[-1]:
+            return None
+        at, speeds = math.log(speed), np.log(self.speed)
+        friction, spread = (np.interp(at, speeds, row) for row in (self.friction, self.spread))
+        return float(friction), float(spread)
+
+
+def measured_series(data: xr.Dataset) -> Iterator[MeasuredSeries]:
+    """Yield what was measured at each temperature, to the kelvin, and each pressure."""
+    if "measured_friction" not in data:
+        return
+    kelvin = np.round(data.measured_temperature.values)
+    pascal = data.measured_pressure.values
+    several = np.unique(pascal).size > 1
+    by_speed = np.argsort(data.measured_speed.values, kind="stable")
+    pressure_unit = display_unit_of(data.attrs, "pressure")
+    for temperature in np.unique(kelvin):
+        for pressure in np.unique(pascal):
+            here = np.isclose(kelvin, temperature, equal_nan=True)
+            here &= np.isclose(pascal, pressure, rtol=0.0, atol=0.0, equal_nan=True)
+            if not here.any():
+                continue
+            rows = by_speed[here[by_speed]]
+            words = []
+            if not math.isnan(temperature):
+                words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
+            if several and not math.isnan(pressure):
+                words.append(pressure_unit.text(float(pressure), 3))
+            speed, friction, spread = (
+                data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
+            )
+            yield MeasuredSeries(
+                ", ".join(words), float(temperature), speed, friction, spread, rows
+            )
+
+
+def nearest_series(measured: MeasuredFriction, temperature: float | None) -> MeasuredSeries:
+    """Return what was measured nearest to a temperature [K]; the first without one."""
+    series = list(measured_series(xr.Dataset(measured_variables(measured))))
+    if temperature is None:
+        return series[0]
+    kelvin = [float(np.nan_to_num(part.temperature, nan=temperature)) for part in series]
+    return series[int(np.argmin(np.abs(np.array(kelvin) - temperature)))]

@@ -67,20 +67,20 @@ def _with_basis(
 ) -> xr.Dataset:
     """Return an answer with what it rests on (`gripscale.model.BASIS`).
 
-    The profiles are independent: their sampling errors add up in squares. A map is no line, and
+    The profiles are independent: their sampling errors add up in squares, and how they lie under
+    the load counts by their length. A map is no line, and
     what the step from lines to a surface needs is NaN.
     """
     longest = float(surface.sines.wavelength[0])
     piece, line = PIECE * longest, LineUnderLoad(math.nan, math.nan)
     measured = surface.measured
     if measured is not None and measured.map is None:
-        line = line_under_load(
-            measured.cleaned,
-            contacts[0].body.rubber,
-            largest_wavelength=longest,
-            pressure=load.pressure,
-            speed=load.speed,
-        )
+        pressed = {"pressure": load.pressure, "speed": load.speed}
+        lines = [
+            line_under_load(profile, contact.body.rubber, largest_wavelength=longest, **pressed)
+            for profile, contact in zip(measured.cleaned, contacts, strict=True)
+        ]
+        line = LineUnderLoad(*np.average(np.array(lines), axis=0, weights=lengths))
     errors = [sampling_error(contact, piece) for contact in contacts]
     area, friction = (
         np.multiply(lengths, [getattr(contact, name) for contact in contacts])

@@ -1,8 +1,8 @@
 from .answer.answer import Answer as Answer
-from .answer.best_estimate import Factor as Factor
-from .answer.best_estimate import LogNormalValue as LogNormalValue
-from .answer.best_estimate import with_best_estimate as with_best_estimate
 from .answer.charts import rough_contact_figure as rough_contact_figure
+from .answer.estimate import Factor as Factor
+from .answer.estimate import LogNormalValue as LogNormalValue
+from .answer.estimate import with_answer as with_answer
 from .calibration.area_term_fit import AreaTermFit as AreaTermFit
 from .calibration.area_term_fit import Estimate as Estimate
 from .calibration.area_term_fit import fit_area_term as fit_area_term
@@ -21,8 +21,8 @@ from .chain.charts_of_blocks import blocks_figure as blocks_figure
 from .compare.comparison import SolvedLadder as SolvedLadder
 from .compare.comparison import at_measured as at_measured
 from .compare.ladder import LADDER as LADDER
+from .compare.ladder import ComparedModel as ComparedModel
 from .compare.ladder import ComparisonSetup as ComparisonSetup
-from .compare.ladder import Rung as Rung
 from .compare.ladder import SampleSpec as SampleSpec
 from .compare.question import Comparison as Comparison
 from .cut_off.question import CutOff as CutOff

@@ -18,12 +18,7 @@ from gripscale.case import NamedFile
 from gripscale.core.provenance import version_of
 from gripscale.core.units import si_unit
 from gripscale.io.table import Table
-from gripscale.questions.answer.reliance import (
-    answer_interval,
-    answer_number,
-    has_answer,
-    no_answer,
-)
+from gripscale.questions.answer.reliance import answer_number, has_answer, no_answer
 from gripscale.questions.result import Result
 from gripscale.questions.summary_table import summary_table
 
@@ -37,9 +32,10 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
     answer: dict[str, Any] = {"text": [line.strip() for line in result.lines]}
     if has_answer(data):
         answer["reliable"] = not no_answer(data)
-        for name in ("friction", "contact_fraction"):
-            answer[name] = answer_number(data, name)
-            answer[f"{name}_interval"] = answer_interval(data, name)
+        for name in ("friction", "adhesive_friction", "total_friction", "contact_fraction"):
+            if f"answer_{name}" in data:
+                number = answer_number(data, name)
+                answer[name], answer[f"{name}_interval"] = number.value, number[1:]
     findings = [asdict(each) | {"topic": each.topic.name.lower()} for each in result.findings]
     content = {
         "format": FORMAT,

@@ -2,7 +2,7 @@
 
 A row is a place on the dimensions of the status of a result: a prediction, a model of a comparison,
 a point of a study. What holds for several rows stands in each of them; of models side by side, the
-best estimate in that of the direct contact.
+answer in that of the direct contact.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from gripscale.core.finding import sentences
 from gripscale.io.table import Column, Table
 from gripscale.io.workbook import write_workbook
 from gripscale.model import STATUS, input_doubts_of
-from gripscale.questions.answer.best_estimate import BEST_ESTIMATES, DIRECT
-from gripscale.questions.answer.intervals import interval_ends
+from gripscale.questions.answer.estimate import ANSWER_NUMBERS, DIRECT
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
 SUMMARY_FILE = "summary.xlsx"
 ROWS = (STATUS, "status", "gain")
 """Numbers of which a result has a row for each value: the first that is in it counts."""
-OF_MODELS = ("rung", "model")
+OF_MODELS = ("model", "model")
 """Dimensions of models side by side."""
 DOUBTS = "not_to_rely_on"
 FIRST = (
-    *("model", "best_friction", "best_friction_low", "best_friction_high"),
-    *("best_contact_fraction", "best_contact_fraction_low", "best_contact_fraction_high"),
+    *("model", "answer_total_friction", "answer_total_friction_low", "answer_total_friction_high"),
+    *("answer_friction", "answer_friction_low", "answer_friction_high"),
+    *("answer_contact_fraction", "answer_contact_fraction_low", "answer_contact_fraction_high"),
     *("total_friction", "total_contact_fraction", STATUS, DOUBTS, "nominal_pressure"),
     *("nominal_speed", "footprint"),
 )
@@ -88,7 +88,7 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
     """Return the columns of a result by name; `about` holds attributes that it may lack."""
     rows = _rows(data)
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
-    full = _with_intervals(data).assign_coords(numbered)
+    full = _at_rest_without_friction(data).assign_coords(numbered)
     columns = {
         str(name): _in_rows(full[name], rows, full)
         for name, variable in full.variables.items()
@@ -107,21 +107,22 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
 def _in_rows(number: xr.DataArray, rows: xr.DataArray, data: xr.Dataset) -> Column:
     """Return a number of a result in each of its rows.
 
-    A best estimate is made of the direct contact: it stands in its row, not in that of each model.
+    An answer is made of the direct contact: it stands in its row, not in that of each model.
     """
     name, full = str(number.name), number.broadcast_like(rows)
-    if name in BEST_ESTIMATES:
+    if name in ANSWER_NUMBERS:
         for dim in {*OF_MODELS} & {*rows.dims} - {*number.dims}:
             full = full.where(data[dim] == DIRECT)
     unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""
     return Column(name, full.transpose(*rows.dims).values.astype(object).ravel(), unit=unit)
 
 
-def _with_intervals(data: xr.Dataset) -> xr.Dataset:
-    """Return a result with both ends of the interval of each best estimate."""
-    for name in ("best_friction", "best_contact_fraction"):
-        if f"{name}_half_width" in data and f"{name}_low" not in data:
-            ends = interval_ends(data[name], data[f"{name}_half_width"])
-            for end, values in zip(("low", "high"), ends, strict=True):
-                data = data.assign({f"{name}_{end}": values.assign_attrs(units="1")})
-    return data
+def _at_rest_without_friction(data: xr.Dataset) -> xr.Dataset:
+    """Return a result without the friction of rubber at rest, which has none."""
+    speed = data.get("nominal_speed")
+    if speed is None or bool((speed > 0.0).all()):
+        return data
+    frictions = [
+        name for name in data if str(name).startswith(("answer_friction", "total_friction"))
+    ]
+    return data.assign({name: data[name].where(speed > 0.0) for name in frictions})

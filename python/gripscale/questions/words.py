@@ -13,16 +13,20 @@ AXIS_TITLES = {
 """Headings and symbols at an axis, without the unit."""
 JUDGE = "direct contact of the profiles"
 """What a figure of a chain calls the model that judges it."""
+OF_THE_PAPER = "the paper's chain of waves"
+"""What texts call the chain where the answer is that of a measured surface."""
 ANSWER = "answer (90 %)"
-"""What figures call the best estimate with its interval."""
+"""What figures call the answer with its interval."""
 
 
 def believed(data: xr.Dataset, name: str) -> str:
     """Return the name of the best there is in a study of a number such as `friction`."""
-    return f"best_{name}" if is_estimated(data, name) else f"total_{name}"
+    if name == "friction" and is_estimated(data, "total_friction"):  # there is an area term
+        return "answer_total_friction"
+    return f"answer_{name}" if is_estimated(data, name) else f"total_{name}"
 
 
 def is_estimated(data: xr.Dataset, name: str) -> bool:
-    """Return whether a study has a best estimate of a number such as `friction`."""
-    best = f"best_{name}"
-    return best in data and bool(data[best].notnull().any())
+    """Return whether a study has the answer of a number such as `friction`."""
+    answer = f"answer_{name}"
+    return answer in data and bool(data[answer].notnull().any())

@@ -34,6 +34,9 @@ _SLOPE_RATIO = np.array([0.201, 0.393, 0.567, 0.725, 1.0, 1.38, 1.76, 2.54, 4.91
 AREA_OVER_TRUTH = np.array([2.55, 1.52, 1.29, 1.11, 1.0, 0.87, 0.86, 0.73, 0.68])
 """Contact area from lines over that of the map, at these ratios of slopes."""
 
+ERROR_OF_RIDGES = float(max(AREA_OVER_TRUTH[1], 1.0 / AREA_OVER_TRUTH[-2]))
+"""Factor by which the area may be wrong on ridges three times as long as wide, either way."""
+
 _HARMLESS = 1.1
 """Error of the area near the scatter of the step on isotropic surfaces, 8 %."""
 
@@ -71,10 +74,10 @@ def direction_of_profiles(
     counting = [ratio for ratio in ratios if abs(math.log(ratio.value)) > ratio.half_width]
     slopes = ratios[0]
     if all(map(_harmless, (*slopes.ends, *(ratio.value for ratio in counting)))):
-        return Finding(Severity.GOOD, f"The road is isotropic: {slopes}.", topic=Topic.SURFACE)
+        return Finding(Severity.GOOD, f"The surface is isotropic: {slopes}.", topic=Topic.SURFACE)
     if counting:
         worst = max(counting, key=lambda ratio: abs(math.log(area_over_truth(ratio.value))))
-        return _warning(f"The road has ridges: {worst}", area_over_truth(worst.value))
+        return _warning(f"The surface has ridges: {worst}", area_over_truth(worst.value))
     error = max(map(area_over_truth, slopes.ends), key=lambda error: abs(math.log(error)))
     return _warning(f"The profiles are too short to show ridges: {slopes}", error)
 
@@ -157,18 +160,16 @@ def _harmless(slope_ratio: float) -> bool:
 
 
 def _unknown_direction() -> Finding:
-    along, across = AREA_OVER_TRUTH[[2, 1, 0]], 1.0 / AREA_OVER_TRUTH[-1]
     sentence = Words(
-        "Profiles of one direction do not show ridges. Waves 2, 3 and 6 times as long along "
-        "sliding as across it make the area {:.1f}, {:.1f} and {:.1f} times too large; as long "
-        "across it, up to {:.1f} times too small. A second profile, with ".format(*along, across),
+        f"Profiles in one direction do not show ridges: ridges 3:1 make the area up to "
+        f"{ERROR_OF_RIDGES:.1f} times too large or too small. A second profile, with ",
         CaseKey("lay", "across"),
         ", decides.",
     )
     return Finding(
         Severity.WARNING,
         sentence,
-        area=1.0 / float(AREA_OVER_TRUTH[0]) - 1.0,
+        area=1.0 / ERROR_OF_RIDGES - 1.0,
         topic=Topic.SURFACE,
         key="surface.lay",
     )

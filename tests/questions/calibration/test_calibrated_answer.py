@@ -89,10 +89,10 @@ def test_the_answer_is_the_fitted_friction(calibrated: tuple[Calibration, bool])
 def test_the_area_is_not_that_of_the_lines(calibrated: tuple[Calibration, bool]) -> None:
     result, heat = calibrated
     answer = answer_at(result.law, 0, heat).data
-    assert float(answer.best_contact_fraction / answer.total_contact_fraction) < 0.8
-    ratio = answer.best_adhesive_friction / answer.total_adhesive_friction
+    assert float(answer.answer_contact_fraction / answer.total_contact_fraction) < 0.8
+    ratio = answer.answer_adhesive_friction / answer.total_adhesive_friction
     assert float(ratio) == pytest.approx(
-        float(answer.best_contact_fraction / answer.total_contact_fraction)
+        float(answer.answer_contact_fraction / answer.total_contact_fraction)
     )
 
 
@@ -115,7 +115,7 @@ def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
     assert f"an area term of {least} to" in " ".join(varied.lines)
 
     measured = MeasuredFriction([0.1], [0.5], temperature=[293.15])
-    compared = gs.compare(case, rungs=["direct"], measured=measured)
+    compared = gs.compare(case, models=["direct"], measured=measured)
     assert sum_of_both in " ".join(compared.lines)
     assert compared.ladder is not None
     residuals = comparison.at_measured(compared.ladder, tmp_path)
@@ -150,7 +150,7 @@ def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> 
     run = shell("run", case, "--output", tmp_path / "run", columns=500)
     assert run.exit_code == 0, run.output
     answer = netcdf.load_dataset(tmp_path / "run" / "answer.nc")
-    total = float(answer.best_friction + answer.best_adhesive_friction)
+    total = float(answer.answer_friction + answer.answer_adhesive_friction)
     assert total == pytest.approx(float(fit.friction[1]), rel=1e-5)  # six digits in the file
     # the table has three digits
     assert total == pytest.approx(float(fit.measured_friction[1]), abs=1e-3)

@@ -1,4 +1,4 @@
-"""Samples of rungs made by hand."""
+"""Samples of models made by hand."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Make = Callable[..., xr.Dataset]
 
 @pytest.fixture
 def solved() -> Make:
-    """Make the samples of a rung: (area, friction, subject), or with values by name as a dict."""
+    """Make the samples of a model: (area, friction, subject), or with values by name as a dict."""
 
     def make(*samples: Any) -> xr.Dataset:
         rows = []
@@ -37,17 +37,17 @@ def solved() -> Make:
 
 @pytest.fixture
 def together() -> Callable[..., xr.Dataset]:
-    """Put the samples of rungs beside each other, over `rung`."""
+    """Put the samples of models beside each other, over `model`."""
 
-    def make(**rungs: xr.Dataset) -> xr.Dataset:
-        names = np.array(list(rungs), dtype=object)
-        most = max(samples.sizes["sample"] for samples in rungs.values())
+    def make(**models: xr.Dataset) -> xr.Dataset:
+        names = np.array(list(models), dtype=object)
+        most = max(samples.sizes["sample"] for samples in models.values())
         padded = []
-        for samples in rungs.values():
+        for samples in models.values():
             missing = {"sample": (0, most - samples.sizes["sample"])}
             texts = {"prediction_status": "", "prediction_status_word": "", "subject": ""}
             filled = samples.reset_coords().pad(missing, constant_values={**texts})
             padded.append(filled.set_coords("subject"))
-        return xr.concat(padded, "rung", coords=["subject"]).assign_coords(rung=names)
+        return xr.concat(padded, "model", coords=["subject"]).assign_coords(model=names)
 
     return make

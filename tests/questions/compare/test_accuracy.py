@@ -34,7 +34,7 @@ def left(solved: Make, together: Make) -> Callable[..., bool]:
         )
         samples = together(windows_half_plane=small, windows_finite_strain=finite)
         widths = {
-            f"best_{name}_half_width": half_width for name in ("friction", "contact_fraction")
+            f"answer_{name}_half_width": half_width for name in ("friction", "contact_fraction")
         }
         comparison: Any = SimpleNamespace(
             samples=samples, setups=[SimpleNamespace(windows=wanted)], data=xr.Dataset(widths)
@@ -63,8 +63,8 @@ def test_no_more_than_there_are(left: Callable[..., bool]) -> None:
 
 
 def test_the_first_windows_are_spread_over_the_profile() -> None:
-    (rung, _), length = chosen(["windows"]), SUBJECT.lines[0].length
-    every = rung.draws(replace(SUBJECT, windows=MOST_WINDOWS))
+    (member, _), length = chosen(["windows"]), SUBJECT.lines[0].length
+    every = member.draws(replace(SUBJECT, windows=MOST_WINDOWS))
     starts = [float(spec.subject.split()[-2]) for spec in every]
     assert len(starts) == MOST_WINDOWS
     assert len(set(starts)) == MOST_WINDOWS

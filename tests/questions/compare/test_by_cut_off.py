@@ -146,7 +146,7 @@ def test_there_is_no_friction_at_rest_to_change() -> None:
         assert found.why_not == "no friction at rest"
 
 
-def test_profiles_count_by_their_length_and_rungs_by_their_samples() -> None:
+def test_profiles_count_by_their_length_and_models_by_their_samples() -> None:
     half = Profile(LINE.x[:4000], LINE.z[:4000])
     model = DirectContact(tolerance=None)
     both = Surface(surface().sines, "", measured=Measured.of([LINE, half]))
@@ -156,5 +156,5 @@ def test_profiles_count_by_their_length_and_rungs_by_their_samples() -> None:
     mean = float((weight * each).sum() / weight.sum())
     assert float(answer.total_friction_cut_off_exponent) == pytest.approx(mean)
     sample = sample_numbers(answer, Task(RUBBER, both, LOAD, model))
-    rung = stack({(0,): sample, (1,): sample}, {"sample": 2})
-    assert cut_off_exponents(rung).total_friction_cut_off_exponent == pytest.approx(mean)
+    member = stack({(0,): sample, (1,): sample}, {"sample": 2})
+    assert cut_off_exponents(member).total_friction_cut_off_exponent == pytest.approx(mean)

@@ -11,7 +11,7 @@ import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.io.table import as_text, significant
 from gripscale.questions import SolvedLadder
-from gripscale.questions.answer.page import basis_lines
+from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.compare.page import comparison_table, remarks
 from gripscale.surface import self_affine_profile
 from tests.samples import SOFTENING
@@ -47,8 +47,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SolvedLadder:
     np.savetxt(folder / "road.dat", np.column_stack([line.x, line.z]))
     case = folder / "case.toml"
     case.write_text(CASE, encoding="utf-8")
-    rungs = ["chain_half_plane", "direct", "persson"]
-    ladder = gs.compare(read_case(case), seeds=1, rungs=rungs).ladder
+    models = ["chain_half_plane", "direct", "persson"]
+    ladder = gs.compare(read_case(case), seeds=1, models=models).ladder
     assert ladder is not None
     return ladder
 
@@ -65,19 +65,19 @@ def test_chain_and_direct_contact_know_every_effect(made: SolvedLadder) -> None:
         tolerance=subject.tolerance,
         conditions=subject.conditions,
     )
-    direct = made.data.sel(rung="direct")
+    direct = made.data.sel(model="direct")
     assert direct.total_friction == pytest.approx(alone.friction, rel=1e-12)
     assert direct.total_adhesive_friction == pytest.approx(
         2e6 * alone.contact_fraction / 3e5, rel=1e-12
     )
-    chain = made.data.sel(rung="chain_half_plane")
+    chain = made.data.sel(model="chain_half_plane")
     assert chain.total_adhesive_friction == pytest.approx(
         2e6 * float(chain.total_contact_fraction) / 3e5, rel=1e-12
     )
 
 
 def test_a_theory_knows_the_temperature_only(made: SolvedLadder) -> None:
-    subject, persson = made.setups[0], made.data.sel(rung="persson")
+    subject, persson = made.setups[0], made.data.sel(model="persson")
     warm = subject.rubber.at(308.15)
     spectrum = gs.surface.areal_spectrum(
         gs.surface.profile_spectrum(subject.surface.measured.cleaned[0])  # type: ignore[union-attr]
@@ -96,12 +96,13 @@ def test_a_theory_knows_the_temperature_only(made: SolvedLadder) -> None:
 def test_table_and_best_estimate_have_the_area_term(made: SolvedLadder) -> None:
     data = made.data
     text = as_text(comparison_table(data))
-    direct = made.data.sel(rung="direct")
+    direct = made.data.sel(model="direct")
     total = float(direct.total_friction + direct.total_adhesive_friction)
     assert f"{total:.2f}" in text
     # 2 MPa on the contact area of the estimate, not on that of the direct contact
-    both = float(data.best_friction) + 2e6 * float(data.best_contact_fraction) / 3e5
-    assert f"comes on top: μ = {significant(both)} with it" in " ".join(basis_lines(data))
+    both = float(data.answer_friction) + 2e6 * float(data.answer_contact_fraction) / 3e5
+    assert float(data.answer_total_friction) == pytest.approx(both, rel=1e-12)
+    assert next(answer_lines(data)).startswith(f"Answer: μ = {significant(both)}")
 
 
 def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLadder) -> None:
@@ -109,12 +110,12 @@ def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLa
         made.case,
         vary={"temperature": "20 C,35 C"},
         seeds=1,
-        rungs=["chain_half_plane", "persson"],
+        models=["chain_half_plane", "persson"],
     )
     data = over.data
     warm = data.sel(temperature=308.15)
-    for rung in ("chain_half_plane", "persson"):
-        own = float(made.data.total_friction.sel(rung=rung))
-        assert float(warm.total_friction.sel(rung=rung)) == pytest.approx(own, rel=1e-12)
-        cold = float(data.total_friction.sel(temperature=293.15, rung=rung))
+    for member in ("chain_half_plane", "persson"):
+        own = float(made.data.total_friction.sel(model=member))
+        assert float(warm.total_friction.sel(model=member)) == pytest.approx(own, rel=1e-12)
+        cold = float(data.total_friction.sel(temperature=293.15, model=member))
         assert abs(cold / own - 1.0) > 0.01

@@ -1,4 +1,4 @@
-"""Windows as rungs: the same surfaces for both, and the solvers' own answers."""
+"""Windows as models: the same surfaces for both, and the solvers' own answers."""
 
 from __future__ import annotations
 
@@ -61,10 +61,10 @@ def test_mesh_too_coarse_counts_as_failed(monkeypatch: pytest.MonkeyPatch) -> No
 def test_windows_are_the_same_for_both() -> None:
     small, finite = chosen(["windows"])
     assert finite.follows == small.name
-    drawn = [rung.draws(SUBJECT) for rung in (small, finite)]
+    drawn = [member.draws(SUBJECT) for member in (small, finite)]
     assert [one.subject for one in drawn[0]] == [one.subject for one in drawn[1]]
     assert len({one.subject for one in drawn[0]}) == SUBJECT.windows
-    assert chosen([]) == [rung for rung in LADDER if rung.group != "below"]
+    assert chosen([]) == [member for member in LADDER if member.group != "below"]
     short = Surface(SineStack([0.3], [1e-3]), "", measured=MEASURED)
     assert small.draws(replace(SUBJECT, surface=short)) == []
 

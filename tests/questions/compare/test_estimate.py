@@ -1,4 +1,4 @@
-"""The best estimate: factors multiplied, uncertainties in squares, what is missing named."""
+"""The answer: factors multiplied, uncertainties in squares, what is missing named."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import xarray as xr
 from scipy import stats
 
 from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.answer.best_estimate import ASSUMED_FINITE_STRAIN, best_estimate
+from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, answer_of_samples
 from gripscale.questions.answer.samples import ratio
 
 Make = Callable[..., xr.Dataset]
@@ -34,63 +34,63 @@ SAMPLING = {
 
 
 def test_finite_strain_is_assumed_where_no_window_was_solved(solved: Make, together: Make) -> None:
-    best = best_estimate(together(direct=solved(DIRECT | SAMPLING)))
+    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)))
     assumed = ASSUMED_FINITE_STRAIN
-    assert best.best_contact_fraction == pytest.approx(0.04)
-    assert best.best_friction == pytest.approx(0.2)
+    assert best.answer_contact_fraction == pytest.approx(0.04)
+    assert best.answer_friction == pytest.approx(0.2)
     assert best.factor_label.values.tolist() == [assumed.label]
-    assert best.best_contact_fraction_uncertainty == pytest.approx(
+    assert best.answer_contact_fraction_uncertainty == pytest.approx(
         math.hypot(0.03, GRID, assumed.contact_fraction.uncertainty)
     )
     sigma = math.hypot(0.04, GRID, assumed.friction.uncertainty)
-    assert best.best_friction_uncertainty == pytest.approx(sigma)
+    assert best.answer_friction_uncertainty == pytest.approx(sigma)
     freedom = sigma**4 / (0.04**4 / 40.0)
-    assert best.best_friction_half_width == pytest.approx(
+    assert best.answer_friction_half_width == pytest.approx(
         math.sinh(stats.t.ppf(0.95, freedom) * sigma)
     )
 
 
 def test_there_is_no_interval_without_samples_of_the_road(solved: Make, together: Make) -> None:
-    best = best_estimate(together(direct=solved(DIRECT)))
-    assert best.best_friction == pytest.approx(0.2)
-    assert math.isnan(best.best_friction_half_width)
+    best = answer_of_samples(together(direct=solved(DIRECT)))
+    assert best.answer_friction == pytest.approx(0.2)
+    assert math.isnan(best.answer_friction_half_width)
 
 
 def test_factors_of_rungs_and_from_elsewhere(solved: Make, together: Make) -> None:
     finite, small = solved((0.102, 0.98), (0.206, 0.97)), solved((0.1, 1.0), (0.2, 1.0))
     direct = solved(DIRECT | SAMPLING)
-    rungs = together(direct=direct, windows_finite_strain=finite, windows_half_plane=small)
+    models = together(direct=direct, windows_finite_strain=finite, windows_half_plane=small)
     supplied = Factor("map", "map", LogNormalValue(0.5, 0.2), LogNormalValue(1.3, 0.1), 6.0)
-    best = best_estimate(rungs, [supplied])
-    assert best.best_friction_factor.notnull().all()
-    assert best.factor_label.values.tolist() == ["finite strain", "map"]
+    best = answer_of_samples(models, [supplied])
+    assert best.answer_friction_factor.notnull().all()
+    assert best.factor_label.values.tolist() == ["large strain", "map"]
     value, error = ratio(finite, small, "friction_from_dissipation")
     assert value == pytest.approx(0.975)
-    assert best.best_friction == pytest.approx(0.2 * 0.975 * 1.3)
+    assert best.answer_friction == pytest.approx(0.2 * 0.975 * 1.3)
     left_out = abs(math.log(0.975)) / math.sqrt(3.0)
     parts = (0.04, GRID, float(error.sigma), left_out, 0.1)
-    assert best.best_friction_uncertainty == pytest.approx(math.hypot(*parts))
+    assert best.answer_friction_uncertainty == pytest.approx(math.hypot(*parts))
 
 
 def test_a_supplied_factor_replaces_ours(solved: Make, together: Make) -> None:
     ours = Factor("finite_strain", "x", LogNormalValue(0.9, 0.01), LogNormalValue(0.8, 0.01))
-    best = best_estimate(together(direct=solved(DIRECT | SAMPLING)), [ours])
-    assert best.best_friction == pytest.approx(0.16)
+    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)), [ours])
+    assert best.answer_friction == pytest.approx(0.16)
     assert best.factor_label.values.tolist() == ["x"]
 
 
 def test_a_factor_on_one_quantity_only_is_not_included(solved: Make, together: Make) -> None:
     half = Factor("map", "map", LogNormalValue(1.1, 0.1))
-    best = best_estimate(together(direct=solved(DIRECT | SAMPLING)), [half])
-    without = best_estimate(together(direct=solved(DIRECT | SAMPLING)))
-    assert best.best_contact_fraction == pytest.approx(0.04)
-    assert best.best_contact_fraction_half_width == without.best_contact_fraction_half_width
+    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)), [half])
+    without = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)))
+    assert best.answer_contact_fraction == pytest.approx(0.04)
+    assert best.answer_contact_fraction_half_width == without.answer_contact_fraction_half_width
 
 
 def test_there_is_none_without_a_direct_contact(solved: Make, together: Make) -> None:
-    best = best_estimate(together(chain=solved((0.04, 0.2))))
-    assert math.isnan(best.best_friction)
+    best = answer_of_samples(together(chain=solved((0.04, 0.2))))
+    assert math.isnan(best.answer_friction)
     assert best.sizes["factor"] == 0
     broken = together(direct=solved({"prediction_status": "tolerance not met"}))
-    assert math.isnan(best_estimate(broken).best_friction)
-    assert math.isnan(best_estimate(broken).best_friction_half_width)
+    assert math.isnan(answer_of_samples(broken).answer_friction)
+    assert math.isnan(answer_of_samples(broken).answer_friction_half_width)

@@ -1,4 +1,4 @@
-"""Means, spreads and factors of rungs; a failed sample is in none of them and is counted."""
+"""Means, spreads and factors of models; a failed sample is in none of them and is counted."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ def failed(subject: str = "") -> dict[str, Any]:
 
 
 def test_failed_sample_is_in_no_mean_and_is_counted(solved: Make) -> None:
-    rung = solved((0.02, 0.3), failed(), (0.04, 0.5))
-    assert usable(rung, "contact_fraction").mean() == pytest.approx(0.03)
-    assert spread(usable(rung, "friction")) == pytest.approx(np.std([0.3, 0.5], ddof=1))
-    assert status(rung) == "1 of 3 samples failed: tolerance not met"
-    assert status_word(rung) == "tolerance not met"
-    assert int(converged(rung).sum()) == 2
+    member = solved((0.02, 0.3), failed(), (0.04, 0.5))
+    assert usable(member, "contact_fraction").mean() == pytest.approx(0.03)
+    assert spread(usable(member, "friction")) == pytest.approx(np.std([0.3, 0.5], ddof=1))
+    assert status(member) == "1 of 3 samples failed: tolerance not met"
+    assert status_word(member) == "tolerance not met"
+    assert int(converged(member).sum()) == 2
     alone = solved(failed())
     assert math.isnan(usable(alone, "friction").mean())
     assert status(alone) == "tolerance not met"
-    assert math.isnan(ratio(rung, alone, "friction")[0])
+    assert math.isnan(ratio(member, alone, "friction")[0])
 
 
 def test_uncertainty_is_scatter_and_estimated_error(solved: Make) -> None:
@@ -57,9 +57,9 @@ def test_uncertainty_is_scatter_and_estimated_error(solved: Make) -> None:
 def test_seeds_of_one_profile_tell_nothing_of_another(solved: Make) -> None:
     drawn = [(0.02, 0.30 + 0.001 * seed, "first") for seed in range(10)]
     drawn += [(0.02, 0.50 + 0.001 * seed, "second") for seed in range(10)]
-    rung = solved(*drawn)
-    assert usable(rung, "friction").mean() == pytest.approx(0.4045)
-    assert relative_uncertainty(rung, "friction") == pytest.approx(0.1 / 0.4045)
+    member = solved(*drawn)
+    assert usable(member, "friction").mean() == pytest.approx(0.4045)
+    assert relative_uncertainty(member, "friction") == pytest.approx(0.1 / 0.4045)
     alone = relative_uncertainty(solved(*((area, mu, "") for area, mu, _ in drawn)), "friction")
     assert alone < 0.06
 

@@ -1,4 +1,4 @@
-"""Contact and friction against the cut-off: command, page, run, best estimate and rule."""
+"""Contact and friction against the cut-off: command, page, run, answer and rule."""
 
 from __future__ import annotations
 
@@ -110,11 +110,11 @@ def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data)
         answers[name] = netcdf.load_dataset(folder / name / "answer.nc")
     without, with_it = answers["case"], answers["below"]
     for quantity, curve in (("friction", FRICTION), ("contact_fraction", AREA)):
-        ratio = float(with_it[f"best_{quantity}"] / without[f"best_{quantity}"])
+        ratio = float(with_it[f"answer_{quantity}"] / without[f"answer_{quantity}"])
         expected = float(data[curve][-1]) / at_cut_off(data, curve, 0.5e-3)
         assert ratio == pytest.approx(expected, rel=1e-9)
-    wider = with_it.best_friction_half_width > without.best_friction_half_width
-    assert bool(wider) or not math.isfinite(float(without.best_friction_half_width))
+    wider = with_it.answer_friction_half_width > without.answer_friction_half_width
+    assert bool(wider) or not math.isfinite(float(without.answer_friction_half_width))
     report = (folder / "below" / "report.txt").read_text(encoding="utf-8")
     assert "roughness continued from 0.5 mm to 0.15 mm" in " ".join(report.split())
     assert (folder / "below" / "cut_off.nc").is_file()

@@ -38,7 +38,7 @@ def of_run(folder: Path) -> xr.Dataset:
 
 def sigma(data: xr.Dataset, name: str, label: str) -> float:
     """Return the standard error of one part of the interval."""
-    return float(data[f"best_{name}_part_error"][data.part_label.values.tolist().index(label)])
+    return float(data[f"answer_{name}_part_error"][data.part_label.values.tolist().index(label)])
 
 
 @pytest.fixture(scope="module")
@@ -53,11 +53,11 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
 ) -> None:
     """The same contact is solved for both, so that only rounding is between them."""
     for end in ("", "_half_width", "_uncertainty", "_sampling_error"):
-        mine, theirs = (float(data[f"best_{name}{end}"]) for data in (certain, of_run))
+        mine, theirs = (float(data[f"answer_{name}{end}"]) for data in (certain, of_run))
         assert math.isfinite(mine)
         assert mine == pytest.approx(theirs, rel=1e-9)
-    assert float(certain[f"best_{name}_{OF_RUN}"]) == pytest.approx(
-        float(of_run[f"best_{name}_half_width"]), rel=1e-12
+    assert float(certain[f"answer_{name}_{OF_RUN}"]) == pytest.approx(
+        float(of_run[f"answer_{name}_half_width"]), rel=1e-12
     )
 
 
@@ -67,7 +67,7 @@ def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> No
     data = propagate(
         read_case(folder / "case.toml"), choice, samples=10, client="processes", workers=2
     )
-    assert float(certain.best_steep_share) >= 0.0
+    assert float(certain.answer_steep_share) >= 0.0
     for name in map(str, certain.data_vars):
         if name.startswith("best_"):
             np.testing.assert_array_equal(data[name].values, certain[name].values, name)
@@ -89,12 +89,12 @@ def test_the_sampling_of_the_road_counts_once(
     that 2.5 is two and a half standard deviations of their ratio. All other parts are those of
     `run` to rounding: the error from pieces is not among them.
     """
-    parts = blocks[f"best_{name}_part_error"].values
-    assert float(blocks[f"best_{name}_uncertainty"]) == pytest.approx(math.hypot(*parts))
+    parts = blocks[f"answer_{name}_part_error"].values
+    assert float(blocks[f"answer_{name}_uncertainty"]) == pytest.approx(math.hypot(*parts))
     drawn = math.hypot(*(sigma(blocks, name, label) for label in drawn_labels(blocks)))
     others = math.hypot(*parts[len(drawn_labels(blocks)) :])
-    from_pieces = float(of_run[f"best_{name}_sampling_error"])
-    of_others = math.sqrt(float(of_run[f"best_{name}_uncertainty"]) ** 2 - from_pieces**2)
+    from_pieces = float(of_run[f"answer_{name}_sampling_error"])
+    of_others = math.sqrt(float(of_run[f"answer_{name}_uncertainty"]) ** 2 - from_pieces**2)
     assert others == pytest.approx(of_others, rel=1e-9)
     assert from_pieces / 2.5 < drawn < 2.5 * from_pieces
 
@@ -112,7 +112,7 @@ def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: x
     case = float(data.friction_from_dissipation_case[0])
     square = float(np.mean(np.log(friction / case) ** 2))
     assert square > 1e-4
-    before, after = (float(d.best_friction_uncertainty) ** 2 for d in (certain, data))
+    before, after = (float(d.answer_friction_uncertainty) ** 2 for d in (certain, data))
     assert after - before == pytest.approx(square, rel=1e-6)
     assert sigma(data, "friction", "cut-off of the roughness") ** 2 == pytest.approx(
         square, rel=0.1
@@ -139,8 +139,8 @@ def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
     assert low == pytest.approx(-0.9 * error[0], abs=0.1 * error[0])
     assert high == pytest.approx(0.9 * error[0], abs=0.1 * error[0])
     for name in QUANTITIES:
-        width = float(data[f"best_{name}_half_width"])
-        assert width == pytest.approx(float(certain[f"best_{name}_half_width"]), rel=1e-9)
+        width = float(data[f"answer_{name}_half_width"])
+        assert width == pytest.approx(float(certain[f"answer_{name}_half_width"]), rel=1e-9)
         assert sigma(data, name, "grid of the answer") > 0.0
 
 
@@ -148,9 +148,9 @@ def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
     data = propagate(
         read_case(folder / "case.toml"), only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]}
     )
-    assert data.best_friction.dims == ("speed",)
+    assert data.answer_friction.dims == ("speed",)
     single = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
-    for name in ("best_friction", "best_contact_fraction_half_width"):
+    for name in ("answer_friction", "answer_contact_fraction_half_width"):
         assert float(data[name].sel(speed=0.3)) == pytest.approx(float(single[name]))
     table = next(part for part in SampledAnswer(data).parts() if not isinstance(part, str))
     assert table.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
@@ -161,8 +161,8 @@ def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
 ) -> None:
     data = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10, models=["chain"])
     for name in QUANTITIES:
-        width = float(of_run[f"best_{name}_half_width"])
-        assert float(data[f"best_{name}_half_width"]) == pytest.approx(width, rel=1e-9)
+        width = float(of_run[f"answer_{name}_half_width"])
+        assert float(data[f"answer_{name}_half_width"]) == pytest.approx(width, rel=1e-9)
     assert "the direct contact was not sampled" in " ".join(SampledAnswer(data).lines)
 
 
@@ -173,14 +173,14 @@ def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
     )
     data = propagate(read_case(case), samples=12)
     assert data.model.values.tolist() == ["chain"]
-    assert float(data.best_friction) == float(data.friction_from_dissipation_case[0])
-    logs = np.log(data.friction_from_dissipation.values[0] / float(data.best_friction))
+    assert float(data.answer_friction) == float(data.friction_case[0])
+    logs = np.log(data.friction.values[0] / float(data.answer_friction))
     spread = math.sqrt(float(np.mean(logs**2)))
-    assert float(data.best_friction_half_width) == pytest.approx(
+    assert float(data.answer_friction_half_width) == pytest.approx(
         math.sinh(stats.t.ppf(0.95, 11) * spread)
     )
     text = " ".join(SampledAnswer(data).lines)
-    assert "from the chain of waves" in text
+    assert "by the chain of waves" in text
     assert "no measured surface judges it" in text
 
 
@@ -220,9 +220,9 @@ def test_derivatives_stand_beside_samples(folder: Path) -> None:
 
 def with_errors(data: xr.Dataset, label: str, sampled: float) -> list[str]:
     """Return the notes of the parts where the samples gave a source this error."""
-    errors = data.best_friction_part_error.copy()
+    errors = data.answer_friction_part_error.copy()
     errors[data.part_label.values.tolist().index(label)] = sampled
-    changed = data.assign(best_friction_part_error=errors)
-    changed["best_friction_uncertainty"] = 1.1 * sampled
+    changed = data.assign(answer_friction_part_error=errors)
+    changed["answer_friction_uncertainty"] = 1.1 * sampled
     (table,) = part_tables(changed)
     return list(table.notes)

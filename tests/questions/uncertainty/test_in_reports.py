@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.questions import of_same_inputs, stored_uncertainty
-from gripscale.questions.answer.page import number_and_interval
+from gripscale.questions.answer.reliance import headline
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_lines
 
@@ -28,7 +28,7 @@ def case(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         (at / name).write_bytes((folder / name).read_bytes())
     called("uncertainty", at / "case.toml", "--samples", 10, "--without", "waves")
     called("run", at / "case.toml")
-    called("compare", at / "case.toml", "--rungs", "direct")
+    called("compare", at / "case.toml", "--models", "direct")
     return at / "case.toml"
 
 
@@ -49,7 +49,7 @@ def test_quantiles_stand_in_the_texts(case: Path, name: str) -> None:
     data = stored_uncertainty(case.parent / "results")
     assert data is not None
     answer, line = uncertainty_lines(data, case.read_text())
-    friction = number_and_interval(data, "friction")
+    friction = headline(data, "friction")
     assert answer.startswith(f"With the errors of the inputs, 10 samples: μ = {friction}")
     low, middle, high = (f"{v:#.2g}" for v in data.friction_quantile.values[0, [0, 2, 4]])
     assert line.startswith(

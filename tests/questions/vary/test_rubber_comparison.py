@@ -150,10 +150,10 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     result = compare_compounds(read_case(tmp_path / "case.toml"), compounds, tmp_path / "out")
     data = result.data
     np.testing.assert_allclose(
-        data.friction_ratio, data.best_friction / data.best_friction.values[0], rtol=1e-12
+        data.friction_ratio, data.answer_friction / data.answer_friction.values[0], rtol=1e-12
     )
     # what both know of the road makes a ratio better known than two numbers
-    own = np.log(data.best_friction_high / data.best_friction).values
+    own = np.log(data.answer_friction_high / data.answer_friction).values
     both = float(np.log(data.friction_ratio_high / data.friction_ratio)[1])
     assert 0.0 < both < np.hypot(*own)
     first, basis = ratio_lines(data, "rubber")
@@ -171,9 +171,9 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     assert ranking.get_title() == "direct contact: the ranking"
     assert chain.get_title() == "chain, less reliable"
     best = [text.get_text() for text in ranking.get_xticklabels()]
-    assert best == [significant(mu, 2) for mu in data.best_friction.values]
+    assert best == [significant(mu, 2) for mu in data.answer_friction.values]
     page = result.page(tmp_path / "page.html").read_text()
-    assert page.index("μ of lossy") < page.index("Best estimates, from the direct contact")
+    assert page.index("μ of lossy") < page.index("Answers, from the direct contact")
 
 
 def test_two_to_six_compounds(tmp_path: Path) -> None:

@@ -160,9 +160,9 @@ def test_the_range_of_friction_is_that_of_friction_from_dissipation() -> None:
 def test_the_answer_is_the_ratio_of_best_estimates_as_uncertain_as_both(made: Roads) -> None:
     data = made.data
     np.testing.assert_allclose(
-        data.friction_ratio, data.best_friction / data.best_friction.values[0], rtol=1e-12
+        data.friction_ratio, data.answer_friction / data.answer_friction.values[0], rtol=1e-12
     )
-    own = np.log(data.best_friction_high / data.best_friction)
+    own = np.log(data.answer_friction_high / data.answer_friction)
     both = np.log(data.friction_ratio_high / data.friction_ratio)
     np.testing.assert_allclose(both[1:], np.hypot(own, own[0])[1:], rtol=1e-12)
     assert float(data.friction_ratio.sel(surface="twin")) == 1.0
@@ -270,7 +270,7 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
     assert figures == {"roads_statistics", "roads_friction"}
     page = (target / "report.html").read_text()
     assert "Roads side by side" in page
-    assert page.index("μ of rough") < page.index("Best estimates, from the direct contact")
+    assert page.index("μ of rough") < page.index("Answers, from the direct contact")
     assert "direct: μ of rough is" in page
     assert "Texture: ISO 13473-1" in text
     assert "MPD" in page

@@ -107,8 +107,8 @@ def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) ->
     """As a comparison does: a model that knows no conditions is given the shifted rubber."""
     case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
     result = Study(read_case(case), {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
-    compared = gs.compare(read_case(case), rungs=["persson"]).to_dataset()
-    friction = float(compared.total_friction.sel(rung="persson"))
+    compared = gs.compare(read_case(case), models=["persson"]).to_dataset()
+    friction = float(compared.total_friction.sel(model="persson"))
     assert float(result.total_friction[0]) == pytest.approx(friction, rel=1e-12)
 
 

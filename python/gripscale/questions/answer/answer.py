@@ -4,7 +4,7 @@
     answer.friction, answer.friction_interval
 
 The measured surface is pressed and slid as a whole; known factors lead to finite strain and from
-lines to a surface (`gripscale.questions.answer.best_estimate`). `gripscale run` prints this object.
+lines to a surface (`gripscale.questions.answer.estimate`). `gripscale run` prints this object.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, trace_sheet
-from gripscale.questions.answer.findings import FINDINGS, case_notices
+from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
-from gripscale.questions.answer.reliance import answer_interval, answer_number, is_solved, no_answer
+from gripscale.questions.answer.reliance import answer_number, is_measured, no_answer
+from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
@@ -41,32 +42,37 @@ class NumbersWithIntervals(Result):
     @property
     def friction(self) -> float:
         """Friction coefficient of the hysteresis [-]; NaN without an answer or at rest."""
-        return answer_number(self.data, "friction")
+        return answer_number(self.data, "friction").value
 
     @property
     def friction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
-        return answer_interval(self.data, "friction")
+        return answer_number(self.data, "friction")[1:]
 
     @property
     def adhesive_friction(self) -> float:
         """Friction coefficient of the area term [-], over `contact_fraction`; NaN without one."""
-        return answer_number(self.data, "adhesive_friction")
+        return answer_number(self.data, "adhesive_friction").value
 
     @property
     def total_friction(self) -> float:
-        """Sum of hysteresis and area term [-]; NaN without an area term."""
-        return self.friction + self.adhesive_friction
+        """Sum of hysteresis and area term [-], which `print` shows; NaN without an area term."""
+        return answer_number(self.data, "total_friction").value
+
+    @property
+    def total_friction_interval(self) -> tuple[float, float]:
+        """Both ends of the 90 % interval of the total friction [-]; NaN where it is not known."""
+        return answer_number(self.data, "total_friction")[1:]
 
     @property
     def contact_fraction(self) -> float:
         """Real over nominal contact area [-]; NaN without an answer."""
-        return answer_number(self.data, "contact_fraction")
+        return answer_number(self.data, "contact_fraction").value
 
     @property
     def contact_fraction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
-        return answer_interval(self.data, "contact_fraction")
+        return answer_number(self.data, "contact_fraction")[1:]
 
 
 class Answer(NumbersWithIntervals):
@@ -78,18 +84,16 @@ class Answer(NumbersWithIntervals):
 
     @property
     def reliable(self) -> bool:
-        """Whether there is an answer to rely on (`gripscale.questions.answer.reliance`)."""
-        return not no_answer(self.data)
+        """Whether there is an answer to rely on (`gripscale.questions.answer.reliance`).
+
+        None of sine waves, which no measured surface judges.
+        """
+        return is_measured(self.data) and not no_answer(self.data)
 
     @property
     def status(self) -> str:
-        """How the direct contact ended: "converged", or why it has no result."""
-        return str(self.data["prediction_status"].item()) if self.is_solved else "not solved"
-
-    @property
-    def is_solved(self) -> bool:
-        """Whether a measured surface was solved; there is none of sine waves."""
-        return is_solved(self.data)
+        """How the direct contact, or the chain of sine waves, ended: "converged", or why not."""
+        return str(self.data["prediction_status"].item())
 
     @property
     def basis(self) -> Sequence[str]:
@@ -102,7 +106,7 @@ class Answer(NumbersWithIntervals):
 
     @cached_property
     def findings(self) -> Sequence[Finding]:
-        return tuple(case_notices(self.data if self.is_solved else None, InputRecord(self.inputs)))
+        return tuple(case_notices(self.data, InputRecord(self.inputs)))
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""
@@ -111,9 +115,8 @@ class Answer(NumbersWithIntervals):
         return summary_table([self.data])
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
-        if self.is_solved:
-            for name, trace in named_traces(self.data, self.inputs)[:1]:
-                yield "direct_contact", trace_sheet(trace, name)
+        for name, trace in named_traces(self.data, self.inputs)[:1]:
+            yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:
         return answer_page(self.data, InputRecord(self.inputs), self.findings)
@@ -125,8 +128,8 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     Parameters
     ----------
     case : Case
-        Its surface must be measured for an answer with an interval; of sine waves
-        `Answer.reliable` is False.
+        Its surface must be measured for an answer with an interval; of sine waves it is that of
+        their chain, and `Answer.reliable` is False.
     folder : path, optional
         Keeps the solution of a roughness that is continued below the measurement.
 
@@ -138,17 +141,23 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     Raises
     ------
     InputError
-        If the direct contact cannot use the rubber or a profile, or the roughness below the
-        measurement has no result.
+        If the model cannot use the rubber or a profile, or the roughness below the measurement
+        has no result.
     """
-    inputs = record.inputs(case, further=friction_doubts(case.friction, case.load.speed))
     samples = direct_contact.solve_direct_contact(case)
-    attrs = {"case_file": case.origin.name, **case.attributes, **provenance.version_attributes()}
     if samples is None:
-        return Answer(xr.Dataset(attrs=attrs), inputs)
+        predicted = case.chain.predict(case.rubber, case.surface, case.load)
+        return answer_with_inputs(case, waves_answer(case, predicted))
     curve = direct_contact.continued_curve(case, case.load, folder)
     data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
-    attrs[FINDINGS] = to_json(direct_contact.tread_findings(case, samples, data))
-    result = Answer(data.assign_attrs(attrs), inputs)
+    data.attrs[FINDINGS] = to_json(direct_contact.tread_findings(case, samples, data))
+    result = answer_with_inputs(case, data)
     result.curve = curve
     return result
+
+
+def answer_with_inputs(case: Case, data: xr.Dataset) -> Answer:
+    """Return the numbers of an answer with the record of the inputs, and measured friction."""
+    inputs = record.inputs(case, further=friction_doubts(case.friction, case.load.speed))
+    attrs = {"case_file": case.origin.name, **provenance.version_attributes()}
+    return Answer(data.assign(measured_at_load(case, case.friction)).assign_attrs(attrs), inputs)

@@ -1,7 +1,7 @@
 """The number behind every answer: direct contact of the measured surface, times known factors.
 
 The direct contact of each profile is a sample of the road, solved to an estimated relative error of
-`JUDGED_TO`; `gripscale.questions.answer.best_estimate` multiplies their mean by its factors.
+`JUDGED_TO`; `gripscale.questions.answer.estimate` multiplies their mean by its factors.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from gripscale.half_space.location import trace_variables
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.best_estimate import (
+from gripscale.questions.answer.estimate import (
     DIRECT,
     ESTIMATED,
     Factor,
     LogNormalValue,
     SampledErrors,
-    best_estimate,
+    answer_of_samples,
 )
 from gripscale.questions.answer.reliance import estimated_names, has_answer
 from gripscale.questions.cut_off.curve import (
@@ -130,9 +130,9 @@ def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[
     thin = solve_design(design, Bench(None), reduce.sample_numbers)
     changes, counting = {}, False
     for name in estimated_names(totals):
-        means = [reduce.usable(part, ESTIMATED[name]).mean("sample") for part in (thin, samples)]
+        means = [reduce.mean(part, ESTIMATED[name]) for part in (thin, samples)]
         changes[name] = float(means[0] / means[1]) - 1.0
-        sampling = float(totals[f"best_{name}_sampling_error"])
+        sampling = float(totals[f"answer_{name}_sampling_error"])
         counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
     if not counting or not all(map(math.isfinite, changes.values())):
         return []
@@ -193,19 +193,16 @@ def direct_contact_totals(
     curve: xr.Dataset | None = None,
     sampled: SampledErrors | None = None,
 ) -> xr.Dataset:
-    """Return the mean contact of the profiles as a model answers, with the best estimate.
+    """Return the mean contact of the profiles as a model answers, with the answer.
 
     `samples` are answers of `direct_contact_design` under the load; `curve` is the contact against
     the cut-off below the measurement (`continued_curve`); `sampled` widens the interval by the
     errors of the inputs.
     """
-    means = {
-        name: float(reduce.usable(samples, name).mean("sample"))
-        for name in reduce.SAMPLED_QUANTITIES
-    }
+    means = {name: float(reduce.mean(samples, name)) for name in reduce.SAMPLED_QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
-    best = best_estimate(
-        samples.expand_dims(rung=[DIRECT]),
+    best = answer_of_samples(
+        samples.expand_dims(model=[DIRECT]),
         continuation_factors(case, curve),
         sampled=sampled,
     )
@@ -230,5 +227,5 @@ def direct_contact_totals(
             totals.attrs[ISOTROPIC] = finding.sentence
     if traces := trace_variables(samples):
         totals = totals.assign(traces.variables)
-    area_term = reduce.usable(samples, "adhesive_friction").mean("sample")
+    area_term = reduce.mean(samples, "adhesive_friction")
     return model.with_area_term(totals, float(area_term))

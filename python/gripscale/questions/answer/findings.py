@@ -8,17 +8,24 @@ from collections.abc import Iterator
 import xarray as xr
 
 from gripscale import model
+from gripscale.case import Case
+from gripscale.conditions.conditions import Conditions
 from gripscale.core.finding import Finding, Severity, Topic, from_json, ranked
 from gripscale.core.units import in_mm
 from gripscale.cut_off_exponents import OCTAVE
+from gripscale.experiment.measured_friction import MeasuredFriction, nearest_series
+from gripscale.io.table import significant
 from gripscale.questions.answer.reliance import (
     MOST_ON_GUESSES,
     direct_of,
     estimated_names,
     guesses,
     has_answer,
+    headline,
+    is_measured,
     is_moving,
     no_answer,
+    solved_model,
 )
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.findings import (
@@ -39,22 +46,22 @@ SMALL_CHANGE = 0.05
 """Relative change by half the cut-off that is as good as none."""
 
 
-def no_answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
+def no_answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     """Yield that a result has no answer, or none to rely on; nothing if it has one."""
     statement = no_answer(data)
     if statement:
-        level = "warning" if data is None else "error"
-        yield Finding(level, f"Answer: {statement}", math.inf, math.inf)
+        yield Finding(Severity.ERROR, f"Answer: {statement}", math.inf, math.inf)
 
 
-def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
+def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     """Yield what may change an answer, other than what `no_answer` says of it."""
-    if data is None or not has_answer(data):
+    if not has_answer(data):
         return
+    yield from _against_measurement(data)
     yield from (share for share in guesses(data) if share.effect <= MOST_ON_GUESSES)
     yield from from_json(data.attrs.get(FINDINGS, ""))
     direct = direct_of(data)
-    steep = float(data.get("best_steep_share", math.nan))
+    steep = float(data.get("answer_steep_share", math.nan))
     if steep > WORTH_SAYING:
         yield Finding(
             Severity.WARNING,
@@ -66,10 +73,11 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
     octave = {} if CONTINUED_TO in data else changes(data, 1.0 / OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
         half = in_mm(float(data.cutoff_wavelength) / OCTAVE, 3)
+        cure = "; `gripscale cut-off` computes it" if is_measured(data) else ""
         yield Finding(
             Severity.WARNING,
             f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "
-            f"{in_words(octave)}; `gripscale cut-off` computes it.",
+            f"{in_words(octave)}{cure}.",
             friction=octave.get("friction", math.nan),
             area=octave.get("contact_fraction", math.nan),
             topic=Topic.SURFACE,
@@ -81,11 +89,59 @@ def answer_notices(data: xr.Dataset | None) -> Iterator[Finding]:
     if apart > LARGE_MISMATCH:
         yield Finding(
             Severity.WARNING,
-            f"The two frictions of the direct contact, from traction and from losses, differ by "
-            f"{percent_text(apart)}; the answer takes the one from losses.",
+            f"The two frictions of the {solved_model(data)}, from traction and from losses, "
+            f"differ by {percent_text(apart)}; the answer takes the one from "
+            f"{'losses' if is_measured(data) else 'traction'}.",
             friction=apart,
             topic=Topic.SOLUTION,
         )
+
+
+MEASURED_FRICTION, MEASURED_SPREAD = "measured_friction_of_load", "measured_spread_of_load"
+"""Names of measured friction at the speed of an answer, and of its standard deviation."""
+
+
+def measured_at_load(case: Case, measured: MeasuredFriction | None) -> dict[str, xr.Variable]:
+    """Return measured friction at the speed of a case; nothing where there is none.
+
+    Of several temperatures it is the one nearest to that of the case.
+    """
+    if measured is None:
+        return {}
+    kelvin = (case.conditions or Conditions()).temperature_of(case.rubber)
+    series = nearest_series(measured, kelvin)
+    at_speed = series.at(case.load.speed) if case.load.speed > 0.0 else None
+    if at_speed is None:
+        return {}
+    about = {"units": "1", "source": measured.source, "state": series.state}
+    return {
+        MEASURED_FRICTION: xr.Variable((), at_speed[0], about),
+        MEASURED_SPREAD: xr.Variable((), at_speed[1], about),
+    }
+
+
+def measured_words(data: xr.Dataset) -> str:
+    """Return the measured friction beside an answer, such as `0.64 ± 0.02 at 20 °C`."""
+    friction, spread = (float(data[name]) for name in (MEASURED_FRICTION, MEASURED_SPREAD))
+    about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
+    state = data[MEASURED_FRICTION].attrs["state"]
+    return f"{significant(friction)}{about}{f' at {state}' if state else ''}"
+
+
+def _against_measurement(data: xr.Dataset) -> Iterator[Finding]:
+    """Yield how an answer differs from the friction measured at its load."""
+    if MEASURED_FRICTION not in data:
+        return
+    answer, measured = headline(data, "friction"), float(data[MEASURED_FRICTION])
+    difference = answer.value / measured - 1.0
+    text = (
+        f"The answer is {percent_text(abs(difference))} {'below' if difference < 0.0 else 'above'} "
+        f"the measured friction, {measured_words(data)}"
+    )
+    if answer.interval:
+        holds = answer.low <= measured <= answer.high
+        text += f", which lies {'inside' if holds else 'outside'} its interval"
+    yield Finding(Severity.WARNING, f"{text}.", friction=difference, topic=Topic.MEASURED)
 
 
 def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:

@@ -1,6 +1,6 @@
 """Intervals: relative errors of a product, and the half width that holds the truth 9 times in 10.
 
-A best estimate is a product of positive numbers, each with the standard error s_i of its logarithm
+An answer is a product of positive numbers, each with the standard error s_i of its logarithm
 and n_i degrees of freedom of that error. The errors are independent, so that
 
     s^2 = sum(s_i^2),    n = s^4 / sum(s_i^4 / n_i)

@@ -16,12 +16,18 @@ from gripscale.core.finding import Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
-from gripscale.questions.answer.best_estimate import ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
-from gripscale.questions.answer.findings import no_answer_notices
-from gripscale.questions.answer.intervals import LEVEL, interval_ends
+from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
+from gripscale.questions.answer.findings import (
+    MEASURED_FRICTION,
+    measured_words,
+    no_answer_notices,
+)
+from gripscale.questions.answer.intervals import LEVEL
+from gripscale.questions.answer.reliance import headline
 from gripscale.questions.cut_off.curve import CONTINUED_TO
+from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.inputs.page import rubber_section, surface_section
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
@@ -29,7 +35,10 @@ from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
+from gripscale.surface.direction import ERROR_OF_RIDGES
 
+_SHORT = {"friction": "μ", "contact_fraction": "area"}
+_WORDS = {"friction": "friction", "contact_fraction": "area"}
 _PICTURE = (
     "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
     "that rise in the sliding direction. The page holds the lowest and highest values of pieces of "
@@ -37,126 +46,165 @@ _PICTURE = (
 )
 
 
-def answer_lines(data: xr.Dataset | None) -> Iterator[str]:
+def answer_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the answer of a result of one load, then what it rests on; or why there is none."""
     statement = reliance.no_answer(data)
-    if data is None or not reliance.has_answer(data):
+    if not reliance.has_answer(data):
         yield f"Answer: {statement}"
         return
-    names = reliance.estimated_names(data)
-    texts = (f"{SYMBOLS[name]} = {number_and_interval(data, name)}" for name in names)
-    numbers = ", ".join(texts)
     lead = f"{statement} It would be " if statement else ""
-    rest = "" if reliance.is_moving(data) else "no friction at rest; "
-    level = " without an interval"
-    if math.isfinite(float(data.best_contact_fraction_half_width)):
-        level = f" ({100.0 * LEVEL:.0f} % intervals)"
-    yield f"Answer: {lead}{rest}{numbers}{level}"
+    yield f"Answer: {lead}{answer_words(data)}"
     yield from (f"  {line}" for line in basis_lines(data))
 
 
+def answer_words(data: xr.Dataset) -> str:
+    """Return the numbers of an answer with their intervals, and the parts of the friction."""
+    texts = []
+    for name in reliance.estimated_names(data):
+        texts.append(f"{SYMBOLS[name]} = {reliance.headline(data, name)}")
+        parts = friction_parts(data)
+        if name == "friction" and parts:
+            texts[-1] += f": {parts}"
+    numbers = ("; " if "area term" in texts[0] else ", ").join(texts)
+    rest = "" if reliance.is_moving(data) else "no friction at rest; "
+    by = "" if reliance.is_measured(data) else " by the chain of waves"
+    if reliance.headline(data, "contact_fraction").interval:
+        return f"{rest}{numbers}{by} ({100.0 * LEVEL:.0f} % intervals)"
+    return f"{rest}{numbers}{by}{',' if by else ''} without an interval"
+
+
+def friction_parts(data: xr.Dataset) -> str:
+    """Return what the friction of an answer with an area term is the sum of; else empty."""
+    parts = (reliance.answer_number(data, name).value for name in ("friction", "adhesive_friction"))
+    hysteresis, term = parts
+    if not math.isfinite(term):
+        return ""
+    return f"{significant(hysteresis)} of hysteresis and {significant(term)} of the area term"
+
+
 def basis_lines(data: xr.Dataset) -> Iterator[str]:
-    """Yield what a best estimate is for, what it is made of, and what it rests on."""
+    """Yield what an answer is for, how it was solved and corrected, and what its interval holds."""
     if not reliance.has_answer(data):
         return
-    names = reliance.estimated_names(data)
     pressure, speed = (
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
         for name in ("pressure", "speed")
     )
-    motion = f"and {speed}" if reliance.is_moving(data) else "at rest, where there is no friction"
+    motion = f"and {speed}" if reliance.is_moving(data) else "at rest"
     end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
     thick = ""
     if "thickness" in data:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
         thick = f", rubber {thickness} thick on a rigid base"
-    yield f"for {pressure} {motion}, roughness down to {end}{thick}"
-    yield f"from {' × '.join(_factors(data, names))}"
-    rests = list(_rests_on(data, names[0]))
-    if rests:
-        yield "; ".join(rests)
+    yield f"For {pressure} {motion}, roughness down to {end}{thick}."
+    if MEASURED_FRICTION in data:
+        yield f"Measured: μ = {measured_words(data)}."
+    if not reliance.is_measured(data):
+        yield "Solved on sine waves by the chain of waves; no measured surface judges it."
+        return
+    yield _corrections(data)
+    yield from (f"{line[0].upper()}{line[1:]}." for line in _in_interval(data))
 
 
 def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact area with their intervals."""
     if not reliance.has_answer(data):
         return
-    source = "not to be relied on" if reliance.no_answer(data) else "best estimate"
+    source = "not to be relied on" if reliance.no_answer(data) else "answer"
+    if not reliance.is_measured(data):
+        source = "by the chain of waves"
     for name in reliance.estimated_names(data):
-        title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        ends = interval_text(data, name)
-        detail = f"{source}; {ends} ({100.0 * LEVEL:.0f} %)" if ends else source
-        value = significant(float(data[f"best_{name}"]))
-        yield Card(title, value, detail, bad=bool(reliance.no_answer(data)))
+        title, number = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}", headline(data, name)
+        parts = [source, f"{number.interval} ({100.0 * LEVEL:.0f} %)" if number.interval else ""]
+        parts.append(friction_parts(data) if name == "friction" else "")
+        detail = "; ".join(filter(None, parts))
+        yield Card(title, significant(number.value), detail, bad=bool(reliance.no_answer(data)))
+    if MEASURED_FRICTION in data:
+        value = significant(float(data[MEASURED_FRICTION]))
+        yield Card("Measured friction μ", value, measured_words(data))
 
 
-def number_and_interval(data: xr.Dataset, name: str) -> str:
-    """Return a best estimate and its interval, such as `0.19 (0.15 to 0.23)`."""
-    ends = interval_text(data, name)
-    return f"{significant(float(data[f'best_{name}']))}{f' ({ends})' if ends else ''}"
-
-
-def interval_text(data: xr.Dataset, name: str) -> str:
-    """Return the interval of a best estimate, such as `0.15 to 0.23`; empty if there is none."""
-    ends = interval_ends(data[f"best_{name}"], data[f"best_{name}_half_width"])
-    low, high = map(float, ends)
-    return f"{significant(low)} to {significant(high)}" if math.isfinite(low) else ""
-
-
-def _factors(data: xr.Dataset, names: tuple[str, ...]) -> Iterator[str]:
-    """Yield the direct contact and each factor on it, friction first."""
-    measured = reliance.is_measured(data)
-    yield "the direct contact of the measured surface" if measured else "the chain of waves"
-    for at, label in enumerate(data.factor_label.values):
-        values = {name: float(data[f"best_{name}_factor"][at]) for name in names}
+def _corrections(data: xr.Dataset) -> str:
+    """Return what the direct contact alone says, and each factor on it."""
+    names, labels = reliance.estimated_names(data), data.factor_label.values
+    factors = {name: data[f"answer_{name}_factor"].values for name in names}
+    solved = ", ".join(
+        f"{_SHORT[name]} {significant(float(data[f'answer_{name}']) / np.nanprod(factors[name]))}"
+        for name in names
+    )
+    steps = []
+    for at, label in enumerate(labels):
+        values = {_WORDS[name]: float(factors[name][at]) for name in names}
         if not all(map(math.isfinite, values.values())):
             continue
-        sigma = float(data[f"best_{names[0]}_factor_uncertainty"][at])
-        numbers = ", ".join(f"{SYMBOLS[name]} × {significant(v)}" for name, v in values.items())
-        assumed = np.allclose(list(values.values()), 1.0)
-        yield f"{label} ({f'1 ± {percent_text(sigma)}' if assumed else numbers})"
+        text = ", ".join(f"{word} {signed_percent(value - 1.0)}" for word, value in values.items())
+        if np.allclose(list(values.values()), 1.0):  # assumed to change nothing
+            sigma = float(data[f"answer_{names[0]}_factor_uncertainty"][at])
+            steps.append(f"{label} ± {percent_text(sigma)} (assumed)")
+        else:
+            steps.append(f"{label}: {text}")
+    where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
+    corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
+    return f"Solved on {where} at small strain ({solved}){corrected}.{_beside_run(data)}"
 
 
-def _rests_on(data: xr.Dataset, name: str) -> Iterator[str]:
-    """Yield the error of the sampling, what is assumed or left out, and the area term."""
-    sampling = float(data[f"best_{name}_sampling_error"])
+def _beside_run(data: xr.Dataset) -> str:
+    """Return what a run answers, where large strain was solved for a comparison; else empty."""
+    factors = {
+        name: float(data[f"answer_{name}_factor"].values[0])
+        for name in reliance.estimated_names(data)
+    }
+    solved = data.factor_label.values[0] == ASSUMED_FINITE_STRAIN.label
+    if not solved or np.allclose(list(factors.values()), 1.0):
+        return ""
+    numbers = ", ".join(
+        f"{_SHORT[name]} {significant(float(data[f'answer_{name}']) / factor)}"
+        for name, factor in factors.items()
+    )
+    return f" `gripscale run`, which assumes no change by large strain, has {numbers}."
+
+
+def _in_interval(data: xr.Dataset) -> Iterator[str]:
+    """Yield the error of the sampling, and what is assumed, left out or not in the interval."""
+    name, labels = reliance.estimated_names(data)[0], data.factor_label.values
+    sampling = float(data[f"answer_{name}_sampling_error"])
     if math.isfinite(sampling):
-        yield f"sampling of the road ± {percent_text(sampling)} (standard error)"
-    labels = data.factor_label.values
-    if LINES_TO_SURFACE in labels:
-        isotropic = str(data.attrs.get(ISOTROPIC, ISOTROPY_ASSUMED))
-        yield f"{isotropic[0].lower()}{isotropic[1:].rstrip('.')}"
+        yield f"sampling of the surface: ± {percent_text(sampling)} (standard error)"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
         yield (
-            f"{percent_text(float(below))} of the friction in waves shorter than {limit}, which "
-            "were not measured"
+            f"{percent_text(float(below))} of the friction is made in waves shorter than {limit}, "
+            "which were not measured"
         )
     missing = [
-        str(n) for n, v in zip(labels, data[f"best_{name}_factor"], strict=True) if v.isnull()
+        str(label)
+        for label, value in zip(labels, data[f"answer_{name}_factor"], strict=True)
+        if value.isnull()
     ]
     if missing:
         yield f"not included: {', '.join(missing)}"
-    if "part_label" not in data and math.isfinite(float(data[f"best_{name}_half_width"])):
-        yield "errors of the inputs are not in the interval (`gripscale sensitivity` lists them)"
-    term = reliance.answer_number(data, "adhesive_friction")
-    if math.isfinite(term):
-        both = significant(reliance.answer_number(data, "friction") + term)
-        yield f"an area term of {significant(term)} comes on top: μ = {both} with it"
+    unknown = []
+    if "part_label" not in data and headline(data, name).interval:
+        unknown.append("errors of the inputs (`gripscale uncertainty`)")
+    if ISOTROPIC in data.attrs:
+        yield str(data.attrs[ISOTROPIC]).rstrip(".")
+    elif LINES_TO_SURFACE in labels:
+        change = f"with ridges 3:1 the area changes up to {ERROR_OF_RIDGES:.1f} times"
+        unknown.append(f"lay: {change}")
+    if unknown:
+        yield f"not in the interval: {', and '.join(unknown)}"
 
 
 def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Finding]) -> Page:
     """Return the page of an answer: its numbers, the contact, and the inputs with their origin."""
-    solved = reliance.is_solved(data)
-    contact = contact_elements(data, record) if solved else []
     return Page.of(
         f"Contact and friction: {case_title(data.attrs)}",
         next(iter(basis_lines(data)), ""),
-        [*no_answer_notices(data if solved else None), *findings],
-        answer_cards(data) if solved else (),
+        [*no_answer_notices(data), *findings],
+        answer_cards(data),
         [
-            Section("contact", "Rubber on the surface", contact),
+            Section("contact", "Rubber on the surface", contact_elements(data, record)),
             Section("surface", "Surface", surface_section(record)),
             Section("rubber", "Rubber", rubber_section(record)),
             method_section(),
@@ -178,14 +226,14 @@ def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
 
 def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
     """Yield which slopes of the surface carry load and make friction, where that is known."""
-    if "best_friction_by_slope" not in direct:
+    if "answer_friction_by_slope" not in direct:
         return
     ends = direct.slope.values.tolist()
     names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
     columns = [
-        Column(name, direct[f"best_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
+        Column(name, direct[f"answer_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
         for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
-        if direct[f"best_{name}_by_slope"].notnull().all()
+        if direct[f"answer_{name}_by_slope"].notnull().all()
     ]
     caption = "Shares by slope of the surface, direct contact"
     yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)

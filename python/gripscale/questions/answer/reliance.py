@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import xarray as xr
 
 from gripscale import model
-from gripscale.chain.chain import Chain
 from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.questions.answer.best_estimate import DIRECT
-from gripscale.questions.answer.intervals import interval_ends
+from gripscale.io.table import significant
+from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -25,32 +25,24 @@ WORTH_NAMING = 0.005
 """Share of the contact on filled gaps that is as good as none."""
 
 
-def is_solved(data: xr.Dataset) -> bool:
-    """Return whether the direct contact of a measured surface was solved for a result."""
-    return model.STATUS in data
-
-
 def has_answer(data: xr.Dataset) -> bool:
-    """Return whether a result of one load holds a best estimate of the contact area."""
-    area = data.get("best_contact_fraction")
+    """Return whether a result of one load holds an answer of the contact area."""
+    area = data.get("answer_contact_fraction")
     return area is not None and not area.ndim and math.isfinite(float(area))
 
 
 def direct_of(data: xr.Dataset) -> xr.Dataset:
-    """Return the direct contact of a comparison with its best estimate; that of a run as it is."""
-    return data.sel(rung=DIRECT) if DIRECT in data.get("rung", ()) else data
+    """Return the model of a comparison that its answer is of; the result of a run as it is."""
+    if "model" not in data.dims:
+        return data
+    return data.sel(model=DIRECT) if DIRECT in data.model else data.isel(model=0)
 
 
-def no_answer(data: xr.Dataset | None) -> str:
+def no_answer(data: xr.Dataset) -> str:
     """Return why a result has no answer, or none to rely on; empty if it has one."""
-    if data is None or not (has_answer(data) or _status(data)):
-        return (
-            "none with an interval. Only the direct contact of a measured surface has an interval, "
-            "and none was solved."
-        )
     doubts = [doubt.sentence for doubt in model.input_doubts_of(data)]
     if not has_answer(data):
-        words = f"The direct contact of the measured surface has no result: {_status(data)}."
+        words = f"The {solved_model(data)} has no result: {_status(data)}."
         return " ".join(["none.", *doubts, words])
     guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
     reasons = [*doubts, *guessed, *_sampled_too_little(data)]
@@ -74,7 +66,7 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
             friction=beyond.share,
             topic=Topic.RUBBER,
         )
-    missing = float(data.get("best_missing_share", math.nan))
+    missing = float(data.get("answer_missing_share", math.nan))
     if missing > WORTH_NAMING:
         text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."
         yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
@@ -82,16 +74,17 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
 
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
     """Yield that the surface is too small for an interval, or for one that says something."""
-    widths = [float(data[f"best_{name}_half_width"]) for name in estimated_names(data)]
-    if not math.isfinite(float(data.best_contact_fraction_half_width)):
+    numbers = [headline(data, name) for name in estimated_names(data)]
+    if not math.isfinite(numbers[-1].low):
         if not is_measured(data):
-            yield "Fewer than two samples have an answer."
+            if "part_label" in data:
+                yield "Fewer than two samples have an answer."
             return
         yield (
-            "The measured surface is too small to tell how well it represents its road: it holds "
+            "The measured surface is too small to tell whether it stands for the whole: it holds "
             "fewer than four pieces of two largest waves."
         )
-    elif any(math.asinh(width) > math.log(2.0) for width in widths if math.isfinite(width)):
+    elif any(number.high > 2.0 * number.value for number in numbers):
         # the parts of an interval that is sampled say why
         why = "" if "part_label" in data else ": the measured surface is too small"
         yield f"The ends of the interval are more than a factor of two from the value{why}."
@@ -114,20 +107,45 @@ def estimated_names(data: xr.Dataset) -> tuple[str, ...]:
     return ("friction", "contact_fraction") if is_moving(data) else ("contact_fraction",)
 
 
+def solved_model(data: xr.Dataset) -> str:
+    """Return in words what an answer was solved by."""
+    return "direct contact of the measured surface" if is_measured(data) else "chain of waves"
+
+
 def is_measured(data: xr.Dataset) -> bool:
     """Return whether an answer is of a measured surface: otherwise it is the chain's."""
-    total = data.get("total_friction")
-    return total is None or total.attrs.get("source") != Chain.name
+    return data.sizes.get("factor", 0) > 0
 
 
-def answer_number(data: xr.Dataset, name: str) -> float:
-    """Return a number of an answer such as `friction` [-]; NaN without one."""
-    return float(data.get(f"best_{name}", math.nan)) if has_answer(data) else math.nan
+class AnswerNumber(NamedTuple):
+    """A number of an answer [-] with both ends of its 90 % interval; NaN where not known."""
+
+    value: float
+    low: float
+    high: float
+
+    @property
+    def interval(self) -> str:
+        """Its interval, such as `0.15 to 0.23`; empty if there is none."""
+        if not math.isfinite(self.low):
+            return ""
+        return f"{significant(self.low)} to {significant(self.high)}"
+
+    def __str__(self) -> str:
+        return f"{significant(self.value)}{f' ({self.interval})' if self.interval else ''}"
 
 
-def answer_interval(data: xr.Dataset, name: str) -> tuple[float, float]:
-    """Return both ends of the 90 % interval of a number of an answer [-]; NaN without one."""
-    if not has_answer(data):
-        return math.nan, math.nan
-    ends = interval_ends(data[f"best_{name}"], data[f"best_{name}_half_width"])
-    return float(ends[0]), float(ends[1])
+def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
+    """Return a number of the answer of one load, such as `total_friction`; NaN without one."""
+    ends = ("", "_low", "_high") if has_answer(data) else ()
+    numbers = [float(data.get(f"answer_{name}{end}", math.nan)) for end in ends]
+    return AnswerNumber(*(numbers or [math.nan] * 3))
+
+
+def headline(data: xr.Dataset, name: str) -> AnswerNumber:
+    """Return `friction` or `contact_fraction` of an answer as every face states it.
+
+    With an area term the friction is that of hysteresis and area term together.
+    """
+    with_term = name == "friction" and TOTAL in data
+    return answer_number(data, "total_friction" if with_term else name)

@@ -46,7 +46,6 @@ def sample_numbers(
     `curve_wavelength`. Friction at rest is zero. An area term of `conditions` that the model does
     not know is that of its contact area at the temperature before the contact.
     """
-    rest = float(answer["nominal_speed"]) == 0.0
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in model.BASIS:
@@ -54,8 +53,9 @@ def sample_numbers(
     for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]
-    if rest:
-        numbers |= {name: 0.0 * numbers[name] for name in SAMPLED_QUANTITIES if "friction" in name}
+    lines = () if task.surface.measured is None else task.surface.measured.cleaned
+    numbers["length"] = sum(line.length for line in lines) or math.nan
+    if float(answer["nominal_speed"]) == 0.0:
         numbers["friction_error"] = math.nan
     if model.ADHESIVE_FRICTION in answer or conditions is None:
         numbers["adhesive_friction"] = float(answer.get(model.ADHESIVE_FRICTION, math.nan))
@@ -166,6 +166,14 @@ def usable(samples: xr.Dataset, name: str) -> xr.DataArray:
     return samples[name].where(converged(samples))
 
 
+def mean(samples: xr.Dataset, name: str) -> xr.DataArray:
+    """Return the mean of a number over the samples that may be used, by their length."""
+    values = usable(samples, name)
+    if "length" not in samples:
+        return values.mean("sample")
+    return values.weighted(samples["length"].fillna(1.0)).mean("sample")
+
+
 def spread(values: xr.DataArray) -> xr.DataArray:
     """Return the standard deviation over the samples; NaN for fewer than two."""
     count = values.count("sample")
@@ -188,13 +196,13 @@ def in_quadrature(*parts: xr.DataArray) -> xr.DataArray:
 
 def estimated_error(samples: xr.Dataset, name: str) -> xr.DataArray:
     """Return the mean error of the samples as their models estimate it, relative."""
-    error = usable(samples, f"{name.removesuffix('_from_dissipation')}_error").mean("sample")
-    mean = usable(samples, name).mean("sample")
-    return error / abs(mean).where(mean != 0.0)
+    error = mean(samples, f"{name.removesuffix('_from_dissipation')}_error")
+    value = mean(samples, name)
+    return error / abs(value).where(value != 0.0)
 
 
 def road_error(samples: xr.Dataset, name: str) -> LogError:
-    """Return how well the mean of a number over the samples of one rung stands for its road.
+    """Return how well the mean of a number over the samples of one model stands for its road.
 
     From pieces of each surface, where the model knows them (`gripscale.half_space.sampling_error`);
     else from the scatter of the samples, or of the means of several subjects (profiles), because
@@ -203,6 +211,7 @@ def road_error(samples: xr.Dataset, name: str) -> LogError:
     values, there = usable(samples, name), converged(samples)
     of_piece = f"{name.removesuffix('_from_dissipation')}_sampling_error"
     if of_piece in samples and bool((samples[of_piece].notnull() | ~there).all() and there.any()):
+        values = values * samples.get("length", 1.0)
         total = values.sum("sample")
         error = ((values * usable(samples, of_piece)) ** 2).sum("sample") ** 0.5
         return LogError(error / total.where(total > 0.0), usable(samples, "freedom").sum("sample"))
@@ -225,7 +234,7 @@ def relative_uncertainty(samples: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray, LogError]:
-    """Return the ratio of the means of two rungs, and its relative standard error.
+    """Return the ratio of the means of two models, and its relative standard error.
 
     The error is from the scatter of the ratios of subjects that both have, or else from the scatter
     of both; the truth lies evenly within the errors that the models estimate.
@@ -257,7 +266,7 @@ def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
 
 
 def paired(first: xr.Dataset, second: xr.Dataset) -> bool:
-    """Return whether two rungs have one sample each of the same two subjects or more."""
+    """Return whether two models have one sample each of the same two subjects or more."""
     subjects, others = (
         samples["subject"].values[_present(samples)].tolist() for samples in (first, second)
     )

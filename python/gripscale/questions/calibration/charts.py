@@ -13,9 +13,10 @@ from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, ORANGE, WIDE
 from gripscale.core.units import DisplayUnit, display_unit_of
+from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
 from gripscale.questions.calibration.calibration_text import PARAMETERS, WRITTEN
 from gripscale.questions.compare.charts import measured_sheet
-from gripscale.questions.compare.charts_of_ladder import MARKERS, MeasuredSeries, measured
+from gripscale.questions.compare.charts_of_ladder import MARKERS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,7 +76,7 @@ def residual_figure(data: xr.Dataset) -> Figure:
     speed_unit = display_unit_of(data.attrs, "speed")
     width = "spread of the measurement" if spread else "scatter of the residuals"
     marks: list[Mark] = [CrossLine(-scale, FAINT, f"± {width}", to=scale), CrossLine(0.0)]
-    for number, series in enumerate(measured(data)):
+    for number, series in enumerate(measured_series(data)):
         marks.append(Series(
             speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
             series.state, "",

@@ -30,8 +30,8 @@ from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Load, Model
-from gripscale.questions.answer.best_estimate import AREA_TERM
 from gripscale.questions.answer.direct_contact import direct_contact_totals, each_measured
+from gripscale.questions.answer.estimate import AREA_TERM
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.cut_off.curve import contact_curves
 from gripscale.rubber import Rubber
@@ -255,7 +255,7 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
     """Return what the answer of a case with a measured surface states at each measured point.
 
     Friction and contact area are those of `gripscale.answer` at the speed, temperature and pressure
-    of a point: the direct contact of the profiles times the factors of the best estimate. A law
+    of a point: the direct contact of the profiles times the factors of the answer. A law
     that is fitted to them is multiplied with the same area when the case is answered with it.
     A missing temperature or pressure is that of the case.
 
@@ -295,8 +295,8 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
 
     data = xr.Dataset(
         {
-            "total_friction": column("best_friction"),
-            "total_contact_fraction": column("best_contact_fraction"),
+            "total_friction": column("answer_friction"),
+            "total_contact_fraction": column("answer_contact_fraction"),
             models.ADHESIVE_FRICTION: column(AREA_TERM),
             models.FRICTION_OUTSIDE_BAND: column(models.FRICTION_OUTSIDE_BAND),
             models.STATUS: texts(models.STATUS),

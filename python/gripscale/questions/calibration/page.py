@@ -22,7 +22,6 @@ from gripscale.model import STATUS, input_doubts_of, status_words
 from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written
 from gripscale.questions.calibration.charts import calibration_pictures
-from gripscale.questions.compare.charts_of_ladder import measured
 from gripscale.questions.uncertainty.page import as_elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Facts, Page, Section, Text
@@ -245,7 +244,9 @@ def measured_lines(
 
     Speeds are shown as `speed_unit` says.
     """
-    for series in measured(xr.Dataset(measured_friction.measured_variables(friction))):
+    for series in measured_friction.measured_series(
+        xr.Dataset(measured_friction.measured_variables(friction))
+    ):
         at = series.at(speed)
         where = f"{series.label[0].upper()}{series.label[1:]}"
         if at is None:
@@ -255,7 +256,4 @@ def measured_lines(
             continue
         value, spread = at
         about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
-        yield (
-            f"{where}: mu = {significant(value)}{about} at {speed_unit.text(speed)}; "
-            "`gripscale compare` puts every model beside every measured point."
-        )
+        yield f"{where}: μ = {significant(value)}{about} at {speed_unit.text(speed)}."

@@ -35,7 +35,7 @@ from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
 from gripscale.model import with_adhesive
-from gripscale.questions.answer.reliance import answer_interval, answer_number
+from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
 from gripscale.questions.vary.axis import EFFECTS, MODELS
@@ -51,7 +51,7 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     """Draw real contact area and friction of each named prediction, such as dynamic and static.
 
     Filled symbols are the running values, open symbols and thin lines those of each wave; a model
-    without waves is a level line at its total, with its best estimate as a band if it has one.
+    without waves is a level line at its total, with its answer as a band if it has one.
     Friction leaves out what is at rest, which has none;
     of a prediction without a single converged wave the legend says that there is nothing to draw.
     Lines are dashed beyond the measured band of the rubber.
@@ -156,8 +156,8 @@ def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Itera
 
 
 def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Mark]:
-    """Yield the best estimate with its interval, if there is one."""
-    best, (low, high) = answer_number(view.data, quantity), answer_interval(view.data, quantity)
+    """Yield the answer with its interval, if there is one."""
+    best, low, high = headline(view.data, quantity)
     if not np.isfinite(best):
         return
     measured = np.isfinite(low)

@@ -123,12 +123,12 @@ def study_sentence(data: xr.Dataset) -> str:
 
 
 def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
-    """Yield a warning for each rung with friction beyond the band, of a comparison over an axis."""
+    """Yield a warning for each model of a comparison with friction beyond the band."""
     for at, label in enumerate(comparison.label.values):
-        rung = comparison.isel(rung=at)
-        text = study_sentence(rung)
+        member = comparison.isel(model=at)
+        text = study_sentence(member)
         if text:
-            share = float(rung[model.FRICTION_OUTSIDE_BAND].max())
+            share = float(member[model.FRICTION_OUTSIDE_BAND].max())
             yield Finding(Severity.WARNING, f"{label}: {text}", share, topic=Topic.RUBBER)
 
 

@@ -26,6 +26,8 @@ from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult
 
 DYNAMIC, STATIC = "dynamic", "static"
+CHAIN_REPORT = "chain.txt"
+"""Tables of the chain in the folder of a run."""
 _KEY, FINISHED = "prediction_key", "prediction_finished"
 """Attributes of a result: what it depends on, and whether its chain came to its end."""
 

@@ -7,6 +7,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 
 from gripscale.charts.figure_folder import FigureProcess, Figures
+from gripscale.questions.answer.reliance import is_measured
 from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
@@ -16,7 +17,7 @@ from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.record import excited
-from gripscale.questions.words import JUDGE
+from gripscale.questions.words import JUDGE, OF_THE_PAPER
 
 
 @contextmanager
@@ -74,9 +75,12 @@ def _draw_blocks(run: ChainRun, figures: Figures) -> None:
 
 def _draw_contact(run: ChainRun, figures: Figures) -> None:
     """Draw area and friction of all predictions, what judges them, and against the cut-off."""
-    predictions = map(run.dataset, run.predictions)
-    titles = {PredictionView(data).title.lower(): data for data in predictions}
-    if run.answer is not None and run.answer.is_solved:
+    titles = {}
+    for name in run.predictions:
+        view = PredictionView(run.dataset(name))
+        of = "" if run.case.surface.measured is None else f"{OF_THE_PAPER}, "
+        titles[f"{of}{view.title.lower()}"] = view.data
+    if run.answer is not None and is_measured(run.answer.data):
         titles[JUDGE] = run.answer.data
     figures.save(contact_sheet(titles), "contact_and_friction")
     if run.answer is not None and run.answer.curve is not None:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-import xarray as xr
 
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic, ranked
@@ -18,7 +16,7 @@ from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
-from gripscale.questions.answer.reliance import has_answer, no_answer
+from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.calibration.page import measured_lines
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
@@ -35,6 +33,7 @@ from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs import page as inputs
 from gripscale.questions.uncertainty import page as uncertainty
 from gripscale.questions.vary import page_side_by_side as side_by_side
+from gripscale.questions.words import OF_THE_PAPER
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import (
     Card,
@@ -85,6 +84,7 @@ def run_page(run: RunSource) -> Page:
     origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
+    measured = run.direct is not None and is_measured(run.direct)
     return Page.of(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
@@ -99,26 +99,34 @@ def run_page(run: RunSource) -> Page:
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", surface),
             Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
-            Section("results", "Contact and friction, wave by wave", _results(run, tables)),
+            Section("results", _chain_title(run), _results(run, tables), folded=measured),
             Section("measured", "Measured friction", _measured(run)),
             Section(
                 "cut-off",
                 "Against the cut-off",
                 [] if run.cut_off is None else CutOff(run.cut_off).elements(),
             ),
-            Section("effects", "What each effect is worth", effects),
+            Section("effects", "What each effect is worth to the chain", effects, folded=measured),
             Section(
                 "blocks",
                 "Deformed blocks",
                 list(map(blocks_image, meshed)) or [Text("The result holds no deformed meshes.")],
+                folded=measured,
             ),
             Section("comparison", "Models side by side", _comparison(run)),
-            Section("verification", "Verification", _verification(run, tables)),
+            Section("verification", "Verification", _verification(run, tables), folded=measured),
             method_section(),
             rerun_section(run.attrs),
         ],
         () if run.direct is None else answer.basis_lines(run.direct),
     )
+
+
+def _chain_title(run: RunSource) -> str:
+    """Return the title of the chapter of the chain: beside an answer it is a comparison."""
+    if run.direct is None or not is_measured(run.direct):
+        return "Contact and friction, wave by wave"
+    return f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, for comparison"
 
 
 def _load_facts(run: RunSource) -> Facts:
@@ -164,8 +172,9 @@ def _load_facts(run: RunSource) -> Facts:
 def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:
     sentences = [(view.title, exponent_sentence(view.data)) for view in run.predictions]
     below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
-    if run.direct is not None:
-        below.append(Text(" ".join(comparison.judgement(run.predictions[0], run.direct))))
+    judge = run.direct if run.direct is not None and is_measured(run.direct) else None
+    if judge is not None:
+        below += map(Text, comparison.judgement(run.predictions[0], judge))
     if not run.by_wave:
         return [Text("The model has no waves; its totals stand above."), *below]
     names = ("load", "contact", "conditions", "further")
@@ -173,7 +182,7 @@ def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:
     if any(not view.moving for view in run.by_wave):
         rest = "A prediction at rest has no friction; its columns are left out."
         elements.insert(0, Text(rest))
-    return [*elements, *below, *contact_charts(run.by_wave, run.direct)]
+    return [*elements, *below, *contact_charts(run.by_wave, judge)]
 
 
 def _measured(run: RunSource) -> list[Element]:
@@ -192,7 +201,7 @@ def _comparison(run: RunSource) -> list[Element]:
     same = run.compared.of(run.attrs.get("case"))
     stale = len(same.parts) < len(run.compared.parts)
     answered = same.ladder is not None and has_answer(same.ladder)
-    lines = answer.answer_lines(same.ladder) if answered else ()
+    lines = answer.answer_lines(same.ladder) if same.ladder is not None and answered else ()
     heads: list[Element] = [Finding(Severity.WARNING, STALE)] if stale else []
     return [*heads, *(Text(line.strip()) for line in lines), *comparison.comparison_elements(same)]
 
@@ -217,11 +226,9 @@ def notices(run: RunSource) -> list[Finding]:
     findings = [
         *run_failures(run),
         *friction_doubts(run.measured, run.predictions[0].speed),
-        *no_answer_notices(direct),
+        *([] if direct is None else no_answer_notices(direct)),
         *case_notices(direct, run.record),
     ]
-    if direct is not None and not no_answer(direct):
-        findings += _beside_the_answer(run.predictions[0], direct)
     for view in run.predictions:
         beyond, share = prediction_sentence(view), model.extrapolation_of(view.data).share
         if beyond and not answered:
@@ -272,44 +279,21 @@ def _advice(word: str) -> str:
     return f"{status.advice} See {chapter_words(status.chapter)}."
 
 
-def _beside_the_answer(chain: PredictionView, direct: xr.Dataset) -> Iterator[Finding]:
-    """Yield how the totals of the chain differ from the best estimate of the same load."""
-    if not chain.complete:
-        return
-    names = ("friction", "contact_fraction") if chain.moving else ("contact_fraction",)
-    ratios = {name: chain.total(name) / float(direct[f"best_{name}"]) for name in names}
-    area = f"{ratios['contact_fraction']:.2g} times the contact area"
-    text = f"{ratios['friction']:.2g} times the friction and {area}" if chain.moving else area
-    yield Finding(
-        Severity.WARNING,
-        f"The chain of waves has {text} of the best estimate.",
-        ratios.get("friction", math.nan) - 1.0,
-        ratios["contact_fraction"] - 1.0,
-        Topic.SOLUTION,
-    )
-
-
 def run_cards(run: RunSource) -> Iterator[Card]:
-    """Yield the answer of the measured surface, then the totals of each prediction."""
+    """Yield the answer; without one, the totals of each prediction."""
     answered = [] if run.direct is None else list(answer.answer_cards(run.direct))
     yield from answered
     for view in run.predictions:
-        yield from _cards(view, beside_answer=bool(answered))
+        if not answered or not view.complete:
+            yield from _cards(view)
 
 
-def _cards(view: PredictionView, *, beside_answer: bool) -> Iterator[Card]:
-    """Yield the totals of a prediction, in one card beside the answer of the measured surface."""
+def _cards(view: PredictionView) -> Iterator[Card]:
+    """Yield the totals of a prediction."""
     if not view.complete:
         yield Card("No totals", "not converged", view.title, bad=True)
         return
     area = number_text(view.total("contact_fraction"))
-    if beside_answer:
-        if view.moving:
-            friction = number_text(view.total("friction"))
-            yield Card("Chain of waves, μ", friction, f"{view.title}; A_r/A_0 {area}")
-        else:
-            yield Card("Chain of waves, A_r/A_0", area, view.title)
-        return
     waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
     yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
     if not view.moving:

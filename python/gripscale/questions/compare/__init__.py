@@ -9,6 +9,6 @@ FORMS = (
         "compare",
         "Comparison of models",
         "What each assumption of the chain costs, against the direct contact.",
-        (FormField("--rungs", "models", "waves,measured,theory"),),
+        (FormField("--models", "models", "waves,measured,theory"),),
     ),
 )

@@ -1,4 +1,4 @@
-"""Charts of a comparison: from rung to rung, down to each wavelength, over a varied input.
+"""Charts of a comparison: from model to model, down to each wavelength, over a varied input.
 
 Roads and compounds side by side are in `gripscale.questions.vary.charts_side_by_side`.
 """
@@ -23,13 +23,13 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
+from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
-from gripscale.questions.answer.best_estimate import AREA_TERM
 from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
+from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
-from gripscale.questions.words import AXIS_TITLES
+from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,11 +45,11 @@ _LINE = 24
 
 
 def comparison_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of each rung and the factor from the rung it follows.
+    """Draw area and friction of each model and the factor from the model it follows.
 
     Below the direct contact, which judges the others, stand the theories, the factors of the best
     estimate and the estimate itself, and what was measured at this speed. Dots are the samples. A
-    rung with failed samples is open.
+    model with failed samples is open.
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
@@ -65,7 +65,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
 
 
 def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
-    """Return the steps from rung to rung, and the rungs down to each wavelength."""
+    """Return the steps from model to model, and the models down to each wavelength."""
     panels = []
     for name in _quantities(comparison):
         panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
@@ -99,15 +99,15 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     low, high = low / widen, high * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
-    rungs = ladder.on_the_surface(comparison).sizes["rung"]
-    borders = [rungs - theories - 0.5, rungs - 0.5] if theories else [rungs - 0.5]
+    models = ladder.on_the_surface(comparison).sizes["model"]
+    borders = [models - theories - 0.5, models - 0.5] if theories else [models - 0.5]
     marks: list[Mark] = [chart.CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
         if math.isfinite(follower.before) and follower.before == row.value:
             marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
     marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
-    labels = zip(comparison.rung.values, comparison.label.values, strict=True)
-    strong = {BEST} | {f"{label}{end}" for rung, label in labels if rung == DirectContact.name
+    labels = zip(comparison.model.values, comparison.label.values, strict=True)
+    strong = {BEST} | {f"{label}{end}" for member, label in labels if member == DirectContact.name
                        for end in ("", STAR)}  # fmt: skip
     words, capital = _words(name)
     return Panel(
@@ -116,7 +116,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,
         name=f"ladder-{name}",
-        caption=f"{capital} from rung to rung: a bar runs from the rung before, blue "
+        caption=f"{capital} from model to model: a bar runs from the model before, blue "
         "where the number falls, orange where it rises; lines are one standard uncertainty, a "
         "star is for friction partly beyond the measured band.",
         alt=f"{words} of each model, with the step from the one before.",
@@ -156,7 +156,7 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
 
 
 def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of each rung down to each wavelength.
+    """Draw area and friction of each model down to each wavelength.
 
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
@@ -171,11 +171,11 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     length = data.wavelength.values / MILLI
     beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
     marks: list[Mark] = []
-    for rung, look in _rungs(data):
-        values = rung[f"running_{name}"].values
+    for member, look in _compared_models(data):
+        values = member[f"running_{name}"].values
         solved = np.isfinite(values)
         if solved.any():
-            marks.append(_curve(length[solved], values[solved], rung, look, beyond[solved]))
+            marks.append(_curve(length[solved], values[solved], member, look, beyond[solved]))
     area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
         chart.wavelength_axis(length),
@@ -189,27 +189,27 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     )
 
 
-def _rungs(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
-    names = [str(name) for name in data["rung"].values]
+def _compared_models(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
+    names = [str(name) for name in data["model"].values]
     for at, look in enumerate(ladder.looks(names)):
-        yield data.isel(rung=at), look
+        yield data.isel(model=at), look
 
 
-def _curve(x: Array, y: Array, rung: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
-    """Return the curve of a rung; the one the others are judged by is drawn stronger."""
-    strong = str(rung.rung.item()) == DirectContact.name
+def _curve(x: Array, y: Array, member: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
+    """Return the curve of a model; the one the others are judged by is drawn stronger."""
+    strong = str(member.model.item()) == DirectContact.name
     width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
-    return Series(x, y, look.colour, str(rung.label.item()), look.dash, width, look.marker, size,
+    return Series(x, y, look.colour, str(member.label.item()), look.dash, width, look.marker, size,
                   beyond=beyond, order=order, clip=False)  # fmt: skip
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of all rungs over the axis of a comparison, with what was measured."""
+    """Draw area and friction of all models over the axis of a comparison, and measurements."""
     return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
 def axis_charts(comparison: xr.Dataset) -> list[Chart]:
-    """Return area and friction of every rung over the axis of a comparison."""
+    """Return area and friction of every model over the axis of a comparison."""
     return draw.panels_on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
 
 
@@ -222,25 +222,24 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     x = axis_shown(comparison, axis).of(comparison[axis].values)
     area, (words, capital) = name == "contact_fraction", _words(name)
     marks: list[Mark] = []
-    for rung, look in _rungs(comparison):
-        values, spread = rung[f"total_{name}"].values, rung[f"{name}_spread"].values
+    for member, look in _compared_models(comparison):
+        values, spread = member[f"total_{name}"].values, member[f"{name}_spread"].values
         if not np.isfinite(values).any():
             continue
-        curve = _curve(x, values, rung, look, style.predictions_beyond(rung))
-        marks.append(replace(curve, filled=(rung.converged_samples == rung.samples).values))
+        curve = _curve(x, values, member, look, style.predictions_beyond(member))
+        marks.append(replace(curve, filled=(member.converged_samples == member.samples).values))
         if np.isfinite(spread).any():
             # A spread above the number itself has no end on a logarithmic axis.
             low = np.maximum(values - spread, 1e-3 * values)
             marks.append(ShadedBand(x, low, values + spread, look.colour, curve.label, alpha=0.18))
-    if np.isfinite(comparison[f"best_{name}_factor"]).any():
-        best, width = (comparison[f"best_{name}{end}"].values for end in ("", "_half_width"))
-        ends = {"low": best * np.exp(-np.arcsinh(width)), "high": best * np.exp(np.arcsinh(width))}
-        marks.append(Series(x, best, INK, BEST, "", marker="*", size=8.0, order=4.0, **ends))
-        if name == "friction" and AREA_TERM in comparison:
-            both = best + comparison[AREA_TERM].values
-            marks.append(Series(x, both, INK, f"{BEST}, with the area term", "dashdot"))
+    if np.isfinite(comparison[f"answer_{name}_factor"]).any():
+        answer = believed(comparison, name)
+        values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
+        marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0,
+                            low=ends[0], high=ends[1]))  # fmt: skip
     adhesive = with_adhesive(comparison) if name == "friction" else None
-    for (_, look), values in zip(_rungs(comparison), () if adhesive is None else adhesive.values,
+    for (_, look), values in zip(_compared_models(comparison),
+                                 () if adhesive is None else adhesive.values,
                                  strict=adhesive is not None):  # fmt: skip
         if np.isfinite(values).any():
             marks.append(Series(x, values, look.colour, "with the area term", "dashdot", width=0.9))
@@ -298,7 +297,7 @@ def measured_sheet(
     """
     speed_unit = display_unit_of(data.attrs, "speed")
     panels = []
-    series = zip(ladder.measured(data), ladder.measured_points(data, speed_unit), strict=True)
+    series = zip(measured_series(data), ladder.measured_points(data, speed_unit), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(

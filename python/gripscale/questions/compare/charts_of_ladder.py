@@ -1,4 +1,4 @@
-"""What comparisons show: the look of each rung, rows of the ladder, measured friction."""
+"""What comparisons show: the look of each model, rows of the ladder, measured friction."""
 
 from __future__ import annotations
 
@@ -14,20 +14,21 @@ from numpy.typing import NDArray
 from gripscale.charts import style
 from gripscale.charts.chart import Series
 from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
-from gripscale.core.arrays import Array
-from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
+from gripscale.core.units import DisplayUnit
+from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
+from gripscale.questions.answer.reliance import headline
 
 ASIDE = ("windows",)
-"""Groups of other surfaces, which only give the factors of the best estimate."""
+"""Groups of other surfaces, which only give factors of the answer."""
 SEEN = 0.01
 """Share of friction or area from which on a wavelength is drawn: longer waves do nothing."""
 
 
 class Look(NamedTuple):
-    """Colour, dash and marker of a rung.
+    """Colour, dash and marker of a model.
 
-    A rung differs from the others by marker as well as by colour. Its line is solid or dotted:
+    A model differs from the others by marker as well as by colour. Its line is solid or dotted:
     dashed is what rests on the rubber beyond its measured band.
     """
 
@@ -52,11 +53,11 @@ OTHER_LOOKS = (
     Look(INK, "solid", "h"),
     Look(GREY, "dotted", "p"),
 )
-"""For rungs that have no look of their own, in turn."""
+"""For models that have no look of their own, in turn."""
 
 
 def looks(names: list[str]) -> list[Look]:
-    """Return the look of each named rung, in order."""
+    """Return the look of each named model, in order."""
     strangers = [name for name in names if name not in LOOKS]
     return [
         LOOKS.get(name) or OTHER_LOOKS[strangers.index(name) % len(OTHER_LOOKS)] for name in names
@@ -64,90 +65,38 @@ def looks(names: list[str]) -> list[Look]:
 
 
 def flawed(comparison: xr.Dataset) -> list[bool]:
-    """Return for each rung whether a sample of it failed."""
+    """Return for each model whether a sample of it failed."""
     few: list[bool] = (comparison["converged_samples"] < comparison["samples"]).values.tolist()
     return few
 
 
 def varied(comparison: xr.Dataset) -> str:
     """Return the axis of a comparison, or an empty text if nothing was varied."""
-    return next((str(dim) for dim in comparison.total_friction.dims if dim != "rung"), "")
+    return next((str(dim) for dim in comparison.total_friction.dims if dim != "model"), "")
 
 
 def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
-    """Return for each octave whether a rung has friction or lost area down to it."""
+    """Return for each octave whether a model has friction or lost area down to it."""
     friction, area = comparison.running_friction, comparison.running_contact_fraction
     if not friction.size:  # maps and windows at finite strain have no octaves
         return np.zeros(0, dtype=np.bool_)
     begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
-    return np.asarray((begun | (area < 1.0 - SEEN)).any("rung").values)
+    return np.asarray((begun | (area < 1.0 - SEEN)).any("model").values)
 
 
 def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
-    """Return the comparison without the rungs of other surfaces, unless it has no others."""
+    """Return the comparison without the models of other surfaces, unless it has no others."""
     chosen = [str(group) not in ASIDE for group in comparison.group.values]
-    return comparison.isel(rung=chosen) if any(chosen) else comparison
+    return comparison.isel(model=chosen) if any(chosen) else comparison
 
 
 MARKERS = "osD^v"
 """Of measurements at several temperatures or pressures."""
 
 
-class MeasuredSeries(NamedTuple):
-    """Measured friction at one temperature and pressure over rising speed [m/s]."""
-
-    state: str
-    """Temperature, and pressure if there are several; empty if unknown."""
-    speed: Array
-    friction: Array
-    spread: Array
-    rows: NDArray[np.intp]
-    """Their places among the points of the measurement, which are in any order."""
-
-    @property
-    def label(self) -> str:
-        """What figures and tables call it."""
-        return f"measured, {self.state}" if self.state else "measured"
-
-    def at(self, speed: float) -> tuple[float, float] | None:
-        """Return friction and spread at `speed`, interpolated in its logarithm; None outside."""
-        if not self.speed[0] <= speed <= self.speed[-1]:
-            return None
-        at, speeds = math.log(speed), np.log(self.speed)
-        friction, spread = (np.interp(at, speeds, row) for row in (self.friction, self.spread))
-        return float(friction), float(spread)
-
-
-def measured(data: xr.Dataset) -> Iterator[MeasuredSeries]:
-    """Yield what was measured at each temperature, to the kelvin, and each pressure."""
-    if "measured_friction" not in data:
-        return
-    kelvin = np.round(data.measured_temperature.values)
-    pascal = data.measured_pressure.values
-    several = np.unique(pascal).size > 1
-    by_speed = np.argsort(data.measured_speed.values, kind="stable")
-    pressure_unit = display_unit_of(data.attrs, "pressure")
-    for temperature in np.unique(kelvin):
-        for pressure in np.unique(pascal):
-            here = np.isclose(kelvin, temperature, equal_nan=True)
-            here &= np.isclose(pascal, pressure, rtol=0.0, atol=0.0, equal_nan=True)
-            if not here.any():
-                continue
-            rows = by_speed[here[by_speed]]
-            words = []
-            if not math.isnan(temperature):
-                words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
-            if several and not math.isnan(pressure):
-                words.append(pressure_unit.text(float(pressure), 3))
-            speed, friction, spread = (
-                data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
-            )
-            yield MeasuredSeries(", ".join(words), speed, friction, spread, rows)
-
-
 def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Series]:
     """Yield the points of each measured series over speed, in `speed_unit`, with their spread."""
-    for number, series in enumerate(measured(data)):
+    for number, series in enumerate(measured_series(data)):
         spread = np.nan_to_num(series.spread)
         ends: dict[str, Any] = {"low": series.friction - spread, "high": series.friction + spread}
         yield Series(speed_unit.of(series.speed), series.friction, INK, series.label, "",
@@ -155,9 +104,9 @@ def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Serie
                      clip=False, **ends)  # fmt: skip
 
 
-BEST = "best estimate"
+BEST = "answer"
 STAR = " *"
-"""Behind the label of a rung whose friction rests partly on the rubber beyond its measured band."""
+"""Behind the label of a model whose friction rests partly on rubber beyond its measured band."""
 
 
 @dataclass(frozen=True)
@@ -188,16 +137,16 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
     comparison = on_the_surface(comparison)
     values = dict(
-        zip(comparison.rung.values, comparison[f"total_{name}"].values.tolist(), strict=True)
+        zip(comparison.model.values, comparison[f"total_{name}"].values.tolist(), strict=True)
     )
-    for at, (rung, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
-        solved = comparison.isel(rung=at)
-        theory, judge = str(solved.group.item()) == "theory", rung == DirectContact.name
+    for at, (member, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
+        solved = comparison.isel(model=at)
+        theory, judge = str(solved.group.item()) == "theory", member == DirectContact.name
         samples = solved[f"sample_{name}"].values
         star = STAR if style.predictions_beyond(solved) else ""
         yield Row(
             f"{solved.label.item()}{star}",
-            values[rung],
+            values[member],
             float(solved[f"{name}_uncertainty"]),
             math.nan if theory else values.get(str(solved.follows.item()), math.nan),
             float(solved[f"{name}_factor"]),
@@ -205,34 +154,34 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
             marker="D" if judge else "s" if theory else "o",
             colour=GREY if theory else ORANGE if judge else INK,
             filled=not bad,
-            note="failed" if math.isnan(values[rung]) and not theory else "none",
+            note="failed" if math.isnan(values[member]) and not theory else "none",
         )
     yield from _best(comparison, name, values.get(DirectContact.name, math.nan))
     yield from _measured(comparison, name)
 
 
 def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
-    """Yield the factors of the best estimate, and the estimate where it differs from its base."""
-    factors = comparison[f"best_{name}_factor"].values
-    if not math.isfinite(float(comparison[f"best_{name}"])):
+    """Yield the factors of the answer, and the answer itself where it has any."""
+    factors = comparison[f"answer_{name}_factor"].values
+    if not math.isfinite(float(comparison[f"answer_{name}"])):
         return
     for at, factor in enumerate(factors):
         label = f"× {comparison.factor_label.values[at]}"
         if not math.isfinite(factor):
             yield Row(label, math.nan, note="not included")
             continue
-        sigma = float(comparison[f"best_{name}_factor_uncertainty"][at])
+        sigma = float(comparison[f"answer_{name}_factor_uncertainty"][at])
         yield Row(label, value * factor, sigma, value, factor)
         value *= factor
     if np.isfinite(factors).any():
-        best = float(comparison[f"best_{name}"])
-        width = float(np.arcsinh(comparison[f"best_{name}_half_width"]))
-        yield Row(BEST, best, width, marker="*", colour=ORANGE)
+        answer = headline(comparison, name)
+        width = math.log(answer.high / answer.value)
+        yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)
 
 
 def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the measured friction at the speed of the comparison, by temperature."""
-    for series in measured(comparison):
+    for series in measured_series(comparison):
         point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
         if point is None:
             note = "not at this speed" if name == "friction" else "–"

@@ -29,7 +29,7 @@ def compare_command(
         ),
     ] = None,
     measured: terminal.MeasuredPath = None,
-    rungs: Annotated[
+    models: Annotated[
         str | None,
         terminal.option(
             "Models wanted, by name or group (waves, measured, theory, windows, map), such "
@@ -84,15 +84,15 @@ def compare_command(
             console.print()
             terminal.print_parts(console, ["So far:", *answer_lines(solved.data), ""])
 
-    names = [] if rungs is None else [name.strip() for name in rungs.split(",")]
-    staged = any(rung.group == ladder.WINDOWS for rung in ladder.chosen(names))
+    names = [] if models is None else [name.strip() for name in models.split(",")]
+    staged = any(member.group == ladder.WINDOWS for member in ladder.chosen(names))
     result = question.compare(
         read,
         vary=axes,
         seeds=seeds,
         tolerance=tolerance,
         accuracy=accuracy,
-        rungs=names,
+        models=names,
         measured=None if measured is None else read_measured_friction(measured),
         on_stage=print_stage,
         **solving,
@@ -107,11 +107,11 @@ def compare_command(
     residuals: xr.Dataset | None = None
     if axes is None:
         assert result.ladder is not None
-        models: list[Model] = [read.chain] if read.conditions is not None else []
-        if models and read.surface.measured is not None:
-            models.append(DirectContact(tolerance=tolerance, conditions=read.conditions))
+        conditioned: list[Model] = [read.chain] if read.conditions is not None else []
+        if conditioned and read.surface.measured is not None:
+            conditioned.append(DirectContact(tolerance=tolerance, conditions=read.conditions))
         store = target / PREDICTIONS
-        effects = (case_effects(read, model, target, store, **bench) for model in models)
+        effects = (case_effects(read, model, target, store, **bench) for model in conditioned)
         worth = [effect for effect in effects if effect is not None]
         residuals = comparison.at_measured(result.ladder, store, **bench)
     if worth:
@@ -132,7 +132,7 @@ def compare_command(
             figures.save(effects_figure(*worth), "effects")
         if residuals is not None:
             data = result.data
-            labels = dict(zip(data.rung.values.tolist(), data.label.values.tolist(), strict=True))
+            labels = dict(zip(data.model.values.tolist(), data.label.values.tolist(), strict=True))
             figures.save(charts.at_measured_figure(residuals, labels), "at_measured")
 
     work.conclude(

@@ -1,4 +1,4 @@
-"""A comparison: every sample of every rung is a task, and the Dataset is over `rung`."""
+"""A comparison: every sample of every model is a task, and the Dataset is over `model`."""
 
 from __future__ import annotations
 
@@ -24,12 +24,13 @@ from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import input_doubts
-from gripscale.questions.answer import best_estimate as estimates
+from gripscale.questions.answer import estimate as estimates
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.best_estimate import Factor
+from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.intervals import half_width
+from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
-from gripscale.questions.compare.ladder import WINDOWS, ComparisonSetup, Rung, chosen
+from gripscale.questions.compare.ladder import WINDOWS, ComparedModel, ComparisonSetup, chosen
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import Study, coordinates
 from gripscale.rubber.extrapolation import require_measured
@@ -42,32 +43,32 @@ _WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), s
 
 @dataclass(frozen=True, eq=False)
 class SolvedLadder:
-    """The rungs of one case with their samples, under one load or over a varied input."""
+    """The models of one case with their samples, under one load or over a varied input."""
 
     case: Case
     setups: Sequence[ComparisonSetup]
     """What was compared: one, or one a value of `axis`."""
-    rungs: Sequence[Rung]
+    models: Sequence[ComparedModel]
     """Those with samples, in order."""
     samples: xr.Dataset
-    """Their answers over the axis, `rung` and `sample`, see `samples`."""
+    """Their answers over the axis, `model` and `sample`, see `samples`."""
     axis: Axis | None = None
     """The varied input."""
     measured: MeasuredFriction | None = None
     """Friction measured elsewhere, to be put beside the models."""
     factors: Sequence[Factor] = ()
-    """Factors of the best estimate known from elsewhere."""
+    """Factors of the answer known from elsewhere."""
     rubbers: Sequence[MeasuredRubber] = ()
     """The rubbers of the setups with their sources and doubts."""
 
     @property
     def converged(self) -> bool:
-        """Whether every sample of every rung may be used."""
+        """Whether every sample of every model may be used."""
         return bool((reduce.converged(self.samples) | (self.samples.prediction_status == "")).all())
 
     @cached_property
     def data(self) -> xr.Dataset:
-        """Everything as a labelled Dataset over the axis and `rung`."""
+        """Everything as a labelled Dataset over the axis and `model`."""
         return comparison_dataset(self)
 
 
@@ -98,13 +99,13 @@ def solved_ladder(
     *,
     seeds: int,
     tolerance: float,
-    rungs: Sequence[str],
+    models: Sequence[str],
     measured: MeasuredFriction | None,
     factors: Sequence[Factor],
     accuracy: float,
     on_stage: OnStage | None,
 ) -> SolvedLadder:
-    """Return the rungs of a case with their samples; arguments and errors as of `compare`."""
+    """Return the models of a case with their samples; arguments and errors as of `compare`."""
     tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
@@ -134,14 +135,14 @@ def solved_ladder(
             wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
             require_measured(setup.rubber_before, wavelength, speed)
 
-    wanted = chosen(rungs)
-    quick = [rung for rung in wanted if rung.group != WINDOWS]
-    asked: Sequence[Rung] = quick or wanted
+    wanted = chosen(models)
+    quick = [member for member in wanted if member.group != WINDOWS]
+    asked: Sequence[ComparedModel] = quick or wanted
     while True:
         design, solved = _design(setups, list(tasks), asked, axis)
         if not solved:
             raise InputError(
-                f"no rung of {', '.join(rungs)} applies to this case; windows and maps "
+                f"no model of {', '.join(models)} applies to this case; windows and maps "
                 "need measured profiles, klueppel_heinrich the parameters of [compare]"
             )
         numbers = partial(reduce.sample_numbers, conditions=setups[0].conditions)
@@ -187,26 +188,29 @@ def _axis(study: Study) -> Axis:
 def _design(
     setups: Sequence[ComparisonSetup],
     labels: Sequence[str],
-    rungs: Sequence[Rung],
+    models: Sequence[ComparedModel],
     axis: Axis | None,
-) -> tuple[Design, list[Rung]]:
-    """Return the samples of rungs over setups as a design, and the rungs that have any."""
-    draws = {rung: [rung.draws(setup) for setup in setups] for rung in rungs}
-    draws = {rung: specs for rung, specs in draws.items() if any(specs)}
+) -> tuple[Design, list[ComparedModel]]:
+    """Return the samples of models over setups as a design, and the models that have any."""
+    draws = {member: [member.draws(setup) for setup in setups] for member in models}
+    draws = {member: specs for member, specs in draws.items() if any(specs)}
     most = max((len(specs) for by_load in draws.values() for specs in by_load), default=0)
     subjects = np.full((len(draws), most), "", dtype=object)
     points = []
     for load, (label, setup) in enumerate(zip(labels, setups, strict=True)):
-        for at, (rung, by_load) in enumerate(draws.items()):
+        for at, (member, by_load) in enumerate(draws.items()):
             for number, spec in enumerate(by_load[load]):
                 subjects[at, number] = spec.subject
                 count = f" {number + 1} of {len(by_load[load])}" if len(by_load[load]) > 1 else ""
-                name = ": ".join(filter(None, [label, f"{rung.label}{count}"]))
+                name = ": ".join(filter(None, [label, f"{member.label}{count}"]))
                 task = Task(setup.rubber_for(spec.model), spec.surface, setup.load, spec.model)
                 index = (at, number) if axis is None else (load, at, number)
                 points.append(Point(index, name, task))
-    sizes = {"rung": len(draws), "sample": most}
-    coords = {"rung": [rung.name for rung in draws], "subject": (("rung", "sample"), subjects)}
+    sizes = {"model": len(draws), "sample": most}
+    coords = {
+        "model": [member.name for member in draws],
+        "subject": (("model", "sample"), subjects),
+    }
     outer = {} if axis is None else {axis.name: len(setups)}
     return Design(outer | sizes, points, coords), list(draws)
 
@@ -218,15 +222,15 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     what the rest of the estimate leaves open.
     """
     samples, pair = comparison.samples, estimates.FINITE_STRAIN
-    if not set(pair) <= set(samples["rung"].values.tolist()):
+    if not set(pair) <= set(samples["model"].values.tolist()):
         return False
-    over, under = (samples.sel(rung=rung) for rung in pair)
+    over, under = (samples.sel(model=member) for member in pair)
     if int((under.subject != "").sum()) < comparison.setups[0].windows:
         return False
     best = comparison.data
     for name, measure in estimates.ESTIMATED.items():
         error = reduce.pair_scatter(over, under, measure)
-        whole = np.fmax(accuracy, best[f"best_{name}_half_width"].fillna(0.0))
+        whole = np.fmax(accuracy, best[f"answer_{name}_half_width"].fillna(0.0))
         if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
             (half_width(error) > whole / 3.0).any()
         ):
@@ -235,7 +239,7 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
 
 
 PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")
-"""Rungs that predict; the others take a step from one of them to the next."""
+"""Models that predict; the others take a step from one of them to the next."""
 
 
 def at_measured(
@@ -246,7 +250,7 @@ def at_measured(
     client: Any = None,
     on_task: OnTask | None = None,
 ) -> xr.Dataset | None:
-    """Return what the rungs that predict say at each measured speed, temperature and pressure.
+    """Return what the models that predict say at each measured speed, temperature and pressure.
 
     Parameters
     ----------
@@ -261,7 +265,7 @@ def at_measured(
     -------
     xarray.Dataset or None
         As `gripscale.questions.residuals`, with the area term of the case's conditions; None where
-        no friction was measured or no rung predicts. Of several samples of a rung the means; beside
+        no friction was measured or no model predicts. Of several samples the means; beside
         the direct contact the `answer` of the case, which has its factors on friction and area.
 
     Raises
@@ -273,16 +277,16 @@ def at_measured(
     if measured is None:
         return None
     designs: dict[str, list[Design]] = {}
-    for rung in ladder.rungs:
-        if rung.name not in PREDICTING:
+    for member in ladder.models:
+        if member.name not in PREDICTING:
             continue
-        specs = rung.draws(setup)
-        designs[rung.name] = []
+        specs = member.draws(setup)
+        designs[member.name] = []
         for number, (predicting, surface, _) in enumerate(specs, start=1):
-            label = f"{rung.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
+            label = f"{member.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
             met = setup.rubber_for(predicting)
             design = friction.measured_design(measured, predicting, met, surface, setup.load, label)
-            designs[rung.name].append(design)
+            designs[member.name].append(design)
     if not designs:
         return None
     tasks = {
@@ -302,7 +306,7 @@ def at_measured(
 
 
 def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
-    """Return means, scatter, factors and the best estimate of the rungs of a comparison."""
+    """Return means, scatter, factors and the answer of the models of a comparison."""
     samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
     outer = () if axis is None else (axis.name,)
     wavelength = np.empty(0)
@@ -322,53 +326,47 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
 
     for name in reduce.SAMPLED_QUANTITIES:
         text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
-        add(f"total_{name}", reduce.usable(samples, name).mean("sample"), text, "rung")
-    best = estimates.best_estimate(samples, comparison.factors)
-    for name in estimates.BASIS_SHARES:
-        add(f"best_{name}", best[f"best_{name}"], model.BASIS[f"total_{name}"])
+        add(f"total_{name}", reduce.mean(samples, name), text, "model")
+    if comparison.case.surface.measured is None:
+        chain = samples.isel(model=0, sample=0, drop=True)
+        names = ["friction", "contact_fraction", "adhesive_friction"]
+        best = estimate_of_waves(chain[names].where(reduce.converged(chain)))
+    else:
+        best = estimates.answer_of_samples(samples, comparison.factors)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
     for name, text in _WORDS.items():
         values = reduce.usable(samples, name)
         about = "relative standard uncertainty of the"
-        add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "rung")
-        error = reduce.usable(samples, f"{name}_error").mean("sample")
-        add(f"{name}_error", error, f"error of the {text} as the model estimates it", "rung")
-        rungs = [samples.isel(rung=at) for at in range(samples.sizes["rung"])]
-        uncertainty = xr.concat([reduce.relative_uncertainty(rung, name) for rung in rungs], "rung")
-        add(f"{name}_uncertainty", uncertainty, f"{about} mean {text}", "rung")
-        factors = [_factor(comparison, at, name) for at in range(len(rungs))]
-        value, uncertainty = (xr.concat(parts, "rung") for parts in zip(*factors, strict=True))
-        add(f"{name}_factor", value, f"{text} over that of the rung it follows", "rung")
+        add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "model")
+        error = reduce.mean(samples, f"{name}_error")
+        add(f"{name}_error", error, f"error of the {text} as the model estimates it", "model")
+        models = [samples.isel(model=at) for at in range(samples.sizes["model"])]
+        uncertainty = xr.concat(
+            [reduce.relative_uncertainty(member, name) for member in models], "model"
+        )
+        add(f"{name}_uncertainty", uncertainty, f"{about} mean {text}", "model")
+        factors = [_factor(comparison, at, name) for at in range(len(models))]
+        value, uncertainty = (xr.concat(parts, "model") for parts in zip(*factors, strict=True))
+        add(f"{name}_factor", value, f"{text} over that of the model it follows", "model")
         text_of_factor = f"{about} factor on the {text}"
-        add(f"{name}_factor_uncertainty", uncertainty, text_of_factor, "rung")
-        add(f"sample_{name}", values, f"{text} by sample", "rung", "sample")
+        add(f"{name}_factor_uncertainty", uncertainty, text_of_factor, "model")
+        add(f"sample_{name}", values, f"{text} by sample", "model", "sample")
         curves = reduce.running(samples, name, wavelength)
-        add(f"running_{name}", curves, f"{text} down to the wavelength", "rung", "wavelength")
-        for part, long_name in (
-            ("", f"best estimate of the {text}"),
-            ("_uncertainty", f"{about} best estimate"),
-            ("_sampling_error", f"{about} {text}, from the sampling of the road"),
-            ("_grid_error", f"{about} {text}, from the grid of the direct contact"),
-            ("_half_width", f"relative half width of the 90 % interval of the {text}"),
-        ):
-            add(f"best_{name}{part}", best[f"best_{name}{part}"], long_name)
-        text = f"factor on the {text}, NaN if not included"
-        add(f"best_{name}_factor", best[f"best_{name}_factor"], text, "factor")
-        uncertainty = best[f"best_{name}_factor_uncertainty"]
-        add(f"best_{name}_factor_uncertainty", uncertainty, f"{about} factor", "factor")
-    adhesive = reduce.usable(samples, "adhesive_friction").mean("sample")
+        add(f"running_{name}", curves, f"{text} down to the wavelength", "model", "wavelength")
+    for name in estimates.ANSWER_NUMBERS:
+        if name in best and "slope" not in best[name].dims:
+            dims = [dim for dim in ("factor",) if dim in best[name].dims]
+            add(name, best[name], best[name].attrs["long_name"], *dims)
+    adhesive = reduce.mean(samples, "adhesive_friction")
     if adhesive.notnull().any():
         text = "friction coefficient of the area term"
-        add(model.ADHESIVE_FRICTION, adhesive, text, "rung")
-        if estimates.AREA_TERM in best:
-            text += " over the best estimate of the contact area"
-            add(estimates.AREA_TERM, best[estimates.AREA_TERM], text)
+        add(model.ADHESIVE_FRICTION, adhesive, text, "model")
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
-        add(name, (beyond if name in beyond else exponents)[name], text, "rung")
+        add(name, (beyond if name in beyond else exponents)[name], text, "model")
     text = "why an exponent of the cut-off is not known"
-    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text, "rung")
+    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text, "model")
     add_by_load(
         "outside_band",
         [
@@ -379,12 +377,12 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         "wavelength",
     )
     count = (samples.prediction_status != "").sum("sample")
-    add("samples", count, "number of samples", "rung")
+    add("samples", count, "number of samples", "model")
     count = reduce.converged(samples).sum("sample")
-    add("converged_samples", count, "number of samples that converged", "rung")
-    add("status", reduce.status(samples), "converged, or what failed", "rung")
-    add("status_word", reduce.status_word(samples), "word of the status", "rung")
-    add("seconds", samples.seconds.sum("sample"), "time its samples took", "rung", unit="s")
+    add("converged_samples", count, "number of samples that converged", "model")
+    add("status", reduce.status(samples), "converged, or what failed", "model")
+    add("status_word", reduce.status_word(samples), "word of the status", "model")
+    add("seconds", samples.seconds.sum("sample"), "time its samples took", "model", unit="s")
     pressures = [setup.load.pressure for setup in setups]
     add_by_load("nominal_pressure", pressures, "nominal pressure", unit="Pa")
     speeds = [setup.load.speed for setup in setups]
@@ -392,13 +390,13 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
-        "follows": "rung it is compared with",
-        "change": "what changes from that rung",
+        "follows": "model it is compared with",
+        "change": "what changes from that model",
     }
     for name, text in words.items():
-        column = [getattr(rung, name) for rung in comparison.rungs]
-        data[name] = labelled("rung", np.array(column, dtype=object), "1", text, _SOURCE)
-    labels, text = best.factor_label.values, "factors of the best estimate"
+        column = [getattr(member, name) for member in comparison.models]
+        data[name] = labelled("model", np.array(column, dtype=object), "1", text, _SOURCE)
+    labels, text = best.factor_label.values, "factors of the answer"
     data["factor_label"] = labelled("factor", labels, "1", text, _SOURCE)
     measured = comparison.measured
     data |= {} if measured is None else measured_variables(measured)
@@ -408,7 +406,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     conditions = setups[0].conditions
     return xr.Dataset(
         data,
-        {"rung": [rung.name for rung in comparison.rungs], **coords},
+        {"model": [member.name for member in comparison.models], **coords},
         {
             "title": "Contact and friction by model",
             **comparison.case.attributes,
@@ -428,13 +426,13 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
 
 
 def _factor(comparison: SolvedLadder, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Return the factor from the rung that the one at `at` follows; NaN if it is not there."""
+    """Return the factor from the model that the one at `at` follows; NaN if it is not there."""
     samples = comparison.samples
-    before = comparison.rungs[at].follows
-    if before not in samples["rung"].values:
-        unknown = reduce.usable(samples.isel(rung=at, drop=True), name).mean("sample") * np.nan
+    before = comparison.models[at].follows
+    if before not in samples["model"].values:
+        unknown = reduce.usable(samples.isel(model=at, drop=True), name).mean("sample") * np.nan
         return unknown, unknown
     value, error = reduce.ratio(
-        samples.isel(rung=at, drop=True), samples.sel(rung=before, drop=True), name
+        samples.isel(model=at, drop=True), samples.sel(model=before, drop=True), name
     )
     return value, error.sigma

@@ -1,8 +1,8 @@
-"""The ladder: from the chain to the profile as measured, one assumption given up on each rung.
+"""The ladder: from the chain to the profile as measured, one assumption given up on each model.
 
-A new rung is a function that draws its samples, entered at its place by `_rung`. What two rungs on
-the same surfaces say of an assumption may become a factor of the best estimate
-(`gripscale.questions.answer.best_estimate`).
+A new model is a function that draws its samples, entered at its place by `_compared`. What two
+models on the same surfaces say of an assumption may become a factor of the answer
+(`gripscale.questions.answer.estimate`).
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
-from gripscale.questions.answer.best_estimate import DIRECT
 from gripscale.questions.answer.direct_contact import each_measured, with_single_measurement
+from gripscale.questions.answer.estimate import DIRECT
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, Surface, fit_sines, height_difference
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
@@ -88,7 +88,7 @@ class ComparisonSetup:
 
 
 class SampleSpec(NamedTuple):
-    """One sample of a rung: a model to ask, and on which surface."""
+    """One sample of a model: a model to ask, and on which surface."""
 
     model: Model
     surface: Surface
@@ -100,7 +100,7 @@ Draws = Callable[[ComparisonSetup], Sequence[SampleSpec]]
 
 
 @dataclass(frozen=True)
-class Rung:
+class ComparedModel:
     """One model of the ladder."""
 
     name: str
@@ -108,54 +108,54 @@ class Rung:
     label: str
     """In words, for tables and figures."""
     group: str
-    """Which rungs it belongs with, so that they can be asked for together."""
+    """Which models it belongs with, so that they can be asked for together."""
     change: str
-    """What changes from the rung it follows, in words; empty where there is none."""
+    """What changes from the model it follows, in words; empty where there is none."""
     follows: str
-    """Name of the rung it is compared with; empty for none."""
+    """Name of the model it is compared with; empty for none."""
     draws: Draws = field(repr=False)
     """From a setup to its samples; none where the model has nothing to say of it."""
 
 
 WINDOWS = "windows"
-"""The group of rungs that take a minute and more."""
+"""The group of models that take a minute and more."""
 _BELOW = "below"
 """The group of roughness below the measurement, which is compared on request only."""
 
-LADDER: list[Rung] = []
-"""All rungs, in the order of the functions below."""
+LADDER: list[ComparedModel] = []
+"""All models, in the order of the functions below."""
 
 
-def chosen(names: Iterable[str]) -> list[Rung]:
-    """Return the rungs of names and groups; without names all but those below the measurement."""
+def chosen(names: Iterable[str]) -> list[ComparedModel]:
+    """Return the models of names and groups; without names all but those below the measurement."""
     wanted = set(names)
-    groups = dict.fromkeys(rung.group for rung in LADDER)
-    checks.allowed_names("rung", sorted(wanted), [*groups, *(rung.name for rung in LADDER)])
+    groups = dict.fromkeys(member.group for member in LADDER)
+    checks.allowed_names("model", sorted(wanted), [*groups, *(member.name for member in LADDER)])
     if not wanted:
-        return [rung for rung in LADDER if rung.group != _BELOW]
-    return [rung for rung in LADDER if wanted & {rung.name, rung.group}]
+        return [member for member in LADDER if member.group != _BELOW]
+    return [member for member in LADDER if wanted & {member.name, member.group}]
 
 
-def _rung(
+def _compared(
     name: str, label: str, group: str, change: str = "", follows: str = ""
 ) -> Callable[[Draws], Draws]:
     """Enter a function in `LADDER`."""
 
     def entered(draws: Draws) -> Draws:
-        LADDER.append(Rung(name, label, group, change, follows, draws))
+        LADDER.append(ComparedModel(name, label, group, change, follows, draws))
         return draws
 
     return entered
 
 
-@_rung("chain", "chain, finite strain", "waves")
+@_compared("chain", "chain, finite strain", "waves")
 def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     if isinstance(setup.solver, HalfPlane):
         return []
     return [SampleSpec(setup.chain(setup.solver), setup.surface)]
 
 
-@_rung("chain_half_plane", "chain, small strain", "waves", "small strain assumed", "chain")
+@_compared("chain_half_plane", "chain, small strain", "waves", "small strain assumed", "chain")
 def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     solver = setup.solver if isinstance(setup.solver, HalfPlane) else HalfPlane()
     return [SampleSpec(setup.chain(solver), setup.surface)]
@@ -168,7 +168,7 @@ POINTS_OF_A_CLASS = 256
 """Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
 
 
-@_rung(
+@_compared(
     "chain_upper",
     "chain of the upper half, pressure in classes",
     "waves",
@@ -211,7 +211,7 @@ def _of_sines(sines: SineStack, seed: int) -> Profile:
     return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
 
 
-@_rung(
+@_compared(
     "sines",
     "direct contact, sine waves of the chain",
     "waves",
@@ -228,7 +228,9 @@ _shuffled = lru_cache(maxsize=64)(random_phases)
 """Drawn once for all loads."""
 
 
-@_rung("random_phases", "direct contact, random phases", "measured", "the whole spectrum", "sines")
+@_compared(
+    "random_phases", "direct contact, random phases", "measured", "the whole spectrum", "sines"
+)
 def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = setup.surface
     measured = [] if surface.measured is None else surface.measured.surfaces
@@ -239,14 +241,14 @@ def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     ]
 
 
-@_rung(
+@_compared(
     DIRECT, "direct contact, measured surface", "measured", "the measured phases", "random_phases"
 )
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
 
 
-@_rung(
+@_compared(
     ContinuedContact.name,
     "direct contact, continued below the measurement",
     _BELOW,
@@ -265,7 +267,7 @@ def _spectrum(line: Profile) -> ArealSpectrum:
     return areal_spectrum(profile_spectrum(line))
 
 
-@_rung("persson", "Persson, isotropic surface", "theory", follows=DIRECT)
+@_compared("persson", "Persson, isotropic surface", "theory", follows=DIRECT)
 def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     """Return each profile down to where the sine waves end, or its spectrum before them."""
     specs = []
@@ -277,7 +279,7 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return specs
 
 
-@_rung("klueppel_heinrich", "Klüppel & Heinrich", "theory", follows=DIRECT)
+@_compared("klueppel_heinrich", "Klüppel & Heinrich", "theory", follows=DIRECT)
 def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     theory = setup.klueppel_heinrich
     if theory is None:
@@ -323,13 +325,13 @@ def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
     return [spread[at] for at in np.argsort(halving, kind="stable")]
 
 
-@_rung("windows_half_plane", "small-strain windows", WINDOWS)
+@_compared("windows_half_plane", "small-strain windows", WINDOWS)
 def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     # its error must not hide what a few per cent of finite strain change; it takes a second
     return _on_windows(setup, DirectContact(tolerance=0.2 * setup.tolerance, periodic=True))
 
 
-@_rung(
+@_compared(
     "windows_finite_strain", "finite-strain windows", WINDOWS, "finite strain", "windows_half_plane"
 )
 def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:

@@ -1,4 +1,4 @@
-"""Models side by side: the ladder, its best estimate, and the chain against the direct contact."""
+"""Models side by side: the ladder, its answer, and the chain against it."""
 
 from __future__ import annotations
 
@@ -16,11 +16,16 @@ from gripscale.core.finding import Finding, Severity, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
-from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, basis_lines
-from gripscale.questions.answer.reliance import has_answer, no_answer
+from gripscale.questions.answer.reliance import (
+    has_answer,
+    headline,
+    is_measured,
+    no_answer,
+)
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
@@ -29,7 +34,7 @@ from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown
-from gripscale.questions.words import HEADINGS, SYMBOLS
+from gripscale.questions.words import HEADINGS, OF_THE_PAPER, SYMBOLS, is_estimated
 from gripscale.report import elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -90,7 +95,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     """Return area and friction of each model of the ladder, with all that qualifies them.
 
     Spread and error are relative to the number, the factor is from the model before. `comparison`
-    has no axis but `rung`.
+    has no axis but `model`.
     """
 
     def per_cent(value: float) -> str:
@@ -138,7 +143,7 @@ def comparison_table(comparison: xr.Dataset) -> Table:
         )
         for end in ("below", "above")
     ]
-    strong = [i for i, name in enumerate(comparison.rung.values) if str(name) == DIRECT]
+    strong = [i for i, name in enumerate(comparison.model.values) if str(name) == DIRECT]
     return Table(
         "ladder", columns, "The ladder of models", [_NOTE], bad=flawed(comparison), strong=strong
     )
@@ -161,15 +166,15 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
             "{:.3g}".format,
         )
     ]
-    for at, rung in enumerate(data.rung.values):
+    for at, member in enumerate(data.model.values):
         flags = zip(failed[:, at], beyond[:, at], strict=True)
         marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]
         values = data[f"total_{name}"].values[:, at]
-        heading = str(rung).replace("_", " ")
-        columns.append(Column(str(rung), values, heading, marks=marks, bad=failed[:, at]))
-    if np.isfinite(data[f"best_{name}_factor"]).any():
-        texts = [_with_half_width(data.isel({axis: i}), name) for i in range(data.sizes[axis])]
-        columns.append(Column("best", texts, "best estimate", words=False))
+        heading = str(member).replace("_", " ")
+        columns.append(Column(str(member), values, heading, marks=marks, bad=failed[:, at]))
+    if is_estimated(data, name) and is_measured(data):
+        texts = [str(headline(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
+        columns.insert(1, Column("answer", texts, "answer (90 %)", words=False))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
     return Table(f"over-{axis}-{name}", columns, caption)
 
@@ -194,22 +199,22 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
 
 
 def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
-    """Yield the best estimate, or else area and friction of the first model."""
+    """Yield the answer, or else area and friction of the first model."""
     if ladder is None:
         return
     if has_answer(ladder):
         yield from answer_cards(ladder)
         return
-    rung = ladder.isel(rung=0)
-    bad = int(rung.converged_samples) < int(rung.samples)
+    member = ladder.isel(model=0)
+    bad = int(member.converged_samples) < int(member.samples)
     for name, symbol in SYMBOLS.items():
         words = f"{HEADINGS[name].capitalize()} {symbol}"
-        detail = f"{rung.label.item()}; ± {elements.percent_text(rung[f'{name}_uncertainty'])}"
-        yield Card(words, elements.number_text(rung[f"total_{name}"]), detail, bad)
+        detail = f"{member.label.item()}; ± {elements.percent_text(member[f'{name}_uncertainty'])}"
+        yield Card(words, elements.number_text(member[f"total_{name}"]), detail, bad)
 
 
 def best_line(comparison: xr.Dataset) -> str:
-    """Return the best estimate in one line, the same in every version: scripts read it."""
+    """Return the answer in one line, the same in every version: scripts read it."""
     numbers = (
         f"{symbol} = {_with_half_width(comparison, name)}"
         for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction"))
@@ -218,26 +223,21 @@ def best_line(comparison: xr.Dataset) -> str:
     return f"Best estimate ({100.0 * LEVEL:.0f} %): {', '.join(numbers)}{doubt}"
 
 
-def judgement(chain: PredictionView, direct: xr.Dataset) -> Iterator[str]:
-    """Yield the direct contact of the measured profiles, and how the chain compares with it."""
-    status = str(direct.prediction_status.item())
-    if status != CONVERGED:
-        yield f"The direct contact of the measured profiles has no result: {status}."
+def judgement(chain: PredictionView, answer: xr.Dataset) -> Iterator[str]:
+    """Yield how the chain of waves compares with the answer of a measured surface."""
+    if not (chain.complete and has_answer(answer) and is_measured(answer)):
         return
-    area, friction = (float(direct[f"total_{name}"]) for name in SYMBOLS)
-    words = f"A_r/A_0 = {significant(area)}"
-    if chain.moving:
-        words += f", mu = {significant(friction)}"
-        both = model.with_adhesive(direct)
-        if both is not None:
-            words += f", with the area term {significant(float(both))}"
-    yield f"Direct contact of the measured profiles, all waves at once at small strain: {words}."
-    if not chain.complete:
-        return
-    against = f"{chain.total('contact_fraction') / area:.2g} times this contact area"
-    if chain.moving:
-        against += f" and {chain.total('friction') / friction:.2g} times this friction"
-    yield f"The chain has {against}; `gripscale compare` shows the cost of each assumption."
+    names = reversed(SYMBOLS) if chain.moving else ["contact_fraction"]
+    texts = []
+    for name in names:
+        both = model.with_adhesive(chain.data) if name == "friction" else None
+        value = chain.total(name) if both is None else float(both)
+        ratio = significant(value / headline(answer, name).value, 2)
+        texts.append(f"{SYMBOLS[name]} = {significant(value)}, {ratio} times that of the answer")
+    yield (
+        f"For comparison, {OF_THE_PAPER}: {'; '.join(texts)}. "
+        "`gripscale compare` shows the cost of each assumption."
+    )
 
 
 def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
@@ -256,9 +256,10 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
 
 
 def _with_half_width(comparison: xr.Dataset, name: str) -> str:
-    value, width = (float(comparison[f"best_{name}{end}"]) for end in ("", "_half_width"))
+    number = headline(comparison, name)
+    width = 0.5 * (number.high - number.low) / number.value
     spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
-    return f"{significant(value)}{spread}"
+    return f"{significant(number.value)}{spread}"
 
 
 _LADDER = (
@@ -292,14 +293,14 @@ def comparison_page(compared: Compared) -> Page:
 
 
 def comparison_elements(compared: Compared) -> list[Element]:
-    """Return tables, best estimate and figures of what there is; nothing if there is nothing."""
+    """Return tables and figures of what there is; nothing if there is nothing."""
     if not compared.parts:
         return []
     elements: list[Element] = [Text(_LADDER)]
     for data in compared.parts:
         for where, failure in comparison_failures(data):
             placed = replace(failure, sentence=f"{where}: {failure}")
-            level = "warning" if bool(data.best_friction.notnull().all()) else "error"
+            level = "warning" if is_estimated(data, "contact_fraction") else "error"
             text = f"{explained(placed)}."
             elements.append(Finding(level, text, topic=Topic.SOLUTION))
     for data in compared.over:

@@ -1,6 +1,6 @@
-"""How the models compare: the answer beside the chain and the theories, with a best estimate.
+"""How the models compare: the answer beside the chain and the theories.
 
-result = gs.compare(case, rungs=["waves", "measured"])
+result = gs.compare(case, models=["waves", "measured"])
 result.data.total_friction
 """
 
@@ -23,9 +23,9 @@ from gripscale.experiment.measured_friction import (
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Table, significant
 from gripscale.model import INPUT_DOUBTS, input_doubts_of
-from gripscale.questions.answer.best_estimate import Factor
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
-from gripscale.questions.answer.findings import answer_notices
+from gripscale.questions.answer.estimate import Factor
+from gripscale.questions.answer.findings import answer_notices, measured_at_load
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
@@ -33,7 +33,7 @@ from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
 from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
-from gripscale.questions.words import SYMBOLS
+from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
 
@@ -46,7 +46,7 @@ class Comparison(Result):
 
     kind = "comparison"
     ladder: SolvedLadder | None = None
-    """The rungs with all samples; None of a result that was loaded from a file."""
+    """The models with all samples; None of a result that was loaded from a file."""
 
     @property
     def axis(self) -> str:
@@ -65,8 +65,8 @@ class Comparison(Result):
             return tuple(answer_lines(self.data))
         ranges = []
         for name, symbol in reversed(SYMBOLS.items()):
-            values = self.data[f"best_{name}"].values
-            if np.isfinite(values).any():
+            if is_estimated(self.data, name):
+                values = self.data[believed(self.data, name)].values
                 low, high = (significant(float(pick(values))) for pick in (np.nanmin, np.nanmax))
                 ranges.append(f"{symbol} = {low} to {high}")
         text = ", ".join(ranges) or "none"
@@ -80,8 +80,8 @@ class Comparison(Result):
 
     @property
     def failure(self) -> str:
-        """Which models failed; empty if the best estimate stands without them."""
-        if bool(self.data.best_contact_fraction.notnull().all()):
+        """Which models failed; empty if the answer stands without them."""
+        if bool(self.data.answer_contact_fraction.notnull().all()):
             return ""
         failed = [
             replace(failure, sentence=f"{where} did not converge: {failure}")
@@ -122,7 +122,7 @@ def compare(
     vary: Mapping[str, Any] | None = None,
     seeds: int = 3,
     tolerance: float = 0.05,
-    rungs: Sequence[str] = (),
+    models: Sequence[str] = (),
     measured: MeasuredFriction | None = None,
     factors: Sequence[Factor] = (),
     accuracy: float = 0.1,
@@ -144,12 +144,12 @@ def compare(
         Random phases drawn of each surface.
     tolerance : float
         Estimated relative error of each direct contact.
-    rungs : sequence of str
-        Names and groups of the rungs wanted, see `LADDER`; by default all.
+    models : sequence of str
+        Names and groups of the models wanted, see `LADDER`; by default all.
     measured : MeasuredFriction, optional
         Friction measured elsewhere; that of the case by default.
     factors : sequence of Factor
-        Factors of the best estimate known from elsewhere; under one load only.
+        Factors of the answer known from elsewhere; under one load only.
     accuracy : float
         Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
         their factor is known to a third of it, or of what the rest of the estimate leaves open.
@@ -163,8 +163,8 @@ def compare(
     Returns
     -------
     Comparison
-        Over `rung`, and what is varied. Without a measured profile only the chain and its own waves
-        at once. A sample that did not converge counts in no mean, and its rung says so.
+        Over `model`, and what is varied. Without a measured profile only the chain and its own
+        waves at once. A sample that did not converge counts in no mean, and its model says so.
 
     Raises
     ------
@@ -184,7 +184,7 @@ def compare(
             bench,
             seeds=seeds,
             tolerance=tolerance,
-            rungs=rungs,
+            models=models,
             measured=measured,
             factors=factors,
             accuracy=accuracy,
@@ -195,6 +195,8 @@ def compare(
         data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
     if doubtful:
         data = data.assign_attrs({INPUT_DOUBTS: to_json([*input_doubts_of(data), *doubtful])})
+    if vary is None:
+        data = data.assign(measured_at_load(case, ladder.measured))
     result = Comparison(data)
     result.ladder = ladder
     return result

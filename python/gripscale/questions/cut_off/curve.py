@@ -20,7 +20,7 @@ from gripscale.model import STATUS, Load
 from gripscale.surface import RmsSlope, Surface, find_cut_off
 
 CONTINUED_TO = "continued_to"
-"""Name of the wavelength [m] that the roughness of a best estimate is continued to."""
+"""Name of the wavelength [m] that the roughness of an answer is continued to."""
 STATUSES = (STATUS, f"{STATUS}_word")
 FRICTION, AREA = "curve_friction_from_dissipation", "curve_contact_fraction"
 SLOPE_IN_CONTACT = "curve_slope_in_contact"

@@ -49,10 +49,14 @@ def in_words(changed: Mapping[str, float]) -> str:
     """Return relative changes in words, such as `the friction changes by +38 %`."""
     words = {"friction": "the friction", "contact_fraction": "the contact area"}
     first, *others = [
-        (words[name], f"by {'+-'[change < 0.0]}{percent_text(abs(change))}")
-        for name, change in changed.items()
+        (words[name], f"by {signed_percent(change)}") for name, change in changed.items()
     ]
     return " and ".join([" changes ".join(first), *map(" ".join, others)])
+
+
+def signed_percent(change: float) -> str:
+    """Return a relative change in per cent with its sign, such as `-3.2 %`."""
+    return f"{'+-'[change < 0.0]}{percent_text(abs(change))}"
 
 
 def misfits(record: InputRecord) -> Iterator[Finding]:

@@ -12,12 +12,12 @@ from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Serie
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
-from gripscale.questions.answer.reliance import answer_interval, answer_number
+from gripscale.questions.answer.reliance import answer_number
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import MODELS
 from gripscale.questions.vary.charts import varied_axis
-from gripscale.questions.words import ANSWER, AXIS_TITLES
+from gripscale.questions.words import ANSWER, AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,7 +50,7 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
             f"Friction and contact area over the {axis} with their bands.",
         )
         return
-    if data.sizes.get("part") and np.isfinite(data.best_contact_fraction_uncertainty):
+    if data.sizes.get("part") and np.isfinite(data.answer_contact_fraction_uncertainty):
         yield Picture(
             "answer",
             parts_figure(data),
@@ -78,14 +78,14 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 def parts_figure(data: xr.Dataset) -> Figure:
     """Draw the standard errors that the interval of an answer is made of, the largest on top."""
-    names = [name for name in _TOTALS if np.isfinite(data[f"best_{name}_uncertainty"])]
-    ranked = np.argsort(data[f"best_{names[0]}_part_error"].values, kind="stable")
+    names = [name for name in _TOTALS if np.isfinite(data[f"answer_{name}_uncertainty"])]
+    ranked = np.argsort(data[f"answer_{names[0]}_part_error"].values, kind="stable")
     labels = data.part_label.values[ranked]
     drawn = {*data.label.values.tolist(), NOT_ALONE, TOGETHER}
     rows = PlotAxis(ticks={float(row): str(label) for row, label in enumerate(labels)})
     panels = []
     for name in names:
-        sigma = 100.0 * data[f"best_{name}_part_error"].values[ranked]
+        sigma = 100.0 * data[f"answer_{name}_part_error"].values[ranked]
         bars: list[Mark] = [
             Bars(0.0, error, row - 0.3, row + 0.3, BLUE if label in drawn else ORANGE)
             for row, (label, error) in enumerate(zip(labels, sigma, strict=True))
@@ -110,7 +110,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            answer = answer_number(data, name), *answer_interval(data, name)
+            answer = answer_number(data, name)
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
@@ -211,9 +211,10 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
                 Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
                        filled=False, clip=False),
             ]  # fmt: skip
-        best, sigma = (data[f"best_{name}{end}"].values for end in ("", "_half_width"))
-        low, high = (best * np.exp(sign * np.arcsinh(sigma)) for sign in (-1.0, 1.0))
-        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, best, INK, ANSWER)]
+        answer, low, high = (
+            data[f"{believed(data, name)}{end}"].values for end in ("", "_low", "_high")
+        )
+        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, answer, INK, ANSWER)]
         panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return Sheet(panels, keys=[case]).on_paper()

@@ -40,7 +40,7 @@ from gripscale.half_space.response import HalfSpace
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import FrictionAdjoint
 from gripscale.model import SAMPLING_ERRORS
-from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.uncertainty.sampled_answer import GRID, ROAD
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_options

@@ -17,16 +17,16 @@ from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import status_words
 from gripscale.questions.answer import page as answer
-from gripscale.questions.answer.best_estimate import DIRECT
+from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
-from gripscale.questions.answer.reliance import has_answer, is_measured
+from gripscale.questions.answer.reliance import has_answer, headline, is_measured
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
-from gripscale.questions.words import SYMBOLS
+from gripscale.questions.words import SYMBOLS, believed
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
@@ -74,9 +74,9 @@ def answer_table(data: xr.Dataset, axis: str) -> Table:
     labels = [name_of(data, axis, at) for at in range(data.sizes[axis])]
     columns = [Column(axis, labels)]
     for name, symbol in HEADS.items():
-        best = data[f"best_{name}"]
-        columns.append(Column(f"best_{name}", best.values, symbol))
-        ends = np.transpose(interval_ends(best, data[f"best_{name}_half_width"]))
+        best = believed(data, name)
+        columns.append(Column(best, data[best].values, symbol))
+        ends = np.transpose([data[f"{best}_{end}"].values for end in ("low", "high")])
         columns.append(Column(f"{name}_interval", ends, f"{100.0 * LEVEL:.0f} % interval"))
     return Table("answers", columns, f"Answer by {axis}", keys=1)
 
@@ -97,14 +97,22 @@ def interval_sentence(data: xr.Dataset) -> str:
     text = f"interval: with the errors of the inputs, from {count} samples"
     if missing := not_stated(data):
         text += f", but for {', '.join(missing)}"
-    widths = [data[f"best_{name}_{OF_RUN}"] for name in HEADS]
-    if axis_of(data) or not all(np.isfinite(width) for width in widths):
-        return f"{text}; `gripscale run` states sampling of the road, grid and factors only"
-    of_run = data.assign(
-        {f"best_{name}_half_width": data[f"best_{name}_{OF_RUN}"] for name in HEADS}
-    )
-    ranges = [f"{symbol} {answer.interval_text(of_run, name)}" for name, symbol in HEADS.items()]
+    ranges = [] if axis_of(data) else list(filter(None, _ranges_of_run(data)))
+    if not ranges:
+        return f"{text}; `gripscale run` states sampling of the surface, grid and factors only"
     return f"{text}; `gripscale run`, without them: {', '.join(ranges)}"
+
+
+def _ranges_of_run(data: xr.Dataset) -> Iterator[str]:
+    """Yield the intervals without errors of the inputs, with their symbols."""
+    ends: dict[str, xr.DataArray] = {}
+    for name in (*HEADS, "total_friction"):
+        if (of_run := f"answer_{name}_{OF_RUN}") in data:
+            low, high = interval_ends(data[f"answer_{name}"], data[of_run])
+            ends |= {f"answer_{name}_low": low, f"answer_{name}_high": high}
+    for name, symbol in HEADS.items():
+        if interval := headline(data.assign(ends), name).interval:
+            yield f"{symbol} {interval}"
 
 
 def not_stated(data: xr.Dataset) -> list[str]:
@@ -124,26 +132,28 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     """Return the parts of the interval of an answer: standard errors and shares of variance."""
     moving = float(part.nominal_speed) > 0.0
     names = [name for name in HEADS if moving or name != "friction"]
-    ranked = np.argsort(-part[f"best_{names[0]}_part_error"].values, kind="stable")
+    ranked = np.argsort(-part[f"answer_{names[0]}_part_error"].values, kind="stable")
     columns = [Column("part", part.part_label.values[ranked].tolist(), "not known")]
     for name in names:
-        sigma = part[f"best_{name}_part_error"].values[ranked]
-        share = sigma**2 / float(part[f"best_{name}_uncertainty"]) ** 2
+        sigma = part[f"answer_{name}_part_error"].values[ranked]
+        share = sigma**2 / float(part[f"answer_{name}_uncertainty"]) ** 2
+        of_sum = name == "friction" and TOTAL in part
+        group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
         columns += [
-            Column(f"{name}_error", sigma, "±", group=HEADS[name], format=percent),
-            Column(f"{name}_share", share, "share", group=HEADS[name], format="{:.0%}".format),
+            Column(f"{name}_error", sigma, "±", group=group, format=percent),
+            Column(f"{name}_share", share, "share", group=group, format="{:.0%}".format),
         ]
         tangent = first_order_of(part, name)
         if tangent.keys() & set(columns[0].values):
             column, text = f"{name}_first_order", ("± by", "derivatives")
             values = [tangent.get(label, math.nan) for label in columns[0].values]
-            columns.append(Column(column, values, *text, group=HEADS[name], format=percent))
-    error = part[f"best_{names[0]}_part_share_error"].values[ranked]
+            columns.append(Column(column, values, *text, group=group, format=percent))
+    error = part[f"answer_{names[0]}_part_share_error"].values[ranked]
     notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
     if NOT_ALONE in part.part_label.values:
         notes.append(
             f"{NOT_ALONE[0].upper()}{NOT_ALONE[1:]}: steps, interactions, and what a stretch of "
-            "road does beyond its correlation."
+            "surface does beyond its correlation."
         )
     unseen = [
         str(label)
@@ -175,11 +185,11 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
     sampled = dict(
         zip(
             part.part_label.values.tolist(),
-            part.best_friction_part_error.values.tolist(),
+            part.answer_friction_part_error.values.tolist(),
             strict=True,
         )
     )
-    least = math.sqrt(_LEAST_SHARE) * float(part.best_friction_uncertainty)
+    least = math.sqrt(_LEAST_SHARE) * float(part.answer_friction_uncertainty)
     apart = [
         f"{label} ({percent(tangent[label])}, {percent(error)})"
         for label, error in sampled.items()
@@ -196,7 +206,7 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
 
 def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
     """Yield what matters most to the samples of a model whose answer has no parts."""
-    without_shares = []
+    without_shares, count = [], data.sizes["sample"]
     for title, part in model_places(data):
         if np.isfinite(part.friction_share).any():
             if str(part.model.item()) != DIRECT:
@@ -204,8 +214,10 @@ def share_parts(data: xr.Dataset) -> Iterator[str | Table]:
         elif int(part.failed) < part.sizes["sample"]:
             without_shares.append(title)
     if without_shares:
-        where = "; ".join(without_shares)
-        yield f"Too few samples, or no friction, to tell what single inputs add: {where}."
+        where = f" ({'; '.join(without_shares)})" if len(without_shares) > 1 else ""
+        moving = bool((data.friction_case > 0.0).any())
+        why = f"{count} samples are too few" if moving else "Without friction it is not possible"
+        yield f"{why} to split the error between inputs{where}."
 
 
 def left_out_sentences(data: xr.Dataset) -> Iterator[str]:
@@ -339,9 +351,7 @@ def uncertainty_lines(
     if axis := axis_of(data):
         return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
     lines = []
-    answered = [
-        f"{head} = {answer.number_and_interval(data, name)}" for name, head in _widened(data)
-    ]
+    answered = [f"{head} = {headline(data, name)}" for name, head in _widened(data)]
     if answered:
         count = _samples(data.isel(model=0))
         lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
@@ -358,9 +368,9 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
     if data is None or axis_of(data):
         return []
     count = _samples(data.isel(model=0))
-    detail = f"{100.0 * LEVEL:.0f} % interval of the best estimate; {count}"
+    detail = f"{100.0 * LEVEL:.0f} % interval of the answer; {count}"
     cards = [
-        Card(f"{head}, inputs sampled", answer.interval_text(data, name), detail)
+        Card(f"{head}, inputs sampled", headline(data, name).interval, detail)
         for name, head in _widened(data)
     ]
     return cards or [
@@ -373,7 +383,7 @@ def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
 def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield name and symbol of each number whose interval holds errors of the inputs."""
     if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from (pair for pair in HEADS.items() if answer.interval_text(data, pair[0]))
+        yield from (pair for pair in HEADS.items() if headline(data, pair[0]).interval)
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:

@@ -102,6 +102,7 @@ def summary(data: xr.Dataset) -> str:
 
 _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
     "friction_from_dissipation": model.TOTALS["total_friction_from_dissipation"],
+    "adhesive_friction": "friction coefficient of the area term",
     "outside_band": model.OUTSIDE_BAND[model.FRICTION_OUTSIDE_BAND][1],
 }
 """What is kept of each sample, and its meaning."""
@@ -320,7 +321,7 @@ def propagate(
     Returns
     -------
     xarray.Dataset
-        The answer of the case (`best_friction`, `best_contact_fraction`, ..., as of `gripscale
+        The answer of the case (`answer_friction`, `answer_contact_fraction`, ..., as of `gripscale
         run`) with its interval and what that is made of, see `sampled_answer`.
         Over `model`, what is varied, and `sample`: `friction`, `contact_fraction` and `status`,
         with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`

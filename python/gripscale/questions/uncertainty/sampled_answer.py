@@ -1,7 +1,7 @@
 """The answer of a case with what is not known of its inputs, and the parts of its interval.
 
 The number is that of `gripscale run`: the direct contact of the measured surface, solved to 5 %,
-times the factors of `best_estimate`. The samples widen its interval. With y_0 of
+times the factors of `answer_of_samples`. The samples widen its interval. With y_0 of
 the case itself and y_s of sample s, all on the same grid,
 
     s_samples^2 = mean (ln y_s - ln y_0)^2,
@@ -29,14 +29,14 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
-from gripscale.model import TOTALS, Load, predicted_answer
-from gripscale.questions.answer.best_estimate import BASIS_SHARES, ESTIMATED, SampledErrors
+from gripscale.model import FRICTION_OUTSIDE_BAND, OUTSIDE_BAND, STATUS, STATUS_WORD, Load
 from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_totals
-from gripscale.questions.answer.intervals import LogError, combined, half_width
-from gripscale.questions.answer.samples import running, usable
+from gripscale.questions.answer.estimate import ESTIMATED, TOTAL, SampledErrors
+from gripscale.questions.answer.intervals import LogError, combined
+from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
+from gripscale.questions.answer.waves import answer_of_waves
 from gripscale.questions.uncertainty.sources import GRID_PLACE, Source
 from gripscale.questions.uncertainty.variance_shares import shares
-from gripscale.rubber.extrapolation import Extrapolation
 
 OF_RUN = "half_width_of_run"
 """End of the name of the half width without errors of the inputs, as `gripscale run` states it."""
@@ -107,8 +107,8 @@ def measured_answer(
 
     `reference` are the samples of `direct_contact_design`. `direct` holds the drawn samples of the
     direct contact with `_case` of the case itself; None if only the chain was sampled, whose
-    errors say nothing of the direct contact. In the answer `best_..._half_width_of_run` is without
-    samples; over `part` stand `part_label` and the standard errors `best_..._part_error` that the
+    errors say nothing of the direct contact. `answer_..._half_width_of_run` is without
+    samples; over `part` stand `part_label` and the standard errors `answer_..._part_error` that the
     interval is made of.
     """
     curve = continued_curve(case, load)
@@ -152,26 +152,20 @@ def chain_answer(
     As `measured_answer`, with no factors and nothing of a road.
     """
     drawn = {source.name: logarithms[source.name] for source in sources}
-    best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
-    errors = {}
-    for name, measure in ESTIMATED.items():
-        usual = float(chain[f"{measure}_case"])
-        errors[name] = sampled_error(chain[measure].values, usual, drawn, {})
-        error = combined(errors[name].errors)
-        best[f"best_{name}"] = usual
-        best[f"best_{name}_uncertainty"] = error.sigma
-        best[f"best_{name}_half_width"] = half_width(error)
-        best[f"best_{name}_sampling_error"] = best[f"best_{name}_grid_error"] = math.nan
-        for part in ("factor", "factor_uncertainty"):
-            best[f"best_{name}_{part}"] = ("factor", np.empty(0))
-    best = best.assign({f"best_{share}": math.nan for share in BASIS_SHARES})
-    best["cutoff_wavelength"] = case.surface.cutoff_wavelength
-    totals = {name: float(chain[f"{name.removeprefix('total_')}_case"]) for name in TOTALS}
-    beyond = Extrapolation(float(chain["outside_band_case"]), math.nan, math.nan)
-    word = str(chain.status_case_word.item())
-    answered = predicted_answer(
-        best, totals, str(chain.status_case.item()), "chain", load, beyond, status_word=word
+    of_case = {name: chain[f"{name}_case"] for name in (*SAMPLED_QUANTITIES, "adhesive_friction")}
+    numbers = xr.Dataset(of_case | dict.fromkeys(OUTSIDE_BAND, math.nan)).assign(
+        {
+            FRICTION_OUTSIDE_BAND: chain["outside_band_case"],
+            STATUS: chain.status_case,
+            STATUS_WORD: chain.status_case_word,
+        }
     )
+    errors = {
+        name: sampled_error(chain[name].values, float(numbers[name]), drawn, {})
+        for name in ESTIMATED
+    }
+    sigmas = {name: combined(error.errors) for name, error in errors.items()}
+    answered = answer_of_waves(numbers, case, load, sigmas)
     return _with_parts(answered, answered, errors, sources, of_road=True)
 
 
@@ -187,7 +181,7 @@ def _with_parts(
     labels = {source.name: source.label for source in sources}
     data: dict[str, xr.Variable] = {}
     for name in ESTIMATED:
-        square = float(total[f"best_{name}_uncertainty"]) ** 2
+        square = float(total[f"answer_{name}_uncertainty"]) ** 2
         error = sampled.get(name, SampledError([], {}, {}))
         parts: list[tuple[str, float, float]] = []
         for source, variance in error.variance.items():
@@ -196,18 +190,20 @@ def _with_parts(
             share_error = share_error / square if square > 0.0 else math.nan
             parts.append((text, math.sqrt(variance), share_error))
         if not of_road:
-            road = float(total[f"best_{name}_sampling_error"])
-            parts.append(("stretch of road measured", road, math.nan))
-        if math.isfinite(grid := float(total[f"best_{name}_grid_error"])):
+            road = float(total[f"answer_{name}_sampling_error"])
+            parts.append(("stretch of surface measured", road, math.nan))
+        if math.isfinite(grid := float(total[f"answer_{name}_grid_error"])):
             parts.append(("grid of the answer", grid, math.nan))
-        factors = total[f"best_{name}_factor_uncertainty"].values.tolist()
+        factors = total[f"answer_{name}_factor_uncertainty"].values.tolist()
         for label, factor in zip(total.factor_label.values, factors, strict=True):
             if math.isfinite(factor):
                 parts.append((f"factor: {label}", factor, math.nan))
         texts, sigma, share = (np.array(column) for column in zip(*parts, strict=True))
         about = {"units": "1"}
         data["part_label"] = xr.Variable("part", texts.astype(object))
-        data[f"best_{name}_part_error"] = xr.Variable("part", sigma, about)
-        data[f"best_{name}_part_share_error"] = xr.Variable("part", share, about)
-        data[f"best_{name}_{OF_RUN}"] = of_run[f"best_{name}_half_width"].variable
+        data[f"answer_{name}_part_error"] = xr.Variable("part", sigma, about)
+        data[f"answer_{name}_part_share_error"] = xr.Variable("part", share, about)
+        data[f"answer_{name}_{OF_RUN}"] = of_run[f"answer_{name}_half_width"].variable
+    if TOTAL in total:
+        data[f"{TOTAL}_{OF_RUN}"] = of_run[f"{TOTAL}_half_width"].variable
     return total.assign(data)

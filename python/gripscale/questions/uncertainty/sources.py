@@ -262,7 +262,7 @@ def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
 
 
 @_source(
-    "stretch of road measured",
+    "stretch of surface measured",
     **{
         f"correlation_{lags}": Coordinate(f"ln of C_z over the measured one, {lags} lags")
         for lags in ("short", "middle", "long")

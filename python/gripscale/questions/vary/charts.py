@@ -45,14 +45,14 @@ MOST_BANDS = 3
 PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
 TITLES = {
     f"{kind}_{name}": f"{title} [-]"
-    for kind in ("total", "best")
+    for kind in ("total", "answer", "answer_total")
     for name, title in AXIS_TITLES.items()
 }
 """Titles of axes."""
 _ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
-REPLACED = {f"total_{name}": f"best_{name}" for name in _ESTIMATED}
-"""Totals of a model that are not drawn where there is a best estimate."""
-FRICTIONS = ("best_friction", "total_friction")
+REPLACED = {f"total_{name}": f"answer_{name}" for name in _ESTIMATED}
+"""Totals of a model that are not drawn where there is an answer."""
+FRICTIONS = ("answer_total_friction", "answer_friction", "total_friction")
 """Drawn from zero."""
 INTERVAL = "90 % interval"
 
@@ -78,7 +78,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
         and telling(variable)
         and name not in best
         and not is_evidence(str(name))
-        and REPLACED.get(str(name)) not in best
+        and not (str(name) in REPLACED and best[0].startswith("answer"))
     ]
     totals = [name for name in best if telling(data[name])] + totals
     panels = [
@@ -188,7 +188,7 @@ def _interval(
 def totals_figure(result: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
-    They are the best estimates with their 90 % intervals where there are any, else the totals.
+    They are the answers with their 90 % intervals where there are any, else the totals.
     Without a numeric axis they are drawn as points over the names of the first one. Contact at
     rest is dotted where it was solved. Predictions that did not converge leave gaps. What rests on
     the rubber beyond its measured band is dashed, of names has a star.

@@ -79,7 +79,7 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
 
     `data` is that of `gripscale.questions.Compounds`. Waves and relaxation times are of the chain.
     """
-    ranked = "best_friction" in data
+    ranked = "answer_friction" in data
     chain = "chain, less reliable" if ranked else "chain"
     marks: list[Mark] = []
     for name, colour in zip(data.rubber.values.tolist(), COLOURS, strict=False):
@@ -114,9 +114,9 @@ def _ranking_panel(data: xr.Dataset) -> Panel:
             Series([at], [ratio], colour, name, "", marker="o", size=6.0, low=low, high=high,
                    listed=False)
         )  # fmt: skip
-    best = {float(at): significant(mu, 2) for at, mu in enumerate(data.best_friction.values)}
+    best = {float(at): significant(mu, 2) for at, mu in enumerate(data.answer_friction.values)}
     return Panel(
-        PlotAxis("$\\mu$, best estimate [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
+        PlotAxis("$\\mu$, answer [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
         PlotAxis("$\\mu$ over that of the first [-]", margin=0.1),
         marks,
         title="direct contact: the ranking",

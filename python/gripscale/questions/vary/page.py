@@ -13,7 +13,7 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
-from gripscale.questions.answer.best_estimate import BEST_ESTIMATES
+from gripscale.questions.answer.estimate import ANSWER_NUMBERS
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
@@ -50,17 +50,17 @@ def study_table(data: xr.Dataset) -> Table:
         if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
             ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
             columns.append(Column(f"{column}_interval", ends, "90 %"))
-    friction = believed(data, "friction")
     if not is_estimated(data, "friction") and "total_friction_from_dissipation" in data:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
     if ADHESIVE_FRICTION in data:
         term = np.array(each(believed(data, "adhesive_friction")))
-        total = term + np.array(each(friction))
-        columns += [
-            Column("area_term", term, "μ", "area term"),
-            Column("friction_with_area_term", total, "μ", "with it"),
-        ]
+        columns.append(Column("area_term", term, "μ", "area term"))
+        if is_estimated(data, "total_friction"):  # the answer has it
+            columns.insert(-1, Column("hysteresis", each("answer_friction"), "μ", "hysteresis"))
+        else:
+            total = term + np.array(each("total_friction"))
+            columns.append(Column("friction_with_area_term", total, "μ", "with it"))
     largest = [
         float(row.wavelength[int(np.nanargmax(row.friction.values))])
         if {"wavelength", "friction"} <= set(row) and float(row.total_friction) > 1e-9
@@ -187,7 +187,7 @@ def totals_of(data: xr.Dataset) -> list[str]:
         and not str(name).endswith(("_key", "_status_word"))
         and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
     ]
-    return sorted(names, key=lambda name: name not in BEST_ESTIMATES)
+    return sorted(names, key=lambda name: name not in ANSWER_NUMBERS)
 
 
 def totals_table(data: xr.Dataset) -> Table | None:

@@ -13,7 +13,7 @@ from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
 from gripscale.model import STATUS, STEEP_SHARE, input_doubts_of
-from gripscale.questions.answer.best_estimate import AREA_TERM, ISOTROPY_ASSUMED, LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import AREA_TERM, ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
@@ -45,7 +45,7 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
         yield "Answer: none; no prediction has a result."
         return
     estimated = is_estimated(data, "contact_fraction")
-    has_intervals = estimated and bool(data["best_contact_fraction_low"].notnull().any())
+    has_intervals = estimated and bool(data["answer_contact_fraction_low"].notnull().any())
     level = " (90 % intervals)" if has_intervals else ""
     by = "" if estimated else f" by the {_model(data)}, without an interval"
     yield f"Answer{by}: {'; '.join(texts)}{level}."
@@ -166,9 +166,9 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
     for at, label in enumerate(data.factor_label.values):
         ranges = []
         for name in reversed(SYMBOLS):
-            values = data[f"best_{name}_factor"].isel(factor=at).values
+            values = data[f"answer_{name}_factor"].isel(factor=at).values
             ranges.append(f"{SYMBOLS[name]} × {least_to_most(values)}")
-        error = data["best_friction_factor_uncertainty"].isel(factor=at)
+        error = data["answer_friction_factor_uncertainty"].isel(factor=at)
         same = all(text.endswith(f"× {significant(1.0)}") for text in ranges)
         factor = f"1 ± {percent_text(float(error.max()))}" if same else ", ".join(ranges)
         yield f"{label} ({factor})"
@@ -176,7 +176,7 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
 
 def _rests_on(data: xr.Dataset) -> Iterator[str]:
     """Yield the largest shares of the answers that rest on what was not measured well."""
-    sampling = float(data["best_friction_sampling_error"].max())
+    sampling = float(data["answer_friction_sampling_error"].max())
     has_intervals = math.isfinite(sampling)
     if has_intervals:
         yield f"sampling of the road up to ± {percent_text(sampling)} of it (standard error)"
@@ -192,7 +192,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     if AREA_TERM in data:
         term = data[AREA_TERM]
         low, high = float(term.min()), float(term.max())
-        yield f"an area term of {significant(low)} to {significant(high)} comes on top"
+        yield f"{significant(low)} to {significant(high)} of the friction is the area term"
     if has_intervals:
         yield "intervals leave out errors of the master curve"
 
@@ -203,9 +203,9 @@ def _card_detail(data: xr.Dataset, name: str) -> str:
     over = " × ".join(_reach(data, axis) for axis in axes)
     if not is_estimated(data, name):
         return f"{_model(data)}; {over}"
-    width = float(data[f"best_{name}_half_width"].max())
+    width = float(data[f"answer_{name}_half_width"].max())
     interval = f"; ± {percent_text(width)} (90 %)" if math.isfinite(width) else ""
-    return f"best estimate{interval}; {over}"
+    return f"answer{interval}; {over}"
 
 
 def _reach(data: xr.Dataset, axis: str) -> str:

@@ -195,7 +195,7 @@ def _ratio_text(data: xr.Dataset, name: str, at: int) -> str:
 def _judge(data: xr.Dataset) -> str:
     """Return which model the ratios are from, and what their intervals hold."""
     roads = "surface" in data.dims
-    if "best_friction" not in data:
+    if "answer_friction" not in data:
         return "chain of sine waves: not all of the surfaces were measured"
     if roads and not np.isfinite(data["friction_ratio_low"].values[1:]).any():
         return (
@@ -218,18 +218,18 @@ def _judge(data: xr.Dataset) -> str:
 
 
 def believed_table(data: xr.Dataset, dim: str, heading: str) -> Table | None:
-    """Return the best estimates along `dim` and their ratios to the first; None without any."""
-    if "best_friction" not in data:
+    """Return the answers along `dim` and their ratios to the first; None without any."""
+    if "answer_friction" not in data:
         return None
     columns = [Column(dim, [str(name) for name in data[dim].values], heading)]
     for name in reversed(SYMBOLS):
-        columns.append(Column(f"best_{name}", data[f"best_{name}"].values, SYMBOLS[name]))
-        columns += _interval_column(f"best_{name}", _ends(data, f"best_{name}"))
+        columns.append(Column(f"answer_{name}", data[f"answer_{name}"].values, SYMBOLS[name]))
+        columns += _interval_column(f"answer_{name}", _ends(data, f"answer_{name}"))
     ratio, span = data["friction_ratio"].values.copy(), _ends(data, "friction_ratio")
     ratio[0], span[0] = np.nan, np.nan
     columns.append(Column("friction_ratio", ratio, "μ over that of the first"))
     columns += _interval_column("friction_ratio", span)
-    return Table(f"{dim}s-believed", columns, "Best estimates, from the direct contact")
+    return Table(f"{dim}s-believed", columns, "Answers, from the direct contact")
 
 
 def _interval_column(name: str, ends: np.ndarray) -> list[Column]:
@@ -248,7 +248,7 @@ def _ends(data: xr.Dataset, name: str) -> np.ndarray:
 
 
 def roads_tables(data: xr.Dataset) -> list[Table]:
-    """Return best estimates, for each model totals and differences to the first, and texture."""
+    """Return answers, for each model totals and differences to the first, and texture."""
     models = data.model.values.tolist()
     tables = [side_by_side_totals(data.sel(model=name), "surface", "road", name) for name in models]
     if "rms_height" in data:
@@ -278,7 +278,7 @@ def failed_totals(data: xr.Dataset) -> list[Failure]:
 def roads_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield, for each road and model, whether it differs from the first and at which scale."""
     first, *others = data.surface.values.tolist()
-    ranked = "best_friction" in data
+    ranked = "answer_friction" in data
     for model in data.model.values.tolist():
         for name in others:
             part = data.sel(model=model, surface=name)
@@ -302,7 +302,7 @@ def roads_sentences(data: xr.Dataset) -> Iterator[str]:
 def compounds_table(data: xr.Dataset) -> Table:
     """Return totals of each compound with their ranges, and differences to the first."""
     table = side_by_side_totals(data, "rubber", "compound")
-    return replace(table, caption="Totals, chain") if "best_friction" in data else table
+    return replace(table, caption="Totals, chain") if "answer_friction" in data else table
 
 
 def compounds_sentences(data: xr.Dataset) -> Iterator[str]:
@@ -311,7 +311,7 @@ def compounds_sentences(data: xr.Dataset) -> Iterator[str]:
     Where the direct contact ranks them, the chain says only what makes the difference.
     """
     first, *others = data.rubber.values.tolist()
-    ranked = "best_friction" in data
+    ranked = "answer_friction" in data
     for i, name in enumerate(others, start=1):
         part = data.isel(rubber=i)
         text = difference_words(part, name, first, "" if ranked else "the measured moduli")

@@ -1,7 +1,7 @@
 """How the answer varies: friction and contact area over one or two inputs of a case.
 
 result = gs.vary(case, speed=[0.01, 0.1, 1.0], temperature=["0 C", "20 C"])
-result.data.best_friction
+result.data.answer_friction
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io.table import Table
 from gripscale.model import Model
-from gripscale.questions.answer.best_estimate import with_best_estimate
+from gripscale.questions.answer.estimate import with_answer
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page, page_of_answer, page_of_study
 from gripscale.questions.vary.study import Study
@@ -35,7 +35,7 @@ class Variation(Result):
     kind = "study"
 
     def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
-        super().__init__(with_best_estimate(data), inputs)
+        super().__init__(with_answer(data), inputs)
 
     @property
     def lines(self) -> Sequence[str]:

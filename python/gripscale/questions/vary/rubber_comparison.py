@@ -9,7 +9,7 @@ with X_k of series k and X_0 of the best one solved as half-planes, which cost l
 best one by the model of the case. The DMAs are independent of each other, see
 `total_differences`.
 
-What is to be believed are the best estimates of the direct contact where the road was measured, and
+What is to be believed are the answers of the direct contact where the road was measured, and
 their ratios to the first (`ratios_to_first`). The road is the same for all, and the step from its
 lines to a surface cancels but for its change with the load, which here is that with the contact
 area. Ratios of single profiles scatter about as much as the numbers themselves, so that the
@@ -37,7 +37,7 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
 from gripscale.model import input_doubts
-from gripscale.questions.answer.best_estimate import POINT_ESTIMATES, with_best_estimate
+from gripscale.questions.answer.estimate import POINT_NUMBERS, with_answer
 from gripscale.questions.vary.inputs import TEMPERATURE, measured_rubber_of, reading_notes
 from gripscale.questions.vary.side_by_side import Compounds
 from gripscale.questions.vary.study import Study
@@ -171,7 +171,7 @@ def ratios_to_first(
     """
     out = {}
     for name in COMPARED_QUANTITIES:
-        best = f"best_{name}" if f"best_{name}" in data else f"total_{name}"
+        best = f"answer_{name}" if f"answer_{name}" in data else f"total_{name}"
         value = data[best].where(data[best] > 0.0)
         ratio = value / value.isel({dim: 0}, drop=True)
         text = f"over that of the first, {data[best].attrs['long_name']}"
@@ -249,8 +249,8 @@ def compare_compounds(
     -------
     Compounds
         Over `rubber`: the totals of the chain, `total_friction_low` and so on, `..._difference` to
-        the first with its `_low` and `_high`; the best estimates `best_friction` and so on
-        (`gripscale.questions.with_best_estimate`) where the road was measured, and `friction_ratio`
+        the first with its `_low` and `_high`; the answers `answer_friction` and so on
+        (`gripscale.questions.with_answer`) where the road was measured, and `friction_ratio`
         to the first and so on, with its `_low` and `_high`; by wave `friction_running`, from the
         largest wave down, and `friction_difference`; by decade of relaxation time
         `friction_by_decade_difference`.
@@ -279,7 +279,7 @@ def compare_compounds(
     if uncertainty:
         with bench_in(folder, workers) as bench:
             data = data.assign(_ranges(study, data, bench))
-    data = data.assign(_believed(data if best is None else with_best_estimate(best), data))
+    data = data.assign(_believed(data if best is None else with_answer(best), data))
     loads = [point.task.load for point in study.points]
     data = data.assign(_differences(data)).assign_attrs(
         input_doubts([*study.surfaces, *measured.values()], loads, case.units),
@@ -300,8 +300,8 @@ def _of_model(study: Study, on_task: OnTask | None) -> OnTask | None:
 
 
 def _believed(best: xr.Dataset, data: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Return the best estimates of the compounds, and the ratios to the first that are believed."""
-    names = [str(name) for name in best if name in POINT_ESTIMATES]
+    """Return the answers of the compounds, and the ratios to the first that are believed."""
+    names = [str(name) for name in best if name in POINT_NUMBERS]
     widths = None
     if f"{_TOTALS[0]}_low" in data:
         widths = {name: _widths(best, data, name) for name in COMPARED_QUANTITIES}
@@ -316,13 +316,13 @@ def _widths(best: xr.Dataset, data: xr.Dataset, name: str) -> tuple[xr.DataArray
     """
     total = data[f"total_{name}"]
     down, up = (log(data[f"total_{name}_{end}"] / total) ** 2 for end in ENDS)
-    if f"best_{name}" not in best:
+    if f"answer_{name}" not in best:
         return EVEN * down**0.5, EVEN * up**0.5
     grid = (best[f"total_{name}_error"] / best[f"total_{name}"]).fillna(0.0)
     area = best["total_contact_fraction"]
     step = LOAD_SENSITIVITY * log(area / area.isel(rubber=0, drop=True))
     even = EVEN**2 * (grid**2 + step**2)
-    rest = even + (NORMAL * best[f"best_{name}_sampling_error"]) ** 2
+    rest = even + (NORMAL * best[f"answer_{name}_sampling_error"]) ** 2
     return (EVEN**2 * down + rest) ** 0.5, (EVEN**2 * up + rest) ** 0.5
 
 

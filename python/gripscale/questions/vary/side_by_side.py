@@ -59,13 +59,13 @@ class Roads(SideBySide):
     of = "predictions"
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield best estimates, totals of each model, texture, and where the differences are."""
+        """Yield answers, totals of each model, texture, and where the differences are."""
         yield from page_side_by_side.roads_tables(self.data)
         yield from page_side_by_side.roads_sentences(self.data)
         yield from (f"note: {note}" for note in self.notes)
 
     def table(self) -> Table:
-        """Return the best estimates of the roads, or their totals."""
+        """Return the answers of the roads, or their totals."""
         return page_side_by_side.roads_tables(self.data)[0]
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
@@ -96,7 +96,7 @@ class Compounds(SideBySide):
         return dict(zip(names, rubbers, strict=True)) if len(rubbers) == len(names) else {}
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield best estimates, totals of the chain, and what makes the differences."""
+        """Yield answers, totals of the chain, and what makes the differences."""
         best = page_side_by_side.believed_table(self.data, self.dim, "compound")
         yield from filter(None, [best])
         yield page_side_by_side.compounds_table(self.data)

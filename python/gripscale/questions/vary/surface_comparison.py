@@ -6,11 +6,11 @@ range of 90 % of n block bootstraps of its profiles (`gripscale.questions.Profil
     low = X min(1, q_5(X_k/X_0)),    high = X max(1, q_95(X_k/X_0))
 
 with X_k of the drawn blocks and X_0 of the road as measured; of the chain by half-planes, which
-cost less, of the direct contact by itself to twice the error of the best estimate. Friction of X is
+cost less, of the direct contact by itself to twice the error of the answer. Friction of X is
 that from dissipation, which a coarse grid changes less. The roads are independent of each other,
 see `gripscale.questions.vary.rubber_comparison.total_differences`.
 
-What is to be believed are the best estimates of the direct contact, and their ratios to the first
+What is to be believed are the answers of the direct contact, and their ratios to the first
 (`gripscale.questions.vary.rubber_comparison.ratios_to_first`).
 """
 
@@ -44,7 +44,7 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import STATUS, STATUS_WORD, Load, Model, input_doubts
 from gripscale.model import TOTALS as OF_ALL
-from gripscale.questions.answer.best_estimate import POINT_ESTIMATES, with_best_estimate
+from gripscale.questions.answer.estimate import POINT_NUMBERS, with_answer
 from gripscale.questions.uncertainty.propagation import quantiles
 from gripscale.questions.uncertainty.sampled_inputs import FailSafeModel, Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import draws
@@ -158,18 +158,18 @@ def roads_dataset(surfaces: Mapping[str, Surface], solved: xr.Dataset) -> xr.Dat
 
 
 def _best(surfaces: Mapping[str, Surface], roads: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Return the best estimates of the roads, and the ratios to the first that are believed.
+    """Return the answers of the roads, and the ratios to the first that are believed.
 
     Of roads without a direct contact the ratios of the chain, which have no interval.
     """
     direct = roads.sel(model=DirectContact.name, drop=True)
     if bool((direct[STATUS] == "").any()):
         return rubber_comparison.ratios_to_first(roads.sel(model=Chain.name, drop=True), "surface")
-    best = with_best_estimate(direct)
-    names = [name for name in best if name in POINT_ESTIMATES]
+    best = with_answer(direct)
+    names = [name for name in best if name in POINT_NUMBERS]
     widths = {}
     for name in rubber_comparison.COMPARED_QUANTITIES:
-        half_width = best[f"best_{name}_half_width"]
+        half_width = best[f"answer_{name}_half_width"]
         width = half_width.copy(data=np.arcsinh(half_width.values))
         widths[name] = width, width
     ratios = rubber_comparison.ratios_to_first(best, "surface", widths)
@@ -266,8 +266,8 @@ def compare_surfaces(
     -------
     Roads
         Over `model` and `surface`: the totals, `total_friction_low` and so on, `..._difference` to
-        the first with its `_low` and `_high`; over `surface` the best estimates `best_friction` and
-        so on (`with_best_estimate`) and `friction_ratio` to the first and so on,
+        the first with its `_low` and `_high`; over `surface` the answers `answer_friction` and
+        so on (`with_answer`) and `friction_ratio` to the first and so on,
         with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
         the longest wave down, and `friction_difference`; over `surface` the texture
         (`gripscale.surface.texture`); `correlation` over `lag` and `spectrum` over `wavenumber`.

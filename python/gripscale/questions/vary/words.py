@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, WHY_NO_EXPONENT
-from gripscale.questions.answer.best_estimate import AREA_TERM
+from gripscale.questions.answer.estimate import AREA_TERM
 from gripscale.questions.vary.axis import AXIS_LABELS
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 
@@ -14,19 +14,22 @@ _AT_REST = "static_"
 """Before the name of what a study says of rubber at rest."""
 
 _WORDS = {
-    "best_friction_low": "its 90 %, from",
-    "best_friction_high": "to",
-    "best_contact_fraction_low": "its 90 %, from",
-    "best_contact_fraction_high": "to",
+    "answer_total_friction": "friction μ with the area term, answer",
+    "answer_total_friction_low": "its 90 %, from",
+    "answer_total_friction_high": "to",
+    "answer_friction_low": "its 90 %, from",
+    "answer_friction_high": "to",
+    "answer_contact_fraction_low": "its 90 %, from",
+    "answer_contact_fraction_high": "to",
     "friction_ratio": "μ over that of the first",
     "contact_fraction_ratio": "A_r/A_0 over that of the first",
-    "best_friction": "friction μ, best estimate",
-    "best_contact_fraction": "real contact area A_r/A_0, best estimate",
+    "answer_friction": "friction μ, answer",
+    "answer_contact_fraction": "real contact area A_r/A_0, answer",
     "total_contact_fraction": "real contact area A_r/A_0",
     "total_friction": "friction μ",
     "total_friction_from_dissipation": "μ from the energy lost",
     ADHESIVE_FRICTION: "μ of the area term",
-    AREA_TERM: "μ of the area term, best estimate",
+    AREA_TERM: "μ of the area term, answer",
     FRICTION_OUTSIDE_BAND: "share of μ beyond the measured band",
     "total_decades_below_band": "decades below the measured band",
     "total_decades_above_band": "decades above the measured band",

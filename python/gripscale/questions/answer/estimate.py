@@ -1,4 +1,4 @@
-"""A best estimate: the profile as measured, times what else is known to matter.
+"""The estimate of an answer: the profile as measured, times what else is known to matter.
 
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
@@ -55,21 +55,21 @@ class Factor:
 
 
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
-"""Rungs whose ratio is the factor of finite strain."""
+"""Models whose ratio is the factor of finite strain."""
 ASSUMED_FINITE_STRAIN = Factor(
-    "finite_strain", "finite strain, assumed", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
+    "finite_strain", "large strain", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
-"""Where these rungs were not solved: what windows and blocks of other roads showed."""
-LINES_TO_SURFACE = "step from lines to a surface"
+"""Where these models were not solved: what windows and blocks of other roads showed."""
+LINES_TO_SURFACE = "profile to surface"
 """Label of the factor from measured lines to the isotropic surface they lie on."""
-ISOTROPY_ASSUMED = "the step to a surface assumes an isotropic road"
+ISOTROPY_ASSUMED = "the step from profile to surface assumes an isotropic surface"
 """What an answer with this factor rests on, where nothing tells of ridges."""
 FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
 """A factor on each estimated quantity, with its error."""
 
 
 class SampledErrors(NamedTuple):
-    """Errors of a best estimate that samples of its inputs show."""
+    """Errors of an answer that samples of its inputs show."""
 
     errors: Mapping[str, Sequence[LogError]]
     """Of each estimated quantity."""
@@ -85,31 +85,32 @@ ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_
 frictions the one that a coarse grid changes least."""
 
 
-AREA_TERM = "best_adhesive_friction"
-"""Name of the area term's friction over the contact area of a best estimate."""
+AREA_TERM, TOTAL = "answer_adhesive_friction", "answer_total_friction"
+"""Friction of the area term over the contact area of an answer, and with the hysteresis."""
 
 
-def best_estimate(
+def answer_of_samples(
     samples: xr.Dataset,
     supplied: Sequence[Factor] = (),
     *,
     sampled: SampledErrors | None = None,
 ) -> xr.Dataset:
-    """Return the best estimate of the solved rungs.
+    """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it.
 
-    `best_contact_fraction` and `best_friction` have a relative standard `_uncertainty` and the
-    relative `_half_width` of their 90 % interval, NaN without a direct contact that converged or
-    where the profiles are too short to tell how well they represent the road (`_sampling_error`);
-    over `factor` the `_factor` on each with its `_factor_uncertainty`, NaN if not included.
-    `best_adhesive_friction` is there where an area term was asked for: its stress shears the area
-    of the best estimate, and no other.
+    `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
+    ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
+    direct contact that converged or where the profiles are too short to tell how well they
+    represent the surface (`_sampling_error`); over `factor` the `_factor` on each with its
+    `_factor_uncertainty`, NaN if not included. Where an area term was asked for,
+    `answer_adhesive_friction` is its stress on the area of the answer, and `answer_total_friction`
+    the sum with the hysteresis.
     """
-    has_direct = DIRECT in samples["rung"].values
-    status = samples["prediction_status"].isel(rung=0, sample=0, drop=True)
+    has_direct = DIRECT in samples["model"].values
+    status = samples["prediction_status"].isel(model=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if has_direct:
@@ -121,42 +122,82 @@ def best_estimate(
     labels = [label for label, _ in factors.values()]
     solved = [_where_all_known(numbers) for _, numbers in factors.values()]
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
-    direct = samples.sel(rung=DIRECT, drop=True) if has_direct else None
+    direct = samples.sel(model=DIRECT, drop=True) if has_direct else None
     for share in BASIS_SHARES:
-        data[f"best_{share}"] = unknown
+        data[f"answer_{share}"] = unknown
         if direct is not None and share in direct:
-            data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
+            data[f"answer_{share}"] = reduce.mean(direct, share)
     for share in SHARES_BY_SLOPE:
         if direct is not None and share in direct:
-            data[f"best_{share}"] = reduce.usable(direct, share).mean("sample")
+            data[f"answer_{share}"] = reduce.mean(direct, share)
+    errors_of: dict[str, LogError] = {}
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
-            mean, road = reduce.usable(direct, name).mean("sample"), reduce.road_error(direct, name)
+            mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
             # even within the estimated error, and the same for all profiles
             grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
         errors = [road, _certain(grid)]
         if sampled is not None:
             errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
-        data[f"best_{name}_sampling_error"] = road.sigma
-        data[f"best_{name}_grid_error"] = grid
+        data[f"answer_{name}_sampling_error"] = road.sigma
+        data[f"answer_{name}_grid_error"] = grid
         value = uncertainty = unknown.expand_dims(factor=0)
         if solved:
             value = xr.concat([numbers[name][0] for numbers in solved], "factor")
             every = [numbers[name][1] for numbers in solved]
             uncertainty = xr.concat([error.sigma for error in every], "factor")
             errors += [LogError(error.sigma.fillna(0.0), error.freedom) for error in every]
-        mean, error = mean * value.prod("factor"), combined(errors)
-        data[f"best_{name}"] = mean
-        data[f"best_{name}_uncertainty"] = error.sigma.where(mean.notnull())
-        data[f"best_{name}_half_width"] = half_width(error).where(mean.notnull())
-        data[f"best_{name}_factor"] = value
-        data[f"best_{name}_factor_uncertainty"] = uncertainty
+        errors_of[name] = combined(errors)
+        data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
+        data[f"answer_{name}_factor"] = value
+        data[f"answer_{name}_factor_uncertainty"] = uncertainty
     if direct is not None and "adhesive_friction" in direct:
-        term = reduce.usable(direct, "adhesive_friction").mean("sample")
-        if bool(term.notnull().any()):
-            data[AREA_TERM] = term * data["best_contact_fraction_factor"].prod("factor")
-    return data
+        term = reduce.mean(direct, "adhesive_friction")
+        data = with_total_friction(
+            data, term * data["answer_contact_fraction_factor"].prod("factor"), errors_of
+        )
+    return described(data)
+
+
+def described(data: xr.Dataset) -> xr.Dataset:
+    """Return an answer whose numbers have their meaning as attributes."""
+    return data.assign(
+        {
+            name: data[name].assign_attrs(variable_attributes(text))
+            for name, text in ANSWER_NUMBERS.items()
+            if name in data
+        }
+    )
+
+
+def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
+    """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
+    there = value.notnull()
+    width = half_width(error).where(there)
+    low, high = interval_ends(value, width)
+    numbers = {"": value, "_uncertainty": error.sigma.where(there), "_half_width": width}
+    ends = {"_low": low, "_high": high}
+    return {f"answer_{name}{end}": number for end, number in (numbers | ends).items()}
+
+
+def with_total_friction(
+    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError]
+) -> xr.Dataset:
+    """Return an answer with the friction of its area term, and the total friction of both.
+
+    Unchanged where the term is NaN. Errors of hysteresis and contact area have common sources, such
+    as the surface: at worst they add up in full.
+    """
+    if not bool(term.notnull().any()):
+        return data
+    total = (data["answer_friction"] + term).where(data["answer_friction"] > 0.0)  # not at rest
+    share = term / total
+    friction, area = errors["friction"], errors["contact_fraction"]
+    sigma = (1.0 - share) * friction.sigma + share * area.sigma
+    freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
+    error = LogError(sigma, freedom)
+    return data.assign({AREA_TERM: term} | with_interval("total_friction", total, error))
 
 
 def _certain(sigma: xr.DataArray) -> LogError:
@@ -167,15 +208,14 @@ def _certain(sigma: xr.DataArray) -> LogError:
 def _are_lines(samples: xr.Dataset) -> bool:
     """Return whether samples of the direct contact are lines of a surface, not a map."""
     heights = samples.get("upper_height")
-    return heights is not None and bool(heights.sel(rung=DIRECT).notnull().any())
+    return heights is not None and bool(heights.sel(model=DIRECT).notnull().any())
 
 
 def _of_surface(samples: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
-    direct = samples.sel(rung=DIRECT, drop=True)
+    direct = samples.sel(model=DIRECT, drop=True)
     lines, *line = (
-        reduce.usable(direct, name).mean("sample")
-        for name in ("contact_fraction", "upper_height", "relative_load")
+        reduce.mean(direct, name) for name in ("contact_fraction", "upper_height", "relative_load")
     )
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
     laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio
@@ -190,19 +230,19 @@ def _of_surface(samples: xr.Dataset) -> FactorNumbers:
 def _finite_strain(samples: xr.Dataset, unknown: xr.DataArray) -> tuple[str, FactorNumbers]:
     """Return label and numbers of the factor of finite strain, assumed where it is not solved.
 
-    Its error is the scatter of the samples of both rungs and, evenly, as much again as the factor
+    Its error is the scatter of the samples of both models and, evenly, as much again as the factor
     changes, for what the samples leave out.
     """
     numbers: FactorNumbers = {}
-    if set(FINITE_STRAIN) <= set(samples["rung"].values.tolist()):
-        over, under = (samples.sel(rung=rung, drop=True) for rung in FINITE_STRAIN)
+    if set(FINITE_STRAIN) <= set(samples["model"].values.tolist()):
+        over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
         for name, measure in ESTIMATED.items():
             value, error = reduce.ratio(over, under, measure)
             changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
             numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
     if not numbers or any(bool(value.isnull().any()) for value, _ in numbers.values()):
         return ASSUMED_FINITE_STRAIN.label, _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
-    return "finite strain", numbers
+    return "large strain", numbers
 
 
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
@@ -224,30 +264,43 @@ def _where_all_known(numbers: FactorNumbers) -> FactorNumbers:
     }
 
 
-_WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
-OF_A_POINT = {
-    "": "best estimate of the {}",
+_INTERVAL = {
+    "": "answer: {}",
     "_low": "low end of the 90 % interval of the {}",
     "_high": "high end of the 90 % interval of the {}",
     "_half_width": "relative half width of the 90 % interval of the {}",
-    "_sampling_error": "relative standard error of the {} from the sampling of the road",
+    "_uncertainty": "relative standard uncertainty of the {}",
+}
+_PARTS = {
+    "_sampling_error": "relative standard error of the {} from the sampling of the surface",
+    "_grid_error": "relative standard error of the {} from the grid of the direct contact",
     "_factor": "factor on the {} of the direct contact, NaN if not included",
     "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
 }
-"""What is kept of the best estimate of a prediction: end of its name, and meaning."""
-POINT_ESTIMATES = frozenset(
-    ["factor_label", *(f"best_{name}{end}" for name in ESTIMATED for end in OF_A_POINT)]
-)
-"""Names that `with_best_estimate` adds for the rubber that slides."""
-BEST_ESTIMATES = POINT_ESTIMATES - {"factor_label"} | {
-    *(f"best_{name}{end}" for name in ESTIMATED for end in ("_uncertainty", "_grid_error")),
-    *(f"best_{share}" for share in (*BASIS_SHARES, *SHARES_BY_SLOPE)),
+ANSWER_NUMBERS = {
+    f"answer_{name}{end}": text.format(words)
+    for name, words, ends in (
+        ("total_friction", "friction μ of hysteresis and area term", _INTERVAL),
+        ("friction", "friction μ of the hysteresis", _INTERVAL | _PARTS),
+        ("contact_fraction", "real contact area A_r/A_0", _INTERVAL | _PARTS),
+    )
+    for end, text in ends.items()
+} | {
+    AREA_TERM: "friction μ of the area term over the contact area of the answer",
+    **{f"answer_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
+    **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }
-"""Names of all numbers of a best estimate."""
+"""All numbers of an answer, and their meaning."""
+_LEFT_OUT = ("friction_uncertainty", "fraction_uncertainty", "_grid_error", "share", "_by_slope")
+POINT_NUMBERS = (
+    "factor_label",
+    *(name for name in ANSWER_NUMBERS if not name.endswith(_LEFT_OUT)),
+)
+"""Names that `with_answer` adds for the rubber that slides."""
 
 
-def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
-    """Return predictions of the direct contact with the best estimate of each.
+def with_answer(data: xr.Dataset) -> xr.Dataset:
+    """Return predictions of the direct contact with the answer of each.
 
     Parameters
     ----------
@@ -257,10 +310,9 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        With `best_contact_fraction` and `best_friction` over the axes of the study, the ends `_low`
-        and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of rubber
-        at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
-        result, or the surface is too short for an interval.
+        With `POINT_NUMBERS` over the axes of the study, as `answer_of_samples` names them, and of
+        rubber at rest `static_answer_contact_fraction` and so on. NaN where the direct contact has
+        no result, or the surface is too short for an interval.
     """
     if UPPER_HEIGHT not in data:  # no direct contact
         return data
@@ -277,37 +329,27 @@ def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
         stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
         data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
         label = parts[(0,) * total.ndim]["factor_label"]
-        data["factor_label"] = label.assign_attrs(
-            variable_attributes("factors of the best estimate")
-        )
+        data["factor_label"] = label.assign_attrs(variable_attributes("factors of the answer"))
     return data
 
 
 def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
-    """Return the best estimate of one prediction of a study, a sample of all its profiles."""
+    """Return the answer of a prediction of a study, which is a sample of all its profiles."""
     names = [*reduce.SAMPLED_QUANTITIES, *(f"{name}_error" for name in reduce.SMOOTH)]
     names.append("adhesive_friction")
     names += [name.removeprefix("total_") for name in BASIS]
     numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
-    if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
+    if prefix:
         numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
-    sample = xr.Dataset({name: (("rung", "sample"), [[value]]) for name, value in numbers.items()})
-    sample[STATUS] = ("rung", "sample"), np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object)
-    sample = sample.assign_coords(
-        rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
+    sample = xr.Dataset({name: (("model", "sample"), [[value]]) for name, value in numbers.items()})
+    sample[STATUS] = (
+        ("model", "sample"),
+        np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object),
     )
-    best = best_estimate(sample)
-    kept = best[["factor_label"]]
-    for name in ("contact_fraction",) if prefix else ESTIMATED:
-        value = best[f"best_{name}"]
-        ends = interval_ends(value, best[f"best_{name}_half_width"])
-        best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
-        for end, text in OF_A_POINT.items():
-            part = best[f"best_{name}{end}"].reset_coords(drop=True)
-            kept[f"best_{name}{end}"] = part.assign_attrs(
-                variable_attributes(text.format(_WORDS[name]))
-            )
-    if AREA_TERM in best:
-        text = "friction coefficient of the area term over the best estimate of the contact area"
-        kept[AREA_TERM] = best[AREA_TERM].assign_attrs(variable_attributes(text))
-    return kept
+    sample = sample.assign_coords(
+        model=[DIRECT], subject=(("model", "sample"), np.array([["surface"]], dtype=object))
+    )
+    best = answer_of_samples(sample)
+    at_rest = {name for name in best if prefix and "friction" in str(name)}
+    names = [name for name in POINT_NUMBERS if name in best and name not in at_rest]
+    return best[names].reset_coords(drop=True)

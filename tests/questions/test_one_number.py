@@ -1,0 +1,181 @@
+"""Friction and area of a case are the same through Python, commands, pages, tables and files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import gripscale as gs
+from gripscale.charts.figure_folder import FigureFolder
+from gripscale.conditions import Conditions
+from gripscale.conditions.area_term import ConstantStress
+from gripscale.io.table import significant
+from gripscale.io.text_table import read_sheets
+from gripscale.questions.answer.reliance import headline
+from gripscale.questions.page_of_folder import page_of, read_result
+from gripscale.questions.words import HEADINGS, SYMBOLS, believed
+from gripscale.surface import self_affine_profile
+from gripscale.theory import HalfPlane
+from tests.samples import GENTLE_SINES, SHIFTED_RUBBER, Shell
+
+LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.05}
+SHEARED = Conditions(shear_stress=ConstantStress(5e5))
+"""0.5 MPa on a few per cent of the area: an area term of about the friction of the hysteresis."""
+
+
+def road(seed: int) -> gs.Profile:
+    length = {1: 0.12, 2: 0.09}[seed]
+    line = self_affine_profile(0.8, 3e-3, 4e-4, length=length, step=2e-4, seed=seed)
+    return replace(line, name=f"lane {seed}")
+
+
+def height_map() -> gs.HeightMap:
+    """Return 32 by 64 heights: waves of falling amplitude in all directions."""
+    random = np.random.default_rng(0)
+    x, y = np.meshgrid(0.2e-3 * np.arange(64), 0.4e-3 * np.arange(32), indexing="ij")
+    heights = np.zeros_like(x)
+    for wavelength in np.geomspace(12e-3, 0.8e-3, 40):
+        angle, phase = random.uniform(0.0, 2.0 * np.pi, 2)
+        along = np.cos(angle) * x + np.sin(angle) * y
+        heights += 0.01 * wavelength * np.cos(2.0 * np.pi * along / wavelength + phase)
+    return gs.HeightMap(x[:, 0], y[0], heights)
+
+
+def calibrated() -> Conditions:
+    """Return the conditions with a shear stress fitted to measured friction."""
+    measured = gs.experiment.MeasuredFriction([0.1, 0.3, 1.0], [0.5, 0.6, 0.65])
+    case = gs.Case(road(1), SHIFTED_RUBBER, **LOAD, waves=3, smallest_wavelength=2e-3)
+    return Conditions(shear_stress=gs.calibrate(case, measured, law="constant").law)
+
+
+CASES: Mapping[str, Any] = {
+    "plain": lambda: (road(1), {}),
+    "area_term": lambda: (road(1), {"conditions": SHEARED}),
+    "calibrated": lambda: (road(1), {"conditions": calibrated()}),
+    "several_profiles": lambda: ([road(1), road(2)], {}),
+    "several_sheared": lambda: ([road(1), road(2)], {"conditions": SHEARED}),
+    "map": lambda: (height_map(), {}),
+    "waves": lambda: (GENTLE_SINES, {}),
+    "static": lambda: (road(1), {"speed": 0.0}),
+    "thickness": lambda: (road(1), {"thickness": 8e-3}),
+    "temperature": lambda: (road(1), {"conditions": Conditions(temperature=313.15)}),
+}
+"""Surface and further arguments of each case."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A case with its answer, and the folder of its run."""
+
+    case: gs.Case
+    answer: gs.Answer
+    folder: Path
+    printed: str
+
+    @property
+    def names(self) -> list[str]:
+        """What it answers with."""
+        return ["friction", "contact_fraction"] if self.case.load.speed else ["contact_fraction"]
+
+    @cached_property
+    def expected(self) -> list[float]:
+        """The numbers of `gs.answer`, by its documented attributes."""
+        friction = self.answer.total_friction
+        if np.isnan(friction):
+            friction = self.answer.friction
+        return [friction, self.answer.contact_fraction][-len(self.names) :]
+
+    def of(self, data: xr.Dataset) -> list[float]:
+        """Return the numbers of another result."""
+        return [headline(data, name).value for name in self.names]
+
+
+@pytest.fixture(scope="module", params=CASES)
+def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Asked:
+    """A case, answered in Python and by `gripscale run`."""
+    surface, options = CASES[request.param]()
+    arguments = LOAD | {"waves": 3, "chain": gs.chain.Chain(HalfPlane(points=64))} | options
+    if not isinstance(surface, gs.SineStack):
+        arguments["smallest_wavelength"] = 2e-3
+    case = gs.Case(surface, SHIFTED_RUBBER, **arguments)
+    folder = tmp_path_factory.mktemp(request.param)
+    path = case.save(folder / "case.toml")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(FigureFolder, "save", lambda *_: None)
+        run = request.getfixturevalue("shell_of_module")
+        result = run("run", path, "--output", folder / "results")
+    assert result.exit_code == 0, result.output
+    return Asked(case, gs.answer(case), folder / "results", " ".join(result.output.split()))
+
+
+@pytest.fixture(scope="module")
+def shell_of_module() -> Shell:
+    from typer.testing import CliRunner
+
+    from gripscale.cli import app
+
+    return lambda *words: CliRunner().invoke(app, list(map(str, words)), env={"COLUMNS": "100"})
+
+
+def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
+    """Yield the numbers behind each door but the slow ones."""
+    yield "file of the run", asked.of(gs.load(asked.folder / "answer.nc").data)
+    yield "saved", asked.of(gs.load(asked.answer.save(asked.folder / "saved.nc")).data)
+    row = dict(zip(*list(read_sheets(asked.folder / "summary.xlsx")["summary"])[:2], strict=True))
+    columns = [believed(asked.answer.data, name) for name in asked.names]
+    yield "summary", [float(row[f"{column} [-]"]) for column in columns]
+    table = {column.name: column for column in asked.answer.table().columns}
+    if asked.case.load.speed:
+        assert next(name for name in table if name.startswith("best_")) == columns[0]
+    yield "table", [float(table[column].values[0]) for column in columns]
+    varied = gs.vary(asked.case, pressure=[asked.case.load.pressure]).data
+    yield "vary", [float(varied[believed(varied, name)][0]) for name in asked.names]
+    member = ["direct"] if asked.case.surface.measured else ["chain_half_plane"]
+    yield "compare", asked.of(gs.compare(asked.case, models=member).data)
+
+
+def test_one_number_through_every_door(asked: Asked) -> None:
+    for door, numbers in doors(asked):
+        # a study weighs profiles by the length of their grids, an answer as they were measured
+        assert numbers == pytest.approx(asked.expected, rel=1e-4), door
+
+
+def test_run_prints_the_answer_first_and_last(asked: Asked) -> None:
+    line = asked.answer.lines[0]
+    texts = [
+        f"{SYMBOLS[n]} = {significant(v)}" for n, v in zip(asked.names, asked.expected, strict=True)
+    ]
+    assert all(text in line for text in texts)
+    assert asked.printed.count(line) == 2
+    assert asked.printed.endswith(line)
+
+
+def test_pages_and_app_show_it(asked: Asked) -> None:
+    from gripscale.report.elements import Card
+
+    app = pytest.importorskip("gripscale.app.run_tabs")
+    shown = app.answer_elements(SimpleNamespace(folder=asked.folder))
+    for cards in (
+        asked.answer.page_content().cards,
+        page_of(read_result(asked.folder)).cards,
+        next(element.cards for element in shown if hasattr(element, "cards")),
+    ):
+        assert all(isinstance(card, Card) for card in cards)
+        values = {card.label: card.value for card in cards}
+        for name, value in zip(asked.names, asked.expected, strict=True):
+            label = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
+            assert values[label] == significant(value)
+
+
+@pytest.mark.verification
+def test_uncertainty_has_it(asked: Asked) -> None:
+    sampled = gs.uncertainty(asked.case, samples=10)
+    assert asked.of(sampled.data) == pytest.approx(asked.expected, rel=1e-12)
