@@ -26,7 +26,11 @@ def legend(figure: Figure) -> list[str]:
 
 def with_answer(data: xr.Dataset, half_width: float = 0.26) -> xr.Dataset:
     numbers = {f"answer_{name}": ((), value) for name, value in BEST.items()}
-    return data.assign(numbers | {f"answer_{name}_half_width": ((), half_width) for name in BEST})
+    for name, value in BEST.items():
+        factor = math.exp(math.asinh(half_width))
+        numbers |= {f"answer_{name}_low": ((), value / factor)}
+        numbers |= {f"answer_{name}_high": ((), value * factor)}
+    return data.assign(numbers)
 
 
 @pytest.mark.parametrize("half_width", [0.26, math.nan])

@@ -46,7 +46,6 @@ from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
 from .uncertainty.propagation import of_same_inputs as of_same_inputs
 from .uncertainty.propagation import propagate as propagate
 from .uncertainty.propagation import stored_uncertainty as stored_uncertainty
-from .uncertainty.propagation import summary as summary
 from .uncertainty.sampled_inputs import Range as Range
 from .uncertainty.sampling import Uncertainty as Uncertainty
 from .uncertainty.series_scatter import SeriesScatter as SeriesScatter

@@ -6,7 +6,6 @@ Everything is read from the result, for the terminal and for the page alike.
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
@@ -14,7 +13,7 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity, sentences
-from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, display_unit_of
+from gripscale.core.units import ZERO_CELSIUS, display_unit_of
 from gripscale.experiment import measured_friction
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
@@ -235,25 +234,3 @@ def residual_table(data: xr.Dataset) -> Table:
             rms += f", {float(model.rms_difference_in_spread):.1f} times the spread"
         notes.append(f"Root mean square of Δμ, {group}: {rms}.")
     return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
-
-
-def measured_lines(
-    friction: measured_friction.MeasuredFriction, speed: float, speed_unit: DisplayUnit
-) -> Iterator[str]:
-    """Yield what was measured at `speed` [m/s], interpolated in its logarithm, by temperature.
-
-    Speeds are shown as `speed_unit` says.
-    """
-    for series in measured_friction.measured_series(
-        xr.Dataset(measured_friction.measured_variables(friction))
-    ):
-        at = series.at(speed)
-        where = f"{series.label[0].upper()}{series.label[1:]}"
-        if at is None:
-            low, high = (significant(float(speed_unit.of(series.speed[end]))) for end in (0, -1))
-            range_measured = f"from {low} to {high} {speed_unit.unit}"
-            yield f"{where}: nothing at {speed_unit.text(speed)}, only {range_measured}."
-            continue
-        value, spread = at
-        about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
-        yield f"{where}: μ = {significant(value)}{about} at {speed_unit.text(speed)}."

@@ -17,7 +17,6 @@ from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
-from gripscale.questions.calibration.page import measured_lines
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
 from gripscale.questions.chain.findings import (
@@ -191,9 +190,7 @@ def _measured(run: RunSource) -> list[Element]:
     if run.measured is None or not sliding:
         return []
     direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
-    first = sliding[0]
-    lines = measured_lines(run.measured, first.speed, first.display_unit("speed"))
-    return [measured_chart(run.measured, [*sliding, *direct]), *map(Text, lines)]
+    return [measured_chart(run.measured, [*sliding, *direct])]
 
 
 def _comparison(run: RunSource) -> list[Element]:

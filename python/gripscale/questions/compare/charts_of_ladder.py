@@ -175,7 +175,7 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
         value *= factor
     if np.isfinite(factors).any():
         answer = headline(comparison, name)
-        width = math.log(answer.high / answer.value)
+        width = math.log(answer.high / answer.value) if answer.value > 0.0 else math.nan
         yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)
 
 

@@ -257,7 +257,7 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
 
 def _with_half_width(comparison: xr.Dataset, name: str) -> str:
     number = headline(comparison, name)
-    width = 0.5 * (number.high - number.low) / number.value
+    width = 0.5 * (number.high - number.low) / (number.value or math.nan)
     spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
     return f"{significant(number.value)}{spread}"
 

@@ -1,8 +1,8 @@
 """What is not known of a case, and what it does to friction and contact area.
 
-    from gripscale.questions import Uncertainty, propagate, summary
+    from gripscale.questions import Uncertainty, propagate
     data = propagate("case.toml", Uncertainty(without=["waves"]), samples=200, folder="results")
-    summary(data)
+    float(data.answer_friction)
 
 All sources are drawn at once for each sample, and each sample is a task of
 `gripscale.experiment`: kept as soon as it is solved, on all cores or a cluster.
@@ -70,34 +70,6 @@ def quantiles(values: xr.DataArray) -> xr.DataArray:
     enough = values.count("sample") > 1
     levels = values.where(enough, 0.0).quantile(LEVELS, "sample", method="median_unbiased")
     return levels.where(enough).drop_vars("quantile").transpose(..., "quantile")
-
-
-def summary(data: xr.Dataset) -> str:
-    """Return friction and contact fraction of each model in a sentence, failures counted.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `propagate`, at one load.
-    """
-    sentences = []
-    for name in data.model.values:
-        part = data.sel(model=name)
-        failed, number = int(part.failed), part.sizes["sample"]
-        intervals = []
-        for quantity, (letters, _) in PROPAGATED_QUANTITIES.items():
-            levels = part[f"{quantity}_quantile"].values
-            if np.isfinite(levels).all():
-                low, middle, high = (f"{value:#.2g}" for value in levels[[0, 2, 4]])
-                intervals.append(f"{letters} = {middle} ({low} to {high})")
-        if not intervals:
-            sentences.append(f"{name}: none of {number} samples has an answer")
-            continue
-        count = f"{number - failed} of {number} samples, {failed} failed"
-        if not failed:
-            count = f"{number} samples"
-        sentences.append(f"{name}: {', '.join(intervals)} in 90 % of {count}")
-    return "; ".join(sentences)
 
 
 _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
