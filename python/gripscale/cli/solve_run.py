@@ -61,27 +61,28 @@ def solve_run(
         solved = [answer.data] if answer.is_solved else []
         solved += [chain.dataset(name) for name in chain.predictions]
 
-        def draw_conditions() -> None:
-            if heat is not None:
-                figures.save(heat_sheet(heat), "heat")
-            if effects is not None:
-                figures.save(effects_sheet(effects), "effects")
+    def draw_conditions() -> None:
+        if heat is not None:
+            figures.save(heat_sheet(heat), "heat")
+        if effects is not None:
+            figures.save(effects_sheet(effects), "effects")
 
-        report = work.conclude(
-            answer,
-            parts,
-            answer_printed=True,
-            results=solved,
-            text=terminal.RUN_REPORT,
-            closing=terminal.RUN_CLOSING,
-            page=lambda page: write_report(target, page),
-            opening=[f"{header}: {chain.case.title}", *opening],
-            width=REPORT_WIDTH,
-            draw=draw_conditions,
-        )
-        emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
-        if solved:
-            emit(events.FileWritten(str(target / SUMMARY_FILE)))
+    # after the figures of the other thread: matplotlib reads formulas in one thread at a time
+    report = work.conclude(
+        answer,
+        parts,
+        answer_printed=True,
+        results=solved,
+        text=terminal.RUN_REPORT,
+        closing=terminal.RUN_CLOSING,
+        page=lambda page: write_report(target, page),
+        opening=[f"{header}: {chain.case.title}", *opening],
+        width=REPORT_WIDTH,
+        draw=draw_conditions,
+    )
+    emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
+    if solved:
+        emit(events.FileWritten(str(target / SUMMARY_FILE)))
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
