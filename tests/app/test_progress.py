@@ -26,6 +26,7 @@ from gripscale.questions.chain.events import (
     event_from_json,
     event_to_json,
 )
+from gripscale.terminal import PROGRESS_LINES
 
 
 def waves(last: int, name: str = "dynamic", *, of: int = 3, pass_number: int = 1) -> list[Event]:
@@ -131,7 +132,10 @@ def case(small: Path, tmp_path: Path) -> Path:
     return path
 
 
-def test_a_run_reports_each_step_as_an_event(case: Path, tmp_path: Path) -> None:
+def test_a_run_reports_each_step_as_an_event(
+    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(PROGRESS_LINES, "1")
     events, text, exit_code = run_json(case, tmp_path / "out")
     assert exit_code == 0
     assert events[0] == RunStarted(BOTH, 3, False)

@@ -80,27 +80,28 @@ def solve_run(
                 console.print()
                 terminal.print_parts(console, of_chain)
 
-        def draw_conditions() -> None:
-            if heat is not None:
-                figures.save(heat_sheet(heat), "heat")
-            if effects is not None:
-                figures.save(effects_sheet(effects), "effects")
+    def draw_conditions() -> None:
+        if heat is not None:
+            figures.save(heat_sheet(heat), "heat")
+        if effects is not None:
+            figures.save(effects_sheet(effects), "effects")
 
-        report = work.conclude(
-            chain.answer,
-            parts,
-            answer_printed=True,
-            results=[chain.answer.data, *(chain.dataset(name) for name in chain.predictions)],
-            text=terminal.RUN_REPORT,
-            closing=terminal.RUN_CLOSING,
-            page=lambda page: write_report(target, page),
-            opening=[f"{header}: {case.title}", "", *_inputs(case)],
-            width=REPORT_WIDTH,
-            files=files,
-            draw=draw_conditions,
-        )
-        emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
-        emit(events.FileWritten(str(target / SUMMARY_FILE)))
+    # after the figures of the other thread: matplotlib reads formulas in one thread at a time
+    report = work.conclude(
+        chain.answer,
+        parts,
+        answer_printed=True,
+        results=[chain.answer.data, *(chain.dataset(name) for name in chain.predictions)],
+        text=terminal.RUN_REPORT,
+        closing=terminal.RUN_CLOSING,
+        page=lambda page: write_report(target, page),
+        opening=[f"{header}: {case.title}", "", *_inputs(case)],
+        width=REPORT_WIDTH,
+        files=files,
+        draw=draw_conditions,
+    )
+    emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
+    emit(events.FileWritten(str(target / SUMMARY_FILE)))
     terminal.print_wrapped(console, chain.answer.lines[0])
     failures = list(chain.failures.values())
     for failure in failures[:-1]:

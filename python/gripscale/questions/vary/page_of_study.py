@@ -23,7 +23,7 @@ from gripscale.questions.vary.page import (
 )
 from gripscale.questions.vary.page_of_answer import study_cards, study_lines
 from gripscale.questions.vary.words import words_of
-from gripscale.report.again import rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section
 from gripscale.report.equations import method_section
 from gripscale.report.failures import explained
@@ -53,7 +53,7 @@ def study_page(data: xr.Dataset) -> Page:
     axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
     curves, *inputs = study_sections(data)
     return Page.of(
-        str(data.attrs.get("title", "Study")),
+        f"Study of {case_title(data.attrs)}",
         f"varied: {', '.join(words_of(data, axis) for axis in dimensions(data))}",
         study_findings(data),
         [*study_cards(data), *count_cards(data)],
