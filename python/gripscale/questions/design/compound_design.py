@@ -28,7 +28,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.result import RoughContact
-from gripscale.questions.design.compound_gain import gain, series_derivatives, series_error
+from gripscale.questions.design.compound_gain import gain, series_derivatives
 from gripscale.questions.design.compound_limits import changed, require_shift
 from gripscale.questions.design.compound_search import (
     LEAST_GAP,
@@ -40,6 +40,7 @@ from gripscale.questions.design.compound_search import (
 from gripscale.questions.design.design_dataset import of_change, of_compound, variable
 from gripscale.questions.design.goal_friction import GoalFriction
 from gripscale.questions.design.rolling import rolling_ratio
+from gripscale.questions.vary.friction_ratio import series_error
 from gripscale.questions.vary.inputs import identity
 from gripscale.questions.vary.rubber_comparison import at_one_temperature
 from gripscale.rubber import Rubber
@@ -86,7 +87,7 @@ def solved_point(
     result = gain(friction, reference.contacts, contacts, error)
     rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
     worth = problem.worth_of_limits(level, best.slope)
-    low, high = result.interval
+    low, high = (end - 1.0 for end in result.interval)
     searched, sought = (
         math.expm1(end.log_friction - reference.log_friction) for end in (optimum, best)
     )
@@ -142,7 +143,7 @@ def other_compounds(
         errors = [series_error(each) for each in (reference.series, series) if each.size]
         error = math.hypot(*errors) if errors else math.nan
         result = gain(friction, reference.contacts, contacts, error)
-        low, high = result.interval
+        low, high = (end - 1.0 for end in result.interval)
         rolling = math.nan
         try:
             for point in problem.rolling:

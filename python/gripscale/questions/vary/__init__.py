@@ -38,7 +38,6 @@ FORMS = (
         "compare-surfaces",
         "Roads under this rubber",
         "The road of the case beside others, under its rubber and its load.",
-        (FormField("--samples", "samples", "20"),),
         others="roads",
     ),
 )

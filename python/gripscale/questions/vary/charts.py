@@ -31,9 +31,17 @@ from gripscale.questions.vary.axis import (
     numeric,
     of_numbers,
 )
+from gripscale.questions.vary.schema import (
+    PER_WAVE,
+    VARIABLES,
+    Role,
+    label_of,
+    rest_name,
+    telling,
+    variable_of,
+)
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
-from gripscale.questions.vary.words import is_evidence, telling, words_of
-from gripscale.questions.words import AXIS_TITLES, believed
+from gripscale.questions.words import AXIS_TITLES, believed, is_estimated
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,18 +50,7 @@ _MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
 MOST_BANDS = 3
 """Curves beyond which intervals would cover each other, and are not drawn."""
-PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
-TITLES = {
-    f"{kind}_{name}": f"{title} [-]"
-    for kind in ("total", "best")
-    for name, title in AXIS_TITLES.items()
-}
-"""Titles of axes."""
 _ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
-REPLACED = {f"total_{name}": f"best_{name}" for name in _ESTIMATED}
-"""Totals of a model that are not drawn where there is a best estimate."""
-FRICTIONS = ("best_friction", "total_friction")
-"""Drawn from zero."""
 INTERVAL = "90 % interval"
 
 
@@ -69,18 +66,21 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     """Return a chart for each total over each numeric axis, and for each number per wave."""
     axes = [axis for axis in dimensions(data) if of_numbers(data, axis) and data.sizes[axis] > 1]
     best = [name for name in map(partial(believed, data), _ESTIMATED) if name in data]
-    totals = [
-        str(name)
-        for name, variable in data.data_vars.items()
-        if variable.dims
-        and set(variable.dims) <= set(dimensions(data))
-        and variable.dtype.kind in "fi"
-        and telling(variable)
-        and name not in best
-        and not is_evidence(str(name))
-        and REPLACED.get(str(name)) not in best
-    ]
-    totals = [name for name in best if telling(data[name])] + totals
+    answered = is_estimated(data, "contact_fraction")
+    totals = [name for name in best if telling(data[name])]
+    for name, values in data.data_vars.items():
+        variable = variable_of(data, str(name))
+        replaced = answered and variable.role == Role.NUMBER and variable.measures
+        if (
+            values.dims
+            and set(values.dims) <= set(dimensions(data))
+            and values.dtype.kind in "fi"
+            and telling(values)
+            and variable.role in (Role.ANSWER, Role.NUMBER)
+            and name not in best
+            and not replaced
+        ):
+            totals.append(str(name))
     panels = [
         _total_panel(data, name, axis)
         for axis in axes
@@ -126,12 +126,14 @@ def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
 
 def _label(data: xr.Dataset, name: str) -> str:
     unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
-    return TITLES.get(name, f"{words_of(data, name)} [{'-' if unit == '1' else unit}]")
+    variable = variable_of(data, name)
+    words = AXIS_TITLES.get(variable.measures if name in VARIABLES else "", variable.label)
+    return f"{words} [{'-' if unit == '1' else unit}]"
 
 
 def _sentence(data: xr.Dataset, name: str) -> str:
     """Return what a variable means, with a capital unless a letter of an equation comes first."""
-    text = str(data[name].attrs.get("long_name", words_of(data, name)))
+    text = str(data[name].attrs.get("long_name", label_of(data, name)))
     return text if text[1:2] == " " else text[:1].upper() + text[1:]
 
 
@@ -162,11 +164,15 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
         marks.append(Series(x, y, only, label or "sliding", "solid" if numbers else "", marker="o",
                             size=3.0 if numbers else 4.5, beyond=beyond if numbers else False,
                             clip=not numbers, **bars))  # fmt: skip
-    area = name.endswith("contact_fraction")
-    words, over = words_of(data, name), words_of(data, axis)
+    words, over = label_of(data, name), label_of(data, axis)
+    measures = variable_of(data, name).measures
     return Panel(
         abscissa,
-        PlotAxis(_label(data, name), log=area, low=0.0 if name in FRICTIONS else None),
+        PlotAxis(
+            _label(data, name),
+            log=measures == "contact_fraction",
+            low=0.0 if measures == "friction" else None,
+        ),
         marks,
         name=f"{name}-over-{axis}",
         caption=f"{_sentence(data, name)}, over {over}.",
@@ -213,7 +219,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
 
 def _at_rest(result: xr.Dataset) -> str:
     """Return the name of the contact of rubber at rest."""
-    return f"static_{believed(result, 'contact_fraction')}"
+    return rest_name(believed(result, "contact_fraction"))
 
 
 def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
@@ -233,6 +239,7 @@ def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
 
 def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     """Return a number of each wave against wavelength, a curve for each prediction."""
+    variable = variable_of(data, name)
     flags = data["wavelength"].copy(data=style.waves_beyond(data))
     values, lengths, flags = xr.broadcast(data[name], data["wavelength"] / MILLI, flags)
     over = [str(dim) for dim in values.dims if dim != "scale"]
@@ -241,11 +248,11 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     marks: list[Mark] = []
     for i, (at, colour, label) in enumerate(curves):
         x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
-        beyond = style.down_to(beyond) if name.startswith("running") else beyond
-        marks.append(Series(x, y, colour, label or words_of(data, name), marker="o", size=3.0,
+        beyond = style.down_to(beyond) if variable.running else beyond
+        marks.append(Series(x, y, colour, label or label_of(data, name), marker="o", size=3.0,
                             beyond=beyond, listed=i % every == 0))  # fmt: skip
-    area = "fraction" in name
-    down = " down to each wave" if name.startswith("running") else " of each wave"
+    area = variable.measures == "contact_fraction"
+    down = " down to each wave" if variable.running else " of each wave"
     label = f"{_AREA if area else 'friction coefficient'}{down} [-]"
     return Panel(
         chart.wavelength_axis(lengths.values),
@@ -253,7 +260,7 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
         marks,
         name=f"{name}-per-wave",
         caption=f"{_sentence(data, name)}, against wavelength.",
-        alt=f"{words_of(data, name)} against wavelength, which falls to the right.",
+        alt=f"{label_of(data, name)} against wavelength, which falls to the right.",
         height=400,
     )
 
@@ -264,7 +271,8 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     Dashed is what rests on the rubber beyond its measured band.
     """
     assert axis in result.dims
-    panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
+    names = [name for name, variable in PER_WAVE.items() if variable.running]
+    panels = [_wave_panel(result, name, thinned=False) for name in names]
     return Sheet(panels, legend="beside").on_paper()
 
 
@@ -341,7 +349,9 @@ def decades_figure(result: xr.Dataset, axis: str) -> Figure:
     The split is that of small strain (see
     `gripscale.questions.vary.speed_and_temperature`), and the figure says so.
     """
-    share = (result.friction_by_decade / result.total_friction).transpose("decade", axis)
+    share = (result.friction_by_decade / result[believed(result, "friction")]).transpose(
+        "decade", axis
+    )
     share = share.isel(decade=np.nanmax(share.values, axis=1) >= _LEAST_SHARE)
     abscissa, x = varied_axis(result, axis)
     low, high = _stack(np.nan_to_num(share.values))
@@ -373,9 +383,9 @@ def _relaxation_panel(data: xr.Dataset) -> Panel:
     over = [str(dim) for dim in parts.dims if dim != "decade"]
     return Panel(
         PlotAxis("relaxation times up to [s]", log=True),
-        PlotAxis(f"{words_of(data, name)} [-]"),
+        PlotAxis(f"{label_of(data, name)} [-]"),
         [
-            Series(times, summed.isel(at).values, colour, label or words_of(data, name), marker="o")
+            Series(times, summed.isel(at).values, colour, label or label_of(data, name), marker="o")
             for at, colour, label in _curves(data, over)
         ],
         name=f"{name}-over-decade",
@@ -418,7 +428,7 @@ def map_figure(result: xr.Dataset) -> Figure:
             [
                 chart.ValueMap(
                     *_finer(abscissa.log, speeds, celsius, result[name].values),
-                    TITLES[name],
+                    _label(result, name),
                     levels=9,
                 ),
                 *points,
@@ -479,7 +489,7 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
         marks.append(Series(speeds.of(x), y.values, scale[round(255 * float(share))],
                             name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
                             beyond=beyond.values, listed=False))  # fmt: skip
-    words, area = words_of(data, name), name.endswith("contact_fraction")
+    words, area = label_of(data, name), variable_of(data, name).measures == "contact_fraction"
     return Panel(
         PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
         PlotAxis(_label(data, name), log=area, low=None if area else 0.0),

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from gripscale import terminal
 from gripscale.core.errors import InputError
 from gripscale.terminal import OwnFolder, Workers, argument, command, option
@@ -30,7 +28,7 @@ def compare_surfaces_command(
         list[str],
         argument(
             "Two to six roads: files of profiles, cases (their surface), or surfaces known by "
-            "name. The others are compared with the first.",
+            "name.",
             "SURFACE...",
         ),
     ],
@@ -41,14 +39,10 @@ def compare_surfaces_command(
             metavar="CASE.toml",
         ),
     ] = None,
-    samples: Annotated[
-        int,
-        typer.Option(help="Stretches drawn of each road, for the range of its totals; 0: none."),
-    ] = 20,
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
-    """Compare roads under the same rubber: friction, area, and which scale makes the difference."""
+    """Rank roads under one rubber by friction: with what confidence, and by which wavelengths."""
     from gripscale.case_file.named_inputs import names_of, read_surface
     from gripscale.questions.vary.surface_comparison import compare_surfaces
 
@@ -60,7 +54,6 @@ def compare_surfaces_command(
             name: read_surface(value, work.file)
             for name, value in zip(names_of(surfaces), surfaces, strict=True)
         },
-        samples=samples or None,
         **work.solving(workers),
     )
     work.finish(roads, "tables and figures", drawings="", page=True)
@@ -72,7 +65,7 @@ def compare_rubbers(
         list[str],
         argument(
             "Two to six compounds: files of moduli, cases (their rubber), or rubbers known by "
-            "name. The others are compared with the first.",
+            "name.",
             "RUBBER...",
         ),
     ],
@@ -86,13 +79,10 @@ def compare_rubbers(
     temperature: Annotated[
         str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
     ] = None,
-    uncertainty: Annotated[
-        bool, typer.Option(help="Predict what each measurement leaves open, too.")
-    ] = True,
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
-    """Compare compounds on the same road: friction, area, and what makes the difference."""
+    """Rank compounds on one road by friction: with what confidence, and why."""
     from gripscale.case_file.named_inputs import names_of, read_rubber
     from gripscale.core.units import temperature_in_kelvin
     from gripscale.questions.vary.rubber_comparison import compare_compounds
@@ -100,11 +90,7 @@ def compare_rubbers(
     chosen = case_of(rubbers, case, "the road and the load")
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     work = terminal.CaseCommand(chosen)
-    opening = (
-        "Each compound is predicted first; then the range that the error of its measured moduli "
-        "leaves, on half-planes."
-    )
-    work.open_results(output, "rubbers", *[opening] * uncertainty)
+    work.open_results(output, "rubbers")
     compounds = compare_compounds(
         work.case,
         {
@@ -112,8 +98,6 @@ def compare_rubbers(
             for name, value in zip(names_of(rubbers), rubbers, strict=True)
         },
         temperature=kelvin,
-        uncertainty=uncertainty,
         **work.solving(workers),
     )
-    contents = "table and figures"
-    work.finish(compounds, contents, text="compounds.txt", drawings="", page=True)
+    work.finish(compounds, "table and figures", text="compounds.txt", drawings="", page=True)

@@ -13,11 +13,10 @@ from gripscale.core.units import MILLI
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
-from gripscale.questions.answer.best_estimate import BEST_ESTIMATES
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
+from gripscale.questions.vary.schema import Role, label_of, rest_name, telling, variable_of
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
-from gripscale.questions.vary.words import is_evidence, telling, words_of
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.failures import Failure
 
@@ -46,7 +45,9 @@ def study_table(data: xr.Dataset) -> Table:
     keys = len(columns)
     for name in reversed(SYMBOLS):
         column = believed(data, name)
-        columns.append(Column(column, each(column), SYMBOLS[name]))
+        # no friction at rest is none, not zero
+        values = [value or math.nan for value in each(column)]
+        columns.append(Column(column, values, SYMBOLS[name]))
         if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
             ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
             columns.append(Column(f"{column}_interval", ends, "90 %"))
@@ -74,7 +75,7 @@ def study_table(data: xr.Dataset) -> Table:
     if study_sentence(data):
         shares = each(FRICTION_OUTSIDE_BAND)
         columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
-    rest = f"static_{believed(data, 'contact_fraction')}"
+    rest = rest_name(believed(data, "contact_fraction"))
     if rest in data:
         columns.append(Column("static", each(rest), "A_r/A_0", "at rest"))
     status = [str(row.prediction_status.item()) for row in rows]
@@ -95,7 +96,7 @@ def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
     """Return each prediction without totals, and how many predictions there are."""
     endings = [
         Failure(str(sentence), str(word))
-        for name in (STATUS, f"static_{STATUS}")
+        for name in (STATUS, rest_name(STATUS))
         if name in data
         for sentence, word in zip(
             data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
@@ -179,15 +180,13 @@ def place_text(data: xr.Dataset, axis: str, i: int) -> str:
 def totals_of(data: xr.Dataset) -> list[str]:
     """Return the names of what there is one number or text of per prediction, best ones first."""
     axes = set(dimensions(data))
-    names = [
-        str(name)
+    roles = {
+        str(name): variable_of(data, str(name)).role
         for name, variable in data.data_vars.items()
-        if variable.dims
-        and set(variable.dims) <= axes
-        and not str(name).endswith(("_key", "_status_word"))
-        and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
-    ]
-    return sorted(names, key=lambda name: name not in BEST_ESTIMATES)
+        if variable.dims and set(variable.dims) <= axes
+    }
+    names = [name for name, role in roles.items() if role not in (Role.EVIDENCE, Role.RECORD)]
+    return sorted(names, key=lambda name: roles[name] not in (Role.ANSWER, Role.END))
 
 
 def totals_table(data: xr.Dataset) -> Table | None:
@@ -201,7 +200,7 @@ def totals_table(data: xr.Dataset) -> Table | None:
         Column(
             axis,
             [place_text(data, axis, index[axis]) for index in chosen],
-            words_of(data, axis),
+            label_of(data, axis),
             axis_unit(data, axis),
             words=axis in data.variables and data[axis].dtype.kind not in "fiub",
         )
@@ -210,8 +209,8 @@ def totals_table(data: xr.Dataset) -> Table | None:
     for name in names:
         values: list[Any] = [row[name].values[()] for row in rows]
         unit = str(data[name].attrs.get("units", "")).replace("1", "")
-        columns.append(Column(name, values, words_of(data, name), unit, format=digits(4)))
-    states = [name for name in names if name.endswith("status")]
+        columns.append(Column(name, values, label_of(data, name), unit, format=digits(4)))
+    states = [name for name in names if variable_of(data, name).role == Role.STATUS]
     bad = [any(str(row[name].values[()]) != CONVERGED for name in states) for row in rows]
     return Table("totals", columns, f"Totals of all {len(rows)} predictions", bad=bad)
 
@@ -224,12 +223,12 @@ def axis_unit(data: xr.Dataset, axis: str) -> str:
 def study_failures(data: xr.Dataset) -> Iterator[Failure]:
     """Yield each prediction that is not `converged`, or has a NaN total."""
     names = totals_of(data)
-    states = [name for name in names if name.endswith("status")]
-    totals = [name for name in names if name in ("total_contact_fraction", "contact_fraction")]
+    states = [name for name in names if variable_of(data, name).role == Role.STATUS]
+    totals = [name for name in names if variable_of(data, name).measures == "contact_fraction"]
     for index in places(data):
         row = data.isel(index)
         where = ", ".join(
-            " ".join(filter(None, [words_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
+            " ".join(filter(None, [label_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
             for n, i in index.items()
         )
         for name in states:

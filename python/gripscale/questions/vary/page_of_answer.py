@@ -12,9 +12,10 @@ from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
-from gripscale.model import STATUS, STEEP_SHARE, input_doubts_of
+from gripscale.model import STATUS, input_doubts_of
 from gripscale.questions.answer.best_estimate import AREA_TERM, ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
+from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
@@ -89,8 +90,8 @@ def course(data: xr.Dataset, name: str) -> str:
     Empty where it has no value, or nothing slides.
     """
     column = believed(data, name)
-    values = data[column].values
-    if not np.isfinite(values).any() or not np.nanmax(values) > 0.0:
+    values = data[column].where(data[column] > 0.0).values  # none at rest
+    if not np.isfinite(values).any():
         return ""
     title = f"{HEADINGS[name]} {SYMBOLS[name]}"
     axes = dimensions(data)
@@ -153,8 +154,9 @@ def _held(data: xr.Dataset) -> Iterator[str]:
         if name not in dimensions(data) and f"nominal_{name}" in data.attrs:
             value = float(data.attrs[f"nominal_{name}"])
             yield display_unit_of(data.attrs, name).text(value)
-    if "cutoff_wavelength" in data:
-        yield f"roughness down to {1e3 * float(data.cutoff_wavelength):.3g} mm"
+    ends = [float(data[name]) for name in ("cutoff_wavelength", CONTINUED_TO) if name in data]
+    if ends:
+        yield f"roughness down to {1e3 * min(ends):.3g} mm"
     if "thickness" in data.attrs and "thickness" not in data.dims:
         thickness = display_unit_of(data.attrs, "thickness").text(data.attrs["thickness"])
         yield f"rubber {thickness} thick on a rigid base"
@@ -182,7 +184,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"sampling of the road up to ± {percent_text(sampling)} of it (standard error)"
     else:
         yield "no interval: the surface is too short to tell how well it represents its road"
-    steep = float(data[STEEP_SHARE].max()) if STEEP_SHARE in data else 0.0
+    steep = float(data["best_steep_share"].max())
     if steep > WORTH_NAMING:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:

@@ -22,7 +22,7 @@ from gripscale.questions.vary.page import (
     totals_table,
 )
 from gripscale.questions.vary.page_of_answer import study_cards, study_lines
-from gripscale.questions.vary.words import words_of
+from gripscale.questions.vary.schema import label_of
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section
 from gripscale.report.equations import method_section
@@ -54,7 +54,7 @@ def study_page(data: xr.Dataset) -> Page:
     curves, *inputs = study_sections(data)
     return Page.of(
         str(data.attrs.get("title", "Study")),
-        f"varied: {', '.join(words_of(data, axis) for axis in dimensions(data))}",
+        f"varied: {', '.join(label_of(data, axis) for axis in dimensions(data))}",
         study_findings(data),
         [*study_cards(data), *count_cards(data)],
         [
@@ -83,7 +83,7 @@ def count_cards(data: xr.Dataset) -> list[Card]:
     """Return how many predictions there are, and how many of them failed."""
     failed = len(list(study_failures(data)))
     count = math.prod(data.sizes[name] for name in dimensions(data))
-    axes = " × ".join(words_of(data, axis) for axis in dimensions(data))
+    axes = " × ".join(label_of(data, axis) for axis in dimensions(data))
     return [
         Card("Predictions", str(count), axes),
         Card("Not converged", str(failed), "see the table of totals", bad=failed > 0),

@@ -10,15 +10,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from gripscale.case import Case
 from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io.table import Table
 from gripscale.model import Model
-from gripscale.questions.answer.best_estimate import with_best_estimate
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page, page_of_answer, page_of_study
 from gripscale.questions.vary.study import Study
@@ -33,9 +30,6 @@ class Variation(Result):
     """Friction and contact area of a case over one or two of its inputs."""
 
     kind = "study"
-
-    def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
-        super().__init__(with_best_estimate(data), inputs)
 
     @property
     def lines(self) -> Sequence[str]:

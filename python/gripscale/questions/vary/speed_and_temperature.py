@@ -229,12 +229,12 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
         text = str(wave.rubber_parameters.item()) if "rubber_parameters" in wave else ""
         matching = Rubber.from_dict(json.loads(text)) if text else rubber
         share = _shares(wave, matching) * float(wave.friction)
-        for n, part in _in_decades(np.log10(matching.relaxation_times), share):
+        for n, part in in_decades(np.log10(matching.relaxation_times), share):
             parts[n] = parts.get(n, 0.0) + part
     return parts
 
 
-def _in_decades(decade: Array, share: Array) -> Iterator[tuple[int, float]]:
+def in_decades(decade: Array, share: Array) -> Iterator[tuple[int, float]]:
     """Yield decades and the part of the shares of elements, at `decade` [decades], in each."""
     order = np.argsort(decade)
     for low, high, part in zip(*_ends(decade[order]), share[order], strict=True):

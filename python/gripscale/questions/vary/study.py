@@ -37,11 +37,14 @@ from gripscale.experiment.design import (
 )
 from gripscale.experiment.solve import Bench, OnTask, Progress, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
-from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
-from gripscale.model import BASIS, Model, input_doubts
+from gripscale.model import Model, input_doubts
+from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
+from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
+from gripscale.questions.vary.schema import VARIABLES, at_rest, rest_name
 from gripscale.questions.vary.speed_and_temperature import (
     beyond_shift,
     friction_by_decade,
@@ -53,13 +56,18 @@ from gripscale.surface import Surface
 
 _RENAMED = {"temperature": "wave_temperature"}
 """Variables over waves that have the name of an axis."""
+_OF_THE_LOAD = ("nominal_pressure", "nominal_speed", "footprint", "thickness")
+_COMMON = ("cutoff_wavelength", CONTINUED_TO)
+"""Ends of the roughness, which are stated once where all predictions have them in common."""
 
 
 def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
-    """Return what a study keeps of an answer: numbers by wave and of the whole surface.
+    """Return what a study keeps: of the answer all but the load, of a model its numbers.
 
-    Of an answer from a measured surface also what it rests on, with its estimated errors.
+    These are by wave and of the whole surface, and what they rest on with its estimated errors.
     """
+    if isinstance(task.model, AnswerModel):
+        return answer.drop_vars(_OF_THE_LOAD, errors="ignore")
     names = [
         name
         for name, variable in answer.data_vars.items()
@@ -289,7 +297,7 @@ class Study:
     def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
         """Report every prediction as stored, if the store misses none that `data` rests on."""
         labels: dict[str, str] = {}
-        for prefix, axes in (("", self.axes), ("static_", self.static_axes)):
+        for prefix, axes in (("", self.axes), (rest_name(""), self.static_axes)):
             if f"{prefix}prediction_key" in data:
                 keys = data[f"{prefix}prediction_key"]
                 for index, label in self._labels(axes, static=bool(prefix)):
@@ -311,27 +319,25 @@ class Study:
         """Return the Dataset of the study from its predictions by their keys."""
         result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
         if self.static_design.points:
-            rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
+            rest = at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
-        if set(BASIS) <= set(result):
-            result = result.assign(self._common_cut_off())
+        for name in _COMMON:
+            if name in result:
+                common, *others = np.unique(result[name].values)
+                attrs = variable_attributes("shortest wavelength of the roughness", "m")
+                result = result.drop_vars([name, rest_name(name)], errors="ignore")
+                result = result if others else result.assign({name: ((), common, attrs)})
+        if "factor_label" in result:
+            first = dict.fromkeys(self.design.sizes, 0)
+            result["factor_label"] = result["factor_label"].isel(first)
+        for name, variable in result.data_vars.items():
+            if str(name) in VARIABLES and "long_name" not in variable.attrs:
+                variable.attrs |= variable_attributes(VARIABLES[str(name)].label)
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
         return result.assign_attrs(self._provenance())
-
-    def _common_cut_off(self) -> dict[str, Any]:
-        """Return the cut-off of all predictions by its name, if they have one."""
-        direct = isinstance(self.model, DirectContact)
-        cut_offs = {
-            resolved_wavelength(surface) if direct else surface.cutoff_wavelength
-            for surface in (point.task.surface for point in self.points)
-        }
-        if len(cut_offs) > 1:
-            return {}
-        text = "shortest wavelength of the roughness"
-        return {"cutoff_wavelength": ((), cut_offs.pop(), variable_attributes(text, "m"))}
 
     def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
         """Yield the index of each point on the axes, and its label."""
@@ -414,11 +420,3 @@ class Study:
             "model": model.name,
             **provenance.version_attributes(),
         }
-
-
-def _at_rest(data: xr.Dataset) -> xr.Dataset:
-    """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = ["friction", "angular_frequency", "loss_factor", "loss_modulus_ratio", "load_time"]
-    moving += ["speed", "_band", "_missing", "_steep"]
-    names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
-    return data[names].rename({name: f"static_{name}" for name in names})
