@@ -73,6 +73,15 @@ _CURVES = (
 signed = fixed(2, "+")
 
 
+def effect_sentence(data: xr.Dataset) -> str:
+    """Return what a per cent of both moduli does to the friction."""
+    loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
+    return (
+        f"1 % more E″ gives {least_to_most(loss, digits(2))} % more friction; 1 % less E′ gives "
+        f"{least_to_most(-storage, digits(2))} % more"
+    )
+
+
 class Sensitivity(Result):
     """The derivatives of the friction of a case by all of its inputs."""
 
@@ -84,17 +93,13 @@ class Sensitivity(Result):
         if STORAGE not in data:
             reasons = sorted({failure.sentence for failure in self.failures})
             return [f"Answer: none. No contact was solved: {'; '.join(reasons)}"]
-        loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
         load = [
             display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
             for name in ("pressure", "speed")
             if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
         ]
         where = f", at {' and '.join(load)}" if load else ""
-        lines = [
-            f"Answer: 1 % more E'' at all frequencies gives {least_to_most(loss, digits(2))} % "
-            f"more friction, 1 % less E' {least_to_most(-storage, digits(2))} %{where}"
-        ]
+        lines = [f"Answer: {effect_sentence(data)}{where}."]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():
                 effect = np.maximum(point[LOSS].values, 0.0)
@@ -103,7 +108,7 @@ class Sensitivity(Result):
                 low, high = np.exp(ends)
                 where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
                 between = f"between {low:.2g} and {high:.2g} rad/s"
-                lines.append(f"  half of the effect of E''{where} is {between}")
+                lines.append(f"  half of the effect of E″{where} is {between}")
         return lines
 
     @property

@@ -330,9 +330,9 @@ class Study:
         if "factor_label" in result:
             first = dict.fromkeys(self.design.sizes, 0)
             result["factor_label"] = result["factor_label"].isel(first)
-        for name, variable in result.data_vars.items():
-            if str(name) in VARIABLES and "long_name" not in variable.attrs:
-                variable.attrs |= variable_attributes(VARIABLES[str(name)].label)
+        for key, variable in result.data_vars.items():
+            if str(key) in VARIABLES and "long_name" not in variable.attrs:
+                variable.attrs |= variable_attributes(VARIABLES[str(key)].label)
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
