@@ -147,7 +147,7 @@ class Sensitivity(Result):
             yield (
                 f"The rule of thumb for {name} takes tan δ at "
                 f"{float(self.data.rule_frequency[i]):.2g} rad/s ({RULE_FREQUENCY:g} Hz, shifted); "
-                f"{shares} of the effect of E'' lies within half a decade of it."
+                f"{shares} of the effect of E″ lies within half a decade of it."
             )
 
     def table(self) -> Table:
@@ -159,7 +159,7 @@ class Sensitivity(Result):
                 symbol,
                 format=signed,
             )
-            for key, name, symbol in (("loss", LOSS, "E''"), ("storage", STORAGE, "E'"))
+            for key, name, symbol in (("loss", LOSS, "E″"), ("storage", STORAGE, "E′"))
         ]
         columns = [self._points_column(), *moduli, *self._scalar_columns("")]
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
@@ -181,7 +181,7 @@ class Sensitivity(Result):
         for i in chosen:
             text, point = listed[i]
             unit = text if len(listed) > 1 else ""
-            for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+            for name, symbol in ((LOSS, "E″"), (STORAGE, "E′")):
                 values = [float(point[name].values[decade == row].sum()) for row in rows]
                 columns.append(Column(f"{name}_{i}", values, symbol, unit, format=signed))
         notes = []
@@ -202,7 +202,7 @@ class Sensitivity(Result):
         lead, *below = self.lines
         panels = charts.sensitivity_panels(self.data) if STORAGE in self.data else []
         cards = []
-        for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+        for name, symbol in ((LOSS, "E″"), (STORAGE, "E′")):
             if name in self.data:
                 value = least_to_most(self.data[name].sum("frequency"), digits(2))
                 detail = "of friction, at all frequencies"

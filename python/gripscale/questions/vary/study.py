@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -30,12 +29,11 @@ from gripscale.core.units import GIVEN
 from gripscale.experiment.design import (
     SURFACE,
     Design,
-    Index,
     Point,
     basis_numbers,
     variable_attributes,
 )
-from gripscale.experiment.solve import Bench, OnTask, Progress, bench_in
+from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
@@ -263,7 +261,8 @@ class Study:
         Parameters
         ----------
         folder : path, optional
-            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one
+            Gets `study.nc`, and the predictions in `predictions`; has it that of just this study,
+            this is returned. Several studies may share one
             folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
             As for `solve_all`.
@@ -279,10 +278,10 @@ class Study:
         InputError, FileError
             An input that cannot be used, a result that cannot be written.
         """
+        data = None if folder is None else self.stored(folder)
+        if data is not None:
+            return data
         with bench_in(folder, workers, client, on_task) as bench:
-            data = None if folder is None else self.stored(folder)
-            if data is not None and self._all_there(data, bench):
-                return data
             answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
             data = self.assemble(answers).assign_attrs(kind="study")
         if folder is None:
@@ -293,27 +292,6 @@ class Study:
         """Return the Dataset an earlier run of just this study left in `folder`, or None."""
         data = load_stored(Path(folder) / STUDY_FILE)
         return data if data is not None and data.attrs.get("study_key") == self.key else None
-
-    def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
-        """Report every prediction as stored, if the store misses none that `data` rests on."""
-        labels: dict[str, str] = {}
-        for prefix, axes in (("", self.axes), (rest_name(""), self.static_axes)):
-            if f"{prefix}prediction_key" in data:
-                keys = data[f"{prefix}prediction_key"]
-                for index, label in self._labels(axes, static=bool(prefix)):
-                    labels.setdefault(str(keys.values[index]), label)
-        answers: dict[str, xr.Dataset] = {}
-        assert bench.store is not None, "a study keeps its predictions"
-        for key in labels:
-            answer = bench.store.get(key)
-            if answer is None:
-                return False
-            answers[key] = answer
-        for number, (key, answer) in enumerate(answers.items(), start=1):
-            if bench.on_task is not None:
-                count = number, len(answers)
-                bench.on_task(Progress(*count, labels[key], answer, 0.0, stored=True))
-        return True
 
     def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
@@ -339,22 +317,15 @@ class Study:
             result = with_master_curve(result, self.rubbers[0])
         return result.assign_attrs(self._provenance())
 
-    def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
-        """Yield the index of each point on the axes, and its label."""
-        for index in product(*(range(len(axis.values)) for axis in axes)):
-            words = [
-                f"{axis.name} {axis.called(i, self.case.units)}"
-                for axis, i in zip(axes, index, strict=True)
-            ]
-            yield index, ", ".join(["static", *words] if static else words)
-
     def _design(self, axes: tuple[Axis, ...], *, static: bool) -> Design:
-        points = []
-        for index, label in self._labels(axes, static=static) if self.static or not static else ():
-            at = {axis.name: i for axis, i in zip(axes, index, strict=True)}
+        sizes, points = {axis.name: len(axis.values) for axis in axes}, []
+        for index in np.ndindex(*sizes.values()) if self.static or not static else ():
+            at = dict(zip(sizes, index, strict=True))
+            words = [f"{axis.name} {axis.called(at[axis.name], self.case.units)}" for axis in axes]
             values = {axis.name: axis.values[at[axis.name]] for axis in axes}
+            label = ", ".join(["static"] * static + words)
             points.append(Point(index, label, self._task(values, at, static=static)))
-        return Design({axis.name: len(axis.values) for axis in axes}, points)
+        return Design(sizes, points)
 
     def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
         load = self.case.load
