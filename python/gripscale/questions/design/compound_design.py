@@ -90,7 +90,7 @@ def solved_point(
     result = gain(friction, reference.contacts, contacts, error)
     rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
     worth = problem.worth_of_limits(level, best.slope)
-    low, high = (end - 1.0 for end in result.interval)
+    low, high = result.interval
     searched, sought = (
         math.expm1(end.log_friction - reference.log_friction) for end in (optimum, best)
     )
@@ -162,7 +162,7 @@ def other_compounds(
         errors = [series_error(each) for each in (reference.series, series) if each.size]
         error = math.hypot(*errors) if errors else math.nan
         result = gain(friction, reference.contacts, contacts, error)
-        low, high = (end - 1.0 for end in result.interval)
+        low, high = result.interval
         rolling = math.nan
         try:
             for point in problem.rolling:

@@ -37,17 +37,29 @@ from gripscale.rubber import Rubber
 
 
 @dataclass(frozen=True)
-class Gain(FrictionRatio):
+class Gain:
     """Logarithm of the friction of a compound over that of another, and its errors."""
 
-    twice_cut_off: float = math.nan
+    log_ratio: float
+    """G [-]."""
+    twice_cut_off: float
     """G with twice the cut-off of the road [-]."""
-    sampling: float = math.nan
+    sampling: float
     """Standard error of G [-] from the pieces of the road; NaN if it has too few."""
-    grid: float = math.nan
+    freedom: float
+    """Degrees of freedom of the sampling error."""
+    grid: float
     """Largest error of G from the grids [-]; the truth is even within it."""
     rubber: float = math.nan
     """Standard error of G from the measurement of the rubber [-]; NaN if nobody knows it."""
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Interval of the gain, exp(G) - 1, that holds it 9 times in 10; NaN if not known."""
+        sampling, grid = (self.sampling, self.freedom), self.grid / math.sqrt(3.0)
+        ratio = FrictionRatio.of_sources(self.log_ratio, sampling, grid, self.rubber)
+        low, high = ratio.interval
+        return low - 1.0, high - 1.0
 
 
 def gain(
@@ -77,10 +89,8 @@ def gain(
     frictions = {"coarse_friction": coarse_friction}
     grid = grid_error(lambda name: log_ratio(frictions.get(name, attrgetter(name))))
     total = log_ratio(attrgetter("friction_from_dissipation"))
-    sampling = _sampling(friction, before, after)
-    ratio = FrictionRatio.of_sources(total, sampling, grid / math.sqrt(3.0), rubber)
     doubled = log_ratio(at_twice_the_cut_off)
-    return Gain(total, ratio.sigma, ratio.freedom, doubled, sampling[0], grid, rubber)
+    return Gain(total, doubled, *_sampling(friction, before, after), grid, rubber)
 
 
 def _shares(friction: GoalFriction, contacts: Sequence[RoughContact]) -> Array:
