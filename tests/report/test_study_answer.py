@@ -10,7 +10,7 @@ import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.io.table import significant
-from gripscale.questions import Study, with_best_estimate
+from gripscale.questions import Study
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
@@ -40,7 +40,7 @@ def solved(folder: Path) -> xr.Dataset:
     """Two speeds, one of them that of the case, and the rubber at rest."""
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, static=True)
     assert study.model.name == "direct"
-    return with_best_estimate(study.run(folder / "study"))
+    return study.run(folder / "study")
 
 
 def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
@@ -108,7 +108,7 @@ def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) ->
 def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, model="chain")
     data = study.run(folder / "chain")
-    assert with_best_estimate(data) is data
+    assert "best_friction" not in data
     answer, _, advice = study_lines(data)
     assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
     assert "`--model direct`" in advice

@@ -19,13 +19,11 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.experiment.design import Index, stack, variable_attributes
 from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import BASIS, STATUS, UPPER_HEIGHT
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
+from gripscale.questions.answer.intervals import LogError, combined, half_width
 
 DIRECT = DirectContact.name
 """Name of the model that every answer starts from."""
@@ -224,90 +222,10 @@ def _where_all_known(numbers: FactorNumbers) -> FactorNumbers:
     }
 
 
-_WORDS = {"contact_fraction": "real contact area A_r/A_0", "friction": "friction μ"}
-OF_A_POINT = {
-    "": "best estimate of the {}",
-    "_low": "low end of the 90 % interval of the {}",
-    "_high": "high end of the 90 % interval of the {}",
-    "_half_width": "relative half width of the 90 % interval of the {}",
-    "_sampling_error": "relative standard error of the {} from the sampling of the road",
-    "_factor": "factor on the {} of the direct contact, NaN if not included",
-    "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
-}
-"""What is kept of the best estimate of a prediction: end of its name, and meaning."""
-POINT_ESTIMATES = frozenset(
-    ["factor_label", *(f"best_{name}{end}" for name in ESTIMATED for end in OF_A_POINT)]
-)
-"""Names that `with_best_estimate` adds for the rubber that slides."""
-BEST_ESTIMATES = POINT_ESTIMATES - {"factor_label"} | {
-    *(f"best_{name}{end}" for name in ESTIMATED for end in ("_uncertainty", "_grid_error")),
+_ENDS = ("", "_low", "_high", "_half_width", "_sampling_error", "_factor", "_factor_uncertainty")
+_ENDS += ("_uncertainty", "_grid_error")
+BEST_ESTIMATES = {
+    *(f"best_{name}{end}" for name in ESTIMATED for end in _ENDS),
     *(f"best_{share}" for share in (*BASIS_SHARES, *SHARES_BY_SLOPE)),
 }
 """Names of all numbers of a best estimate."""
-
-
-def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
-    """Return predictions of the direct contact with the best estimate of each.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        A study (`gripscale.questions.Study`); one of another model is returned as it is.
-
-    Returns
-    -------
-    xarray.Dataset
-        With `best_contact_fraction` and `best_friction` over the axes of the study, the ends `_low`
-        and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of rubber
-        at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
-        result, or the surface is too short for an interval.
-    """
-    if UPPER_HEIGHT not in data:  # no direct contact
-        return data
-    data = data.drop_dims("factor", errors="ignore")
-    for prefix in ("", "static_"):
-        total = data.get(f"{prefix}total_contact_fraction")
-        if total is None:
-            continue
-        parts: dict[Index, xr.Dataset] = {}
-        for index in np.ndindex(total.shape):
-            row = data.isel(dict(zip(total.dims, index, strict=True)))
-            parts[index] = _of_prediction(row, prefix)
-        sizes = {str(dim): size for dim, size in total.sizes.items()}
-        stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
-        data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
-        label = parts[(0,) * total.ndim]["factor_label"]
-        data["factor_label"] = label.assign_attrs(
-            variable_attributes("factors of the best estimate")
-        )
-    return data
-
-
-def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
-    """Return the best estimate of one prediction of a study, a sample of all its profiles."""
-    names = [*reduce.SAMPLED_QUANTITIES, *(f"{name}_error" for name in reduce.SMOOTH)]
-    names.append("adhesive_friction")
-    names += [name.removeprefix("total_") for name in BASIS]
-    numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
-    if prefix or float(row.get("speed", row.attrs["nominal_speed"])) == 0.0:
-        numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
-    sample = xr.Dataset({name: (("rung", "sample"), [[value]]) for name, value in numbers.items()})
-    sample[STATUS] = ("rung", "sample"), np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object)
-    sample = sample.assign_coords(
-        rung=[DIRECT], subject=(("rung", "sample"), np.array([["surface"]], dtype=object))
-    )
-    best = best_estimate(sample)
-    kept = best[["factor_label"]]
-    for name in ("contact_fraction",) if prefix else ESTIMATED:
-        value = best[f"best_{name}"]
-        ends = interval_ends(value, best[f"best_{name}_half_width"])
-        best = best.assign(dict(zip((f"best_{name}_low", f"best_{name}_high"), ends, strict=True)))
-        for end, text in OF_A_POINT.items():
-            part = best[f"best_{name}{end}"].reset_coords(drop=True)
-            kept[f"best_{name}{end}"] = part.assign_attrs(
-                variable_attributes(text.format(_WORDS[name]))
-            )
-    if AREA_TERM in best:
-        text = "friction coefficient of the area term over the best estimate of the contact area"
-        kept[AREA_TERM] = best[AREA_TERM].assign_attrs(variable_attributes(text))
-    return kept

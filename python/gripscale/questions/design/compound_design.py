@@ -44,7 +44,7 @@ from gripscale.questions.design.goal_friction import GoalFriction
 from gripscale.questions.design.rolling import rolling_ratio
 from gripscale.questions.vary.friction_ratio import series_error
 from gripscale.questions.vary.inputs import at_temperature, identity, model_of
-from gripscale.questions.vary.rubber_comparison import at_one_temperature
+from gripscale.questions.vary.ranking import at_one_temperature
 from gripscale.questions.words import believed
 from gripscale.rubber import Rubber
 

@@ -19,9 +19,10 @@ from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW, RowFlags
+from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
+from gripscale.io.table import significant
 from gripscale.questions.vary.axis import (
     WORDS,
     axis_label,
@@ -87,8 +88,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
         for name in totals
         if axis in data[name].dims
     ]
-    if "friction_by_decade" in data and data.sizes["decade"] > 1:
-        panels.append(_relaxation_panel(data))
+    panels += stacked_panels(data).values()
     if REDUCED_SPEED in data.coords:
         panels += [_reduced_panel(data, believed(data, name)) for name in reversed(AXIS_TITLES)]
     for name in PER_WAVE if "wavelength" in data else ():
@@ -276,122 +276,60 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     return Sheet(panels, legend="beside").on_paper()
 
 
-_HEIGHT = 3.4
 _AREA = "real contact area $A_r/A_0$"
 _LEAST_SHARE = 0.005
-"""Decades of relaxation time that never reach this share of the friction are not drawn."""
+"""Octaves and decades that never reach this share of the friction are not drawn."""
 
 
-def wavelength_names(result: xr.Dataset) -> list[str]:
-    """Return the wavelengths of a study over one axis, for a legend; ranges where they vary."""
-    names = []
-    for i in range(result.sizes["scale"]):
-        values = result.wavelength.isel(scale=i).values / MILLI
-        values = values[np.isfinite(values)]
-        low, high = (values.min(), values.max()) if values.size else (math.nan, math.nan)
-        same = high <= low * 1.01
-        names.append(f"{high:.3g} mm" if same else f"{low:.3g} to {high:.3g} mm")
-    return names
+def octaves_panel(result: xr.Dataset, axis: str) -> Panel:
+    """Return friction over one axis as the sum of its octaves of wavelength."""
+    parts = result.octave_friction.sortby("octave", ascending=False)
+    names = [f"from {significant(end, 2)} mm" for end in parts.octave.values / MILLI]
+    ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
+    return _stacked(result, axis, parts, names, ordinate, "Viridis")
 
 
-def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
-    """Draw friction as the sum of its waves, and contact area down to each of them, over one axis.
-
-    Each band of friction is the friction coefficient of a wave. Waves beyond the measured band of
-    the rubber are hatched, and dashed.
-    """
-    abscissa, x = varied_axis(result, axis)
-    beyond = style.waves_beyond(result.transpose("scale", axis, ...))
-    friction = result.friction.transpose("scale", axis).values
-    running = result.running_contact_fraction.transpose("scale", axis).values
-    looks = zip(running, style.shades(len(running)), beyond, strict=True)
-    total = Series(
-        x, result.total_friction, INK, width=1.2, beyond=style.predictions_beyond(result)
-    )
-    panels = [
-        Panel(
-            abscissa,
-            PlotAxis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
-            [*_wave_bands(result, x, *_stack(friction), beyond), total],
-        ),
-        Panel(
-            abscissa,
-            PlotAxis(f"{_AREA} down to each wave [-]", log=True),
-            [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
-        ),
-    ]
-    return Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength").on_paper()
-
-
-def _stack(rows: Array) -> tuple[Array, Array]:
-    """Return the lower and upper ends of rows upon each other; all missing leaves a gap."""
-    upper = np.cumsum(np.where(np.isnan(rows), 0.0, rows), axis=0)
-    upper[:, np.isnan(rows).all(axis=0)] = np.nan
-    return np.vstack([np.zeros_like(upper[:1]), upper[:-1]]), upper
-
-
-def _wave_bands(
-    result: xr.Dataset, x: Array, low: Array, high: Array, beyond: RowFlags
-) -> list[Mark]:
-    """Return a band for each wave, the last first: so they stand in the legend as in the stack."""
-    bands: list[Mark] = [
-        ShadedBand(x, least, most, colour, name, 1.0, flags, edged=True)
-        for least, most, colour, name, flags in zip(
-            low, high, style.shades(len(low)), wavelength_names(result), beyond, strict=True
-        )
-    ]
-    return bands[::-1]
-
-
-def decades_figure(result: xr.Dataset, axis: str) -> Figure:
-    """Draw the share of each decade of relaxation time in the friction over one axis.
+def decades_panel(result: xr.Dataset, axis: str) -> Panel:
+    """Return the share of each decade of relaxation time in the friction over one axis.
 
     The split is that of small strain (see
-    `gripscale.questions.vary.speed_and_temperature`), and the figure says so.
+    `gripscale.questions.vary.speed_and_temperature`), and the panel says so.
     """
-    share = (result.friction_by_decade / result[believed(result, "friction")]).transpose(
-        "decade", axis
-    )
-    share = share.isel(decade=np.nanmax(share.values, axis=1) >= _LEAST_SHARE)
-    abscissa, x = varied_axis(result, axis)
-    low, high = _stack(np.nan_to_num(share.values))
-    scale = style.shades(max(share.sizes["decade"], 2), "Cividis")
-    marks: list[Mark] = [
-        ShadedBand(
-            x, least, most, colour, style.power_of_ten(round(math.log10(time))), 1.0, edged=True
-        )
-        for least, most, colour, time in zip(low, high, scale, share.decade.values, strict=False)
-    ]
-    total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
-                   beyond=style.predictions_beyond(result))  # fmt: skip
+    parts = result.friction_by_decade / result[believed(result, "friction")]
+    names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
     ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
-    panel = Panel(abscissa, ordinate, [*marks[::-1], total])
-    look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
-    return Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look).on_paper()
+    return _stacked(result, axis, parts, names, ordinate, "Cividis")
 
 
-def _relaxation_panel(data: xr.Dataset) -> Panel:
-    """Return friction summed up over relaxation times.
-
-    The sum at the end of a decade is exact whatever the spacing of the Maxwell elements; the parts
-    of the decades would rise and fall with how many of them one holds.
-    """
-    name = "friction_by_decade"
-    parts = data[name]
-    summed = parts.cumsum("decade", skipna=True).where(parts.notnull())
-    times = 10.0 * data["decade"].values.astype(float)
-    over = [str(dim) for dim in parts.dims if dim != "decade"]
+def _stacked(
+    result: xr.Dataset,
+    axis: str,
+    parts: xr.DataArray,
+    names: list[str],
+    ordinate: PlotAxis,
+    scale: str,
+) -> Panel:
+    """Return a band for each part, the last first: so they stand in the legend as in the stack."""
+    rows = parts.transpose(..., axis).values
+    there = np.nan_to_num(rows)
+    upper = np.where(np.isnan(rows).all(axis=0), np.nan, np.cumsum(there, axis=0))
+    seen = np.flatnonzero(there.max(axis=1) >= _LEAST_SHARE * there.sum(axis=0).max())
+    abscissa, x = varied_axis(result, axis)
+    bands: list[Mark] = [
+        ShadedBand(x, upper[i] - there[i], upper[i], colour, names[i], 1.0, edged=True)
+        for i, colour in zip(seen, style.shades(max(seen.size, 2), scale), strict=False)
+    ]
+    total = Series(x, upper[-1], INK, width=1.2, clip=False,
+                   beyond=style.predictions_beyond(result))  # fmt: skip
+    name = str(parts.name or "friction_by_decade")
+    words = label_of(result, name)
     return Panel(
-        PlotAxis("relaxation times up to [s]", log=True),
-        PlotAxis(f"{label_of(data, name)} [-]"),
-        [
-            Series(times, summed.isel(at).values, colour, label or label_of(data, name), marker="o")
-            for at, colour, label in _curves(data, over)
-        ],
-        name=f"{name}-over-decade",
-        caption="Friction coefficient of all Maxwell elements up to a relaxation time, split as at "
-        "small strain.",
-        alt="Friction summed up over relaxation times.",
+        abscissa,
+        ordinate,
+        [*bands[::-1], total],
+        name=f"{name}-over-{axis}",
+        caption=f"{words}, stacked.",
+        alt=f"{words}, stacked against {label_of(result, axis)}.",
     )
 
 
@@ -501,22 +439,32 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
     )
 
 
+def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
+    """Return what makes the friction over a single axis of numbers, by the name of its figure."""
+    several = [name for name in dimensions(data) if data.sizes[name] > 1]
+    if several != numeric(data) or len(several) != 1:
+        return {}
+    data = data.isel({name: 0 for name in dimensions(data) if name not in several})
+    panels = {}
+    if "octave_friction" in data:
+        panels["stacked"] = octaves_panel(data, several[0])
+    if "friction_by_decade" in data:
+        panels["decades"] = decades_panel(data, several[0])
+    return panels
+
+
 def study_figures(result: xr.Dataset) -> Iterator[tuple[str, Figure]]:
-    """Yield totals and, over a single axis, what the waves do; over two axes the page does."""
+    """Yield totals and, over a single axis, what makes them; over two axes the page does."""
     yield "totals", totals_figure(result)
     if REDUCED_SPEED in result.coords and np.isfinite(result.total_friction.values).any():
         yield "friction_master_curve", friction_master_figure(result)
         if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
             yield "map", map_figure(result)
     several = [name for name in dimensions(result) if result.sizes[name] > 1]
-    if len(several) != 1 or "wavelength" not in result:
-        return
-    axis = several[0]
-    result = result.isel({name: 0 for name in dimensions(result) if name != axis})
     if not (result.prediction_status == "converged").any():
         return
-    yield "wavelength", wavelength_figure(result, axis)
-    if axis in numeric(result):
-        yield "stacked", stacked_figure(result, axis)
-        if "friction_by_decade" in result:
-            yield "decades", decades_figure(result, axis)
+    if len(several) == 1 and "wavelength" in result:
+        first = {name: 0 for name in dimensions(result) if name not in several}
+        yield "wavelength", wavelength_figure(result.isel(first), several[0])
+    for name, panel in stacked_panels(result).items():
+        yield name, Sheet([panel], 1, NARROW, 3.6, gap=0.02, legend="beside").on_paper()

@@ -21,7 +21,6 @@ from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of
 from gripscale.questions.inputs.page import input_sections, texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.inputs import READING, TEMPERATURE
-from gripscale.questions.vary.ranking import ranked_order
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -98,6 +97,12 @@ def ranking_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
     kelvin = data.attrs.get(TEMPERATURE)
     at = "" if kelvin is None else f", all at {kelvin - ZERO_CELSIUS:.4g} °C"
     yield f"  for {pressure} and {speed}{at}; {_basis(data, dim)}"
+
+
+def ranked_order(data: xr.Dataset, dim: str) -> list[int]:
+    """Return the numbers of what has friction along `dim`, the largest first."""
+    friction = data[believed(data, "friction")].transpose(dim).values
+    return [int(i) for i in np.argsort(-friction, kind="stable") if friction[i] > 0.0]
 
 
 def _confidence(data: xr.Dataset, dim: str, high: int, low: int) -> str:

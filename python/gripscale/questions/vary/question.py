@@ -17,7 +17,7 @@ from gripscale.half_space.model import JUDGED_TO
 from gripscale.io.table import Table
 from gripscale.model import Model
 from gripscale.questions.result import Result
-from gripscale.questions.vary import page, page_of_answer, page_of_study
+from gripscale.questions.vary import page, page_of_answer
 from gripscale.questions.vary.study import Study
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
@@ -39,7 +39,7 @@ class Variation(Result):
     @property
     def findings(self) -> Sequence[Finding]:
         """Predictions without a result, extrapolation, and notes about the surfaces."""
-        return tuple(page_of_study.study_findings(self.data))
+        return tuple(page.study_findings(self.data))
 
     @property
     def failure(self) -> str:
@@ -63,7 +63,7 @@ class Variation(Result):
 
     def page_content(self) -> Page:
         """Return the predictions, their curves, and the inputs."""
-        return page_of_study.study_page(self.data)
+        return page.study_page(self.data)
 
 
 def vary(

@@ -13,7 +13,6 @@ from gripscale.questions.inputs.page import rubbers_of
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page, page_side_by_side
 from gripscale.questions.vary.inputs import READING
-from gripscale.questions.vary.page_of_study import study_findings
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
 
@@ -42,7 +41,7 @@ class SideBySide(Result):
     @property
     def findings(self) -> Sequence[Finding]:
         """What has no answer, and extrapolation of the rubber."""
-        return tuple(study_findings(self.data))
+        return tuple(page.study_findings(self.data))
 
     @property
     def failure(self) -> str:

@@ -40,7 +40,7 @@ from gripscale.io import netcdf
 from gripscale.model import Model, input_doubts
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
-from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.answer_model import OCTAVE, AnswerModel
 from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
 from gripscale.questions.vary.schema import VARIABLES, at_rest, rest_name
 from gripscale.questions.vary.speed_and_temperature import (
@@ -93,6 +93,21 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     time = [10.0**n for n in data.decade.values.tolist()]
     described = variable_attributes("shortest relaxation time of the decade", "s")
     return data.assign_coords(decade=xr.Variable("decade", time, described))
+
+
+def waves_by_octave(data: xr.Dataset) -> dict[str, Any]:
+    """Return the friction of the waves of a chain by octave of wavelength."""
+    friction = data["friction"].transpose(..., "scale").values
+    number = np.log2(np.broadcast_to(data["wavelength"].values, friction.shape) / OCTAVE)
+    octave = np.floor(number + 1e-9)
+    every = np.unique(octave[np.isfinite(octave)])
+    parts = [np.where(octave == n, friction, 0.0).sum(axis=-1) for n in every]
+    dims = tuple(dim for dim in data["friction"].dims if dim != "scale")
+    text = "friction coefficient of the octave"
+    return {
+        "octave": ("octave", OCTAVE * 2.0**every, variable_attributes("shortest wavelength", "m")),
+        "octave_friction": ((*dims, "octave"), np.stack(parts, -1), variable_attributes(text)),
+    }
 
 
 def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.Variable]:
@@ -299,6 +314,8 @@ class Study:
         if self.static_design.points:
             rest = at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
+        if {"friction", "wavelength"} <= set(result):
+            result = result.assign(waves_by_octave(result))
         for name in _COMMON:
             if name in result:
                 common, *others = np.unique(result[name].values)
