@@ -98,7 +98,7 @@ def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) ->
     low, high = (significant(float(value)) for value in solved.best_friction)
     head = page.text.partition("What was varied")[0]  # up to the table of contents
     assert f"{low} to {high}" in head
-    assert "best estimate; ±" in head
+    assert "answer; ±" in head
     assert "Answer: friction coefficient μ rises from" in head
     figures = [a["id"] for _, a in page.tags if (a.get("id") or "").startswith("figure-")]
     assert figures[0] == "figure-best_contact_fraction-over-speed"

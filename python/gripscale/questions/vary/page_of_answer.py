@@ -207,7 +207,7 @@ def _card_detail(data: xr.Dataset, name: str) -> str:
         return f"{_model(data)}; {over}"
     width = float(data[f"best_{name}_half_width"].max())
     interval = f"; ± {percent_text(width)} (90 %)" if math.isfinite(width) else ""
-    return f"best estimate{interval}; {over}"
+    return f"answer{interval}; {over}"
 
 
 def _reach(data: xr.Dataset, axis: str) -> str:

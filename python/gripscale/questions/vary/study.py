@@ -42,7 +42,7 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
 from gripscale.questions.vary.answer_model import OCTAVE, AnswerModel
 from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
-from gripscale.questions.vary.schema import VARIABLES, at_rest, rest_name
+from gripscale.questions.vary.schema import VARIABLES, Role, at_rest, rest_name
 from gripscale.questions.vary.speed_and_temperature import (
     beyond_shift,
     friction_by_decade,
@@ -326,8 +326,9 @@ class Study:
             first = dict.fromkeys(self.design.sizes, 0)
             result["factor_label"] = result["factor_label"].isel(first)
         for key, variable in result.data_vars.items():
-            if str(key) in VARIABLES and "long_name" not in variable.attrs:
-                variable.attrs |= variable_attributes(VARIABLES[str(key)].label)
+            declared = VARIABLES.get(str(key))
+            if declared is not None and declared.role in (Role.ANSWER, Role.END, Role.EVIDENCE):
+                variable.attrs |= variable_attributes(declared.label)
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
