@@ -123,7 +123,7 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     assert isinstance(numbers, Cards)
     assert numbers.cards[0].label == "μ of case-1"
     assert numbers.cards[0].detail == "over other (50 %: no significant difference)"
-    assert numbers.basis[0].startswith("Answer: friction μ ranks case-1 0.")
+    assert numbers.basis[1].startswith("Answer: friction μ ranks case-1 0.")
     assert "table-texture" in run.write_page().read_text(encoding="utf-8")
 
 

@@ -222,8 +222,10 @@ def _where_all_known(numbers: FactorNumbers) -> FactorNumbers:
     }
 
 
-_ENDS = ("", "_low", "_high", "_half_width", "_sampling_error", "_factor", "_factor_uncertainty")
-_ENDS += ("_uncertainty", "_grid_error")
+_ENDS = (
+    *("", "_low", "_high", "_half_width", "_uncertainty"),
+    *("_sampling_error", "_grid_error", "_factor", "_factor_uncertainty"),
+)
 BEST_ESTIMATES = {
     *(f"best_{name}{end}" for name in ESTIMATED for end in _ENDS),
     *(f"best_{share}" for share in (*BASIS_SHARES, *SHARES_BY_SLOPE)),

@@ -41,7 +41,7 @@ from gripscale.questions.vary.speed_and_temperature import in_decades
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface, SurfacePart
 
-OCTAVE = 1e-3
+OCTAVE_UNIT = 1e-3
 """Length [m] of which the lower ends of octaves are multiples by powers of two."""
 
 
@@ -123,7 +123,7 @@ def _sample_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
 def _by_octave(samples: xr.Dataset, answer: xr.Dataset) -> dict[str, xr.Variable]:
     """Return the friction of the answer by octave of wavelength."""
     waves = samples["curve_wavelength"].values
-    ends = reduce.octaves(float(np.nanmax(waves)), float(np.nanmin(waves)), OCTAVE)
+    ends = reduce.octaves(float(np.nanmax(waves)), float(np.nanmin(waves)), OCTAVE_UNIT)
     running = reduce.running(samples, "friction", ends).values
     running = np.nan_to_num(running) / running[-1] * float(answer["best_friction"])
     parts = np.diff(running, prepend=0.0)

@@ -73,8 +73,7 @@ class FrictionRatio:
 
         NaN among the others is an error that nobody knows and is left out.
         """
-        known = [error for error in others if math.isfinite(error)]
-        pairs = [sampling, *((error, math.inf) for error in known)]
+        pairs = [sampling, *((error, math.inf) for error in others if math.isfinite(error))]
         error = combined([LogError(*map(xr.DataArray, pair)) for pair in pairs])
         return cls(log_ratio, float(error.sigma), float(error.freedom))
 

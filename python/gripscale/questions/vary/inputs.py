@@ -21,7 +21,7 @@ from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
 TEMPERATURE = "temperature_K"
 """Attribute of a comparison of compounds: the temperature that all of them hold for [K]."""
-READING = "reading_notes"
+READING_NOTES = "reading_notes"
 """Attribute of what stands side by side: how inputs were read, a line each."""
 OF_THE_CASE = "case"
 """What stands for the surface or the rubber of the case itself."""

@@ -20,7 +20,7 @@ from gripscale.io.table import Column, Table, change, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of
 from gripscale.questions.inputs.page import input_sections, texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
-from gripscale.questions.vary.inputs import READING, TEMPERATURE
+from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -171,8 +171,8 @@ def _basis(data: xr.Dataset, dim: str) -> str:
         )
     if dim == "surface":
         return f"{answer}; the errors of the roads are independent"
-    known = "series_change" in data and bool(data["series_change"].notnull().any())
-    moduli = "measured moduli, " if known else ""
+    has_moduli = "series_change" in data and bool(data["series_change"].notnull().any())
+    moduli = "measured moduli, " if has_moduli else ""
     return (
         f"{answer}; what all share of the road and its factors cancels, what is left comes from "
         f"{moduli}pieces of the road and grids"
@@ -234,7 +234,7 @@ def side_by_side_page(
     data: xr.Dataset, dim: str, findings: Sequence[Finding], pictures: Sequence[Picture]
 ) -> Page:
     """Return the page of roads or compounds side by side."""
-    notes = str(data.attrs.get(READING, "")).splitlines()
+    notes = str(data.attrs.get(READING_NOTES, "")).splitlines()
     elements: list[Element] = [*side_by_side_tables(data, dim), *map(Text, notes)]
     names = ", ".join(map(str, data[dim].values))
     return Page.of(

@@ -26,7 +26,7 @@ from gripscale.model import input_doubts
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.friction_ratio import FrictionRatio, compound_ratio
 from gripscale.questions.vary.inputs import (
-    READING,
+    READING_NOTES,
     TEMPERATURE,
     default_model,
     measured_rubber_of,
@@ -46,7 +46,7 @@ _SAME = 0.5
 """Temperatures that differ by less are one [K]: 20 °C and 293 K."""
 _PER_DECADE = 12
 """Lags and wavenumbers at which roads are drawn together."""
-FEWEST, MOST = 2, 6
+FEWEST_COMPARED, MOST_COMPARED = 2, 6
 NORMAL = 1.645
 """Half width of a 90 % interval over a standard error."""
 RANKED = {
@@ -112,7 +112,7 @@ def compare_compounds(
     data = data.assign_attrs(
         input_doubts([*study.surfaces, *measured.values()], loads, case.units),
         title="Compounds on one road, by friction",
-        **{READING: "\n".join([*reading_notes(rubbers.values()), *notes])},
+        **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
     )
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     if kelvins[0] is not None and len({*kelvins}) == 1:
@@ -173,7 +173,7 @@ def compare_surfaces(
     return Roads(
         data.assign_attrs(
             title="Roads under one rubber, by friction",
-            **{READING: "\n".join([*reading_notes(surfaces.values()), *waves])},
+            **{READING_NOTES: "\n".join([*reading_notes(surfaces.values()), *waves])},
         )
     )
 
@@ -228,9 +228,10 @@ def at_one_temperature(
 
 def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
     """Raise `InputError` unless there are two to six things to be compared."""
-    if not FEWEST <= len(mapping) <= MOST:
+    if not FEWEST_COMPARED <= len(mapping) <= MOST_COMPARED:
         raise InputError(
-            f"{name} must be {FEWEST} to {MOST} {what} to be compared; got {len(mapping)}"
+            f"{name} must be {FEWEST_COMPARED} to {MOST_COMPARED} {what} to be compared; got "
+            f"{len(mapping)}"
         )
 
 

@@ -12,7 +12,7 @@ from gripscale.io.table import Table
 from gripscale.questions.inputs.page import rubbers_of
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page, page_side_by_side
-from gripscale.questions.vary.inputs import READING
+from gripscale.questions.vary.inputs import READING_NOTES
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
 
@@ -31,7 +31,7 @@ class SideBySide(Result):
     @property
     def notes(self) -> Sequence[str]:
         """How inputs were read, and what was not measured."""
-        return tuple(str(self.data.attrs.get(READING, "")).splitlines())
+        return tuple(str(self.data.attrs.get(READING_NOTES, "")).splitlines())
 
     @property
     def lines(self) -> Sequence[str]:

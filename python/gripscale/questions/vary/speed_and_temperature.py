@@ -140,14 +140,14 @@ def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.Da
 
     Of the tasks of all points, last axis fastest. Empty where no temperature is stated.
     """
-    from gripscale.questions.vary.inputs import (
-        rubber_before,  # all of a case with it: not for pages
-    )
-
     asked = [task.model.conditions for task in tasks]
     if all(conditions is None or conditions.temperature is None for conditions in asked):
         return {}
-    flags = [rubber_before(task.rubber, task.model).shift_extrapolated for task in tasks]
+    before = [
+        task.rubber if c is None else c.before(task.rubber)
+        for task, c in zip(tasks, asked, strict=True)
+    ]
+    flags = [rubber.shift_extrapolated for rubber in before]
     values = np.reshape(flags, [len(axis.values) for axis in axes])
     text = "whether the temperature lies beyond those the shift of the rubber rests on"
     dims = [axis.name for axis in axes]

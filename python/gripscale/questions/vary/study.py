@@ -40,7 +40,7 @@ from gripscale.io import netcdf
 from gripscale.model import Model, input_doubts
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
-from gripscale.questions.vary.answer_model import OCTAVE, AnswerModel
+from gripscale.questions.vary.answer_model import OCTAVE_UNIT, AnswerModel
 from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
 from gripscale.questions.vary.schema import VARIABLES, Role, at_rest, rest_name
 from gripscale.questions.vary.speed_and_temperature import (
@@ -98,14 +98,18 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
 def waves_by_octave(data: xr.Dataset) -> dict[str, Any]:
     """Return the friction of the waves of a chain by octave of wavelength."""
     friction = data["friction"].transpose(..., "scale").values
-    number = np.log2(np.broadcast_to(data["wavelength"].values, friction.shape) / OCTAVE)
+    number = np.log2(np.broadcast_to(data["wavelength"].values, friction.shape) / OCTAVE_UNIT)
     octave = np.floor(number + 1e-9)
     every = np.unique(octave[np.isfinite(octave)])
     parts = [np.where(octave == n, friction, 0.0).sum(axis=-1) for n in every]
     dims = tuple(dim for dim in data["friction"].dims if dim != "scale")
     text = "friction coefficient of the octave"
     return {
-        "octave": ("octave", OCTAVE * 2.0**every, variable_attributes("shortest wavelength", "m")),
+        "octave": (
+            "octave",
+            OCTAVE_UNIT * 2.0**every,
+            variable_attributes("shortest wavelength", "m"),
+        ),
         "octave_friction": ((*dims, "octave"), np.stack(parts, -1), variable_attributes(text)),
     }
 
