@@ -114,7 +114,7 @@ def test_axes_are_rounded(solved: Path, tmp_path: Path) -> None:
 
 
 def test_parts_of_friction_are_stacked_to_the_whole(solved: Path) -> None:
-    data = netcdf.load_dataset(solved).isel(rubber=0)
+    data = netcdf.load_dataset(solved).isel(pressure=0)
     panels = stacked_panels(data)
     for name, whole in (("stacked", data.total_friction), ("decades", 1.0)):
         *bands, total = panels[name].marks

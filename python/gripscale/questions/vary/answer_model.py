@@ -9,6 +9,7 @@ Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3).
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Sequence
 from dataclasses import field, replace
 from typing import ClassVar
@@ -43,6 +44,10 @@ from gripscale.surface import Surface, SurfacePart
 
 OCTAVE_UNIT = 1e-3
 """Length [m] of which the lower ends of octaves are multiples by powers of two."""
+
+
+_REDUCING = threading.Lock()
+"""xarray silences warnings of missing numbers in all threads at once: one of them at a time."""
 
 
 class AnswerModel(Checked, model.Model):
@@ -102,16 +107,23 @@ class AnswerModel(Checked, model.Model):
             design = replace(design, points=points)
         on_task = None if on_progress is None else (lambda progress: on_progress(progress.result))
         samples = solve_design(design, Bench(None, on_task=on_task), _sample_numbers)
-        answer = direct_contact_totals(samples, case, load, continued_curve(case, load))
-        for name in ESTIMATED:
-            ends = interval_ends(answer[f"best_{name}"], answer[f"best_{name}_half_width"])
-            answer[f"best_{name}_low"], answer[f"best_{name}_high"] = ends
-        basis = [name for name in RATIO_BASIS if name in samples]
-        answer = answer.assign(samples[basis].reset_coords(drop=True).variables)
-        if float(answer["best_friction"]) > 0.0:
-            answer = answer.assign(_by_octave(samples, answer))
-            answer = answer.assign(_by_decade(answer, case.rubber_before, load.speed))
-        return answer
+        curve = continued_curve(case, load)
+        with _REDUCING:
+            return _answer(samples, case, curve)
+
+
+def _answer(samples: xr.Dataset, case: Case, curve: xr.Dataset | None) -> xr.Dataset:
+    """Return the answer of solved profiles with its interval, and the parts of its friction."""
+    answer = direct_contact_totals(samples, case, case.load, curve)
+    for name in ESTIMATED:
+        ends = interval_ends(answer[f"best_{name}"], answer[f"best_{name}_half_width"])
+        answer[f"best_{name}_low"], answer[f"best_{name}_high"] = ends
+    basis = [name for name in RATIO_BASIS if name in samples]
+    answer = answer.assign(samples[basis].reset_coords(drop=True).variables)
+    if float(answer["best_friction"]) > 0.0:
+        answer = answer.assign(_by_octave(samples, answer))
+        answer = answer.assign(_by_decade(answer, case.rubber_before, case.load.speed))
+    return answer
 
 
 def _sample_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:

@@ -143,10 +143,8 @@ def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.Da
     asked = [task.model.conditions for task in tasks]
     if all(conditions is None or conditions.temperature is None for conditions in asked):
         return {}
-    before = [
-        task.rubber if c is None else c.before(task.rubber)
-        for task, c in zip(tasks, asked, strict=True)
-    ]
+    pairs = [(task.rubber, task.model.conditions) for task in tasks]
+    before = [rubber if c is None else c.before(rubber) for rubber, c in pairs]
     flags = [rubber.shift_extrapolated for rubber in before]
     values = np.reshape(flags, [len(axis.values) for axis in axes])
     text = "whether the temperature lies beyond those the shift of the rubber rests on"

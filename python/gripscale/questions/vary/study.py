@@ -103,14 +103,11 @@ def waves_by_octave(data: xr.Dataset) -> dict[str, Any]:
     every = np.unique(octave[np.isfinite(octave)])
     parts = [np.where(octave == n, friction, 0.0).sum(axis=-1) for n in every]
     dims = tuple(dim for dim in data["friction"].dims if dim != "scale")
-    text = "friction coefficient of the octave"
+    ends = variable_attributes("shortest wavelength of the octave", "m")
+    about = variable_attributes("friction coefficient of the octave")
     return {
-        "octave": (
-            "octave",
-            OCTAVE_UNIT * 2.0**every,
-            variable_attributes("shortest wavelength", "m"),
-        ),
-        "octave_friction": ((*dims, "octave"), np.stack(parts, -1), variable_attributes(text)),
+        "octave": ("octave", OCTAVE_UNIT * 2.0**every, ends),
+        "octave_friction": ((*dims, "octave"), np.stack(parts, -1), about),
     }
 
 
@@ -253,14 +250,10 @@ class Study:
         return self._design(self.axes, static=False)
 
     @cached_property
-    def static_axes(self) -> tuple[Axis, ...]:
-        """The axes without speed, on which contact at rest does not depend."""
-        return tuple(axis for axis in self.axes if axis.name != "speed")
-
-    @cached_property
     def static_design(self) -> Design:
-        """The points of the rubber at rest; none if they are not wanted."""
-        return self._design(self.static_axes, static=True)
+        """The points of the rubber at rest, without speed; none if they are not wanted."""
+        axes = tuple(axis for axis in self.axes if axis.name != "speed")
+        return self._design(axes, static=True)
 
     @property
     def points(self) -> Sequence[Point]:
