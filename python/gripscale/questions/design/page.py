@@ -34,11 +34,12 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
     same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
     chosen = data.isel(point=-1) if same is None else same
     now, then = data.today_answer_friction.values, chosen.answer_friction.values
-    pairs = [f"{old:.3f} now → {new:.3f}" for old, new in zip(now, then, strict=True)]
-    lead = pairs[0] if len(pairs) == 1 else "now → with the design as below"
-    yield f"Answer: friction {lead} with the design {_at_rolling(chosen)}: {_gain(chosen)}."
-    if len(pairs) > 1:
-        yield from (f"  {goal}: {pair}" for goal, pair in zip(data.goal.values, pairs, strict=True))
+    goals = [f" at {goal}" for goal in data.goal.values] if now.size > 1 else [""]
+    pairs = [
+        f"{old:.3f} now → {new:.3f}{at}" for old, new, at in zip(now, then, goals, strict=True)
+    ]
+    lead = f"friction {', '.join(pairs)} with the design {_at_rolling(chosen)}"
+    yield f"Answer: {lead}: {_gain(chosen)}."
     if math.isfinite(least):
         yield f"  Or the same friction with rolling resistance {_percent(least - 1.0)}."
     elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:

@@ -73,6 +73,12 @@ def study_command(
     )
 
 
+CaseOfRest = Annotated[
+    Path | None,
+    option("Case of all else; by default the first case given.", metavar="CASE.toml"),
+]
+
+
 def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     """Return the case the rest is taken from: the one stated, or the first of those given.
 
@@ -94,13 +100,7 @@ def compare_surfaces_command(
             "SURFACE...",
         ),
     ],
-    case: Annotated[
-        Path | None,
-        option(
-            "Case whose rubber, load and solver are taken; by default the first case given.",
-            metavar="CASE.toml",
-        ),
-    ] = None,
+    case: CaseOfRest = None,
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
@@ -131,13 +131,7 @@ def compare_rubbers(
             "RUBBER...",
         ),
     ],
-    case: Annotated[
-        Path | None,
-        option(
-            "Case whose road, load and solver are taken; by default the first case given.",
-            metavar="CASE.toml",
-        ),
-    ] = None,
+    case: CaseOfRest = None,
     temperature: Annotated[
         str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
     ] = None,

@@ -134,6 +134,20 @@ def series_error(changes: Array) -> float:
     return float(np.abs(changes).max()) / EXTREME if changes.size else math.nan
 
 
+def answer_with_contacts(
+    model: DirectContact, rubber: Rubber, surface: Surface, load: Load, on_progress: OnProgress
+) -> tuple[xr.Dataset, list[RoughContact]]:
+    """Return the answer of a direct contact with the contact of each profile."""
+    contacts: list[RoughContact] = []
+
+    def keep(contact: RoughContact) -> None:
+        contacts.append(contact)
+        if on_progress is not None:
+            on_progress(contact)
+
+    return DirectContact.predict(model, rubber, surface, load, on_progress=keep), contacts
+
+
 RATIO_BASIS = {
     "profile_friction_from_dissipation": "friction coefficient of a profile from the energy lost",
     "profile_friction": "friction coefficient of a profile from the contact traction",
@@ -154,15 +168,7 @@ class ComparedContact(DirectContact):
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer with `RATIO_BASIS`, as far as there is friction."""
-        contacts: list[RoughContact] = []
-
-        def keep(contact: RoughContact) -> None:
-            contacts.append(contact)
-            if on_progress is not None:
-                on_progress(contact)
-
-        answer = super().predict(rubber, surface, load, on_progress=keep)
-        (contact,) = contacts
+        answer, (contact,) = answer_with_contacts(self, rubber, surface, load, on_progress)
         if not contact.has_friction:
             return answer
         piece = PIECE * float(surface.sines.wavelength[0])

@@ -28,14 +28,6 @@ _MODELS = {
     "direct": "direct contact of the measured surface",
 }
 """Models in words; others by their names."""
-ASK_DIRECT = (
-    "the surface was measured: `--model direct`, the default, gives the number to rely on, with an "
-    "interval"
-)
-ONLY_WAVES = (
-    "the varied input belongs to the chain only: `gripscale run` compares its friction with the "
-    "direct contact of the measured surface"
-)
 
 
 def study_lines(data: xr.Dataset) -> Iterator[str]:
@@ -65,7 +57,11 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
         yield f"from {' × '.join(_factors(data))}"
         yield "; ".join(_rests_on(data))
     elif data.attrs.get("surface_measured") and data.attrs.get("model") == "chain":
-        yield ONLY_WAVES if set(dimensions(data)) & set(OF_THE_CHAIN) else ASK_DIRECT
+        yield (
+            "the varied input belongs to the chain only: `gripscale run` has the answer"
+            if set(dimensions(data)) & set(OF_THE_CHAIN)
+            else "the surface was measured: `--model direct`, the default, gives the answer"
+        )
     elif data.attrs.get("model") == "direct":
         yield "no interval: the surface is too short to tell how well it represents its road"
     else:
