@@ -252,6 +252,8 @@ def time_left(seconds: float) -> str:
 
 def progress_printer(console: Console) -> Callable[[Progress], None]:
     """Return what shows each prediction as a step, with the time that the others may take."""
+    from gripscale.questions.words import SYMBOLS, believed
+
     begun, solved = time.monotonic(), 0
 
     def show(progress: Progress) -> None:
@@ -263,9 +265,10 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
         if answer.prediction_status != "converged":
             text += str(answer.prediction_status.item())
         else:
-            text += f"area {float(answer.total_contact_fraction):.4g}"
+            area, friction = (float(answer[believed(answer, name)]) for name in SYMBOLS)
+            text += f"area {area:.4g}"
             if answer.nominal_speed > 0.0:
-                text += f", friction {float(answer.total_friction):.3f}"
+                text += f", friction {friction:.3f}"
         if progress.stored:
             show_step(console, f"{text}, already solved")
             return

@@ -117,13 +117,13 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     (small / "roads.toml").write_text(text)
     state.set_text(state.text_of(small / "roads.toml"))
     other = state.visit.store("other.txt", (small / "road.txt").read_bytes())
-    run = ended(Runs(state).start(by_name("compare-surfaces"), {"samples": "0"}, [other]))
+    run = ended(Runs(state).start(by_name("compare-surfaces"), {}, [other]))
     assert run.state == "finished", run.log()
     numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
-    assert numbers.cards[0].label == "μ of other"
-    assert "that of case-1" in numbers.cards[0].detail
-    assert numbers.basis[1].startswith("Answer: other over case-1: friction × 1.00")
+    assert numbers.cards[0].label == "μ of case-1"
+    assert numbers.cards[0].detail == "over other (50 %: no significant difference)"
+    assert numbers.basis[1].startswith("Answer: friction μ ranks case-1 0.")
     assert "table-texture" in run.write_page().read_text(encoding="utf-8")
 
 

@@ -10,7 +10,7 @@ import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.io.table import significant
-from gripscale.questions import Study, with_answer
+from gripscale.questions import Study
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
@@ -40,7 +40,7 @@ def solved(folder: Path) -> xr.Dataset:
     """Two speeds, one of them that of the case, and the rubber at rest."""
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, static=True)
     assert study.model.name == "direct"
-    return with_answer(study.run(folder / "study"))
+    return study.run(folder / "study")
 
 
 def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
@@ -60,7 +60,7 @@ def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Data
         assert (high - low) / (2.0 * value) == pytest.approx(half_width)
 
 
-def test_rubber_at_rest_has_its_own_best_estimate(solved: xr.Dataset) -> None:
+def test_rubber_at_rest_has_its_own_answer(solved: xr.Dataset) -> None:
     ratio = float(solved.static_answer_contact_fraction / solved.static_total_contact_fraction)
     assert 0.4 < ratio < 1.0  # the step from lines to their surface
     assert solved.static_answer_contact_fraction > solved.answer_contact_fraction.max()
@@ -93,7 +93,7 @@ def test_table_and_figure_have_the_interval(solved: xr.Dataset) -> None:
     assert top == pytest.approx(float(solved.answer_friction_high.max()))
 
 
-def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) -> None:
+def test_page_begins_with_the_answer(solved: xr.Dataset, folder: Path) -> None:
     page = Page(write_report(folder / "study" / "study.nc", folder / "page.html"))
     low, high = (significant(float(value)) for value in solved.answer_friction)
     head = page.text.partition("What was varied")[0]  # up to the table of contents
@@ -108,7 +108,7 @@ def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) ->
 def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, model="chain")
     data = study.run(folder / "chain")
-    assert with_answer(data) is data
+    assert "answer_friction" not in data
     answer, _, advice = study_lines(data)
     assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
     assert "`--model direct`" in advice

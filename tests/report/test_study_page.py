@@ -7,17 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bokeh.models import ColumnDataSource
 
 from gripscale.case_file import read_case
-from gripscale.charts.bokeh_parts import model
 from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions import Study, Variation
 from gripscale.questions import page_of_folder as results
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.page_of_folder import write_report
-from gripscale.questions.vary.charts import study_charts
+from gripscale.questions.vary.charts import stacked_panels, study_charts
 from gripscale.report.elements import Facts
 from tests.samples import EXAMPLES
 
@@ -66,7 +64,6 @@ def test_curves_over_the_numeric_axis_and_the_waves(page: Page) -> None:
     assert names == {
         "figure-total_contact_fraction-over-speed",
         "figure-total_friction-over-speed",
-        "figure-friction_by_decade-over-decade",
         "figure-running_contact_fraction-per-wave",
         "figure-running_friction-per-wave",
         "figure-contact_fraction-per-wave",
@@ -116,19 +113,16 @@ def test_axes_are_rounded(solved: Path, tmp_path: Path) -> None:
     assert "decades below the measured band" not in heads  # all zero: nothing to tell
 
 
-def test_friction_by_relaxation_time_is_summed_up_and_never_falls(solved: Path) -> None:
-    data = netcdf.load_dataset(solved)
-    parts = data.friction_by_decade
-    alternating = parts.copy(data=parts.values * (np.arange(parts.sizes["decade"]) % 2))
-    data["friction_by_decade"] = alternating  # a series with no element in every other decade
-    charts = study_charts(data)
-    chart = next(one for one in charts if one.name == "friction_by_decade-over-decade")
-    sources = model(chart.figure).select({"type": ColumnDataSource})
-    curves = [np.asarray(one.data["y"]) for one in sources]
-    full = [y for y in curves if y.size == parts.sizes["decade"]]
-    assert full
-    assert all((np.diff(y) >= 0.0).all() for y in full)
-    assert max(y[-1] for y in full) == pytest.approx(float(alternating.sum("decade").max()))
+def test_parts_of_friction_are_stacked_to_the_whole(solved: Path) -> None:
+    data = netcdf.load_dataset(solved).isel(pressure=0)
+    panels = stacked_panels(data)
+    for name, whole in (("stacked", data.total_friction), ("decades", 1.0)):
+        *bands, total = panels[name].marks
+        assert len(bands) > 1
+        assert all((band.high >= band.low).all() for band in bands)
+        np.testing.assert_allclose(total.y, whole + 0.0 * data.total_friction, rtol=1e-9)
+    names = {chart.name for chart in study_charts(data)}
+    assert {"friction_by_decade-over-speed", "octave_friction-over-speed"} <= names
 
 
 def test_folder_of_a_study_is_found(study_file: Path) -> None:

@@ -39,6 +39,7 @@ from gripscale.core.parallel import in_threads, sharing, worker_count
 from gripscale.core.provenance import software
 from gripscale.experiment.task import PREDICTIONS, Solved, Store, Task
 from gripscale.io import netcdf
+from gripscale.model import OnProgress
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,8 @@ class Bench:
     "tcp://...": the address of a Dask scheduler. Or a `distributed.Client`."""
     on_task: OnTask | None = None
     """Called after each task with its `Progress`."""
+    on_step: OnProgress = None
+    """Called in threads of this process with each step of a model, such as a solved contact."""
 
     def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
         """Return the answer of every task by its key; only what the store lacks is solved.
@@ -118,7 +121,7 @@ class Bench:
         missing = [task for key, (_, task) in wanted.items() if key not in answers]
         count = worker_count(self.workers)
         with ExitStack() as ending:
-            solve: _Solve = partial(_in_threads, workers=count)
+            solve: _Solve = partial(_in_threads, workers=count, on_step=self.on_step)
             if missing and self.client == PROCESSES:
                 solve = partial(_in_processes, workers=min(count, len(missing)))
             elif missing and self.client is not None:
@@ -139,12 +142,13 @@ def bench_in(
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
+    on_step: OnProgress = None,
 ) -> Iterator[Bench]:
     """Give a bench with its store in the folder of a result; a temporary store without a folder."""
     with ExitStack() as ending:
         if folder is None:
             folder = ending.enter_context(TemporaryDirectory(prefix="gripscale-"))
-        yield Bench(Store(Path(folder) / PREDICTIONS), workers, client, on_task)
+        yield Bench(Store(Path(folder) / PREDICTIONS), workers, client, on_task, on_step)
 
 
 def solve_all(
@@ -163,8 +167,11 @@ def solve_all(
     return Bench(store, workers, client, on_task).solve(tasks)
 
 
-def _in_threads(tasks: list[Task], workers: int) -> Generator[Solved, None, None]:
-    with closing(in_threads([task.solve for task in tasks], workers)) as stream:
+def _in_threads(
+    tasks: list[Task], workers: int, on_step: OnProgress
+) -> Generator[Solved, None, None]:
+    jobs = [partial(task.solve, on_step=on_step) for task in tasks]
+    with closing(in_threads(jobs, workers)) as stream:
         yield from (solved for _, solved in stream)
 
 

@@ -25,7 +25,7 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.core.parallel import Stopped
 from gripscale.core.provenance import software
 from gripscale.io import netcdf
-from gripscale.model import Load, Model
+from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
@@ -63,12 +63,17 @@ class Task:
         }
         return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:KEY_LENGTH]
 
-    def solve(self, stop: threading.Event | None = None) -> Solved:
-        """Return key, result and seconds; give up between two steps once `stop` is set."""
+    def solve(self, stop: threading.Event | None = None, *, on_step: OnProgress = None) -> Solved:
+        """Return key, result and seconds; give up between two steps once `stop` is set.
 
-        def look(_: object) -> None:
+        `on_step` is called with each step of the model.
+        """
+
+        def look(step: object) -> None:
             if stop is not None and stop.is_set():
                 raise Stopped
+            if on_step is not None:
+                on_step(step)
 
         start = time.perf_counter()
         answer = self.model.predict(self.rubber, self.surface, self.load, on_progress=look)

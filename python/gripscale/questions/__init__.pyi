@@ -2,7 +2,6 @@ from .answer.answer import Answer as Answer
 from .answer.charts import rough_contact_figure as rough_contact_figure
 from .answer.estimate import Factor as Factor
 from .answer.estimate import LogNormalValue as LogNormalValue
-from .answer.estimate import with_answer as with_answer
 from .calibration.area_term_fit import AreaTermFit as AreaTermFit
 from .calibration.area_term_fit import Estimate as Estimate
 from .calibration.area_term_fit import fit_area_term as fit_area_term
@@ -58,9 +57,9 @@ from .vary.effects import effect_tasks as effect_tasks
 from .vary.effects import effects as effects
 from .vary.effects import stored_effects as stored_effects
 from .vary.question import Variation as Variation
-from .vary.rubber_comparison import at_one_temperature as at_one_temperature
-from .vary.rubber_comparison import compare_compounds as compare_compounds
+from .vary.ranking import at_one_temperature as at_one_temperature
+from .vary.ranking import compare_compounds as compare_compounds
+from .vary.ranking import compare_surfaces as compare_surfaces
 from .vary.side_by_side import Compounds as Compounds
 from .vary.side_by_side import Roads as Roads
 from .vary.study import Study as Study
-from .vary.surface_comparison import compare_surfaces as compare_surfaces

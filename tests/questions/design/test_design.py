@@ -84,11 +84,19 @@ def data(case):
 def test_the_page_begins_with_the_gain(case, data):
     cards = list(design_cards(data))
     same = data.isel(point=1)
-    assert cards[0].value == f"{100.0 * float(same.gain):+.1f} %"  # less than ten per cent
+    now, then = float(same.today_answer_friction[0]), float(same.answer_friction[0])
+    assert cards[0].value == f"{now:.3f} → {then:.3f}"
+    assert then / now == pytest.approx(1.0 + float(same.gain), rel=1e-9)
     page = write_report(case.parent / "stored" / "design.nc", case.parent / "design.html")
     text = page.read_text(encoding="utf-8")
     assert "Compound for case.toml" in text
     assert text.index(cards[0].value) < text.index("Points of the curve")
+
+
+def test_todays_friction_is_the_answer(case, data):
+    """What `gripscale run` prints, not the direct contact that the search is made of."""
+    answer = gs.answer(read_case(case)).friction
+    assert float(data.today_answer_friction[0]) == pytest.approx(answer, rel=1e-12)
 
 
 def test_shares_at_a_limit_are_per_cent(data):
@@ -205,7 +213,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
     lines = list(design_lines(worst))
     assert "with rolling resistance -20 %" in lines[0]
     assert "still with friction" not in lines[0]  # the only point is not said twice
-    assert "more rolling resistance than -20 % gives no more friction" in lines[1]
+    assert "  more rolling resistance than -20 % gives no more friction" in lines
     monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
     again = gs.design(read_case(case), folder=tmp_path, levels=LEVELS).data
     np.testing.assert_array_equal(again.gain.values, worst.gain.values)
@@ -271,8 +279,10 @@ def test_todays_friction_between_two_points(data):
 
 def test_answer_first_and_the_limits_named(data):
     lines = list(design_lines(data))
-    assert lines[0].startswith("Answer: friction +")
-    assert lines[0].endswith("the limits decide")
+    now, then = float(data.today_answer_friction[0]), float(data.answer_friction[1, 0])
+    assert lines[0].startswith(f"Answer: friction {now:.3f} now → {then:.3f} with the design ")
+    limits = "  The limits you allow (moduli at most × 2) set the size of the gain, not physics."
+    assert limits in lines
     assert any("moduli are at the largest factor (2)" in line for line in lines)
     assert any(
         "a limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines

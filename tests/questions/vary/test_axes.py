@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
+import xarray as xr
 
 from gripscale.core.errors import InputError
 from gripscale.questions.vary.axis import axes_of, parse_vary
@@ -20,6 +22,13 @@ from gripscale.questions.vary.axis import axes_of, parse_vary
         ("speed", [0.3, "300 cm/s"], None),
         ("pressure", "1 bar,3 bar", (1e5, 3e5)),
         ("pressure", 2e5, (2e5,)),
+        ("pressure", "3 bar", (3e5,)),
+        ("pressure", ["1 bar", "300 kPa", 2e5], (1e5, 3e5, 2e5)),
+        ("speed", np.geomspace(0.01, 1.0, 3), (0.01, 0.1, 1.0)),
+        ("speed", np.array(["0.1 m/s", "36 km/h"]), (0.1, 10.0)),
+        ("speed", xr.DataArray([0.1, 1.0], dims="speed"), (0.1, 1.0)),
+        ("temperature", ["60 C"], (333.15,)),
+        ("temperature", np.array([293.15, 313.15]), (293.15, 313.15)),
         ("smallest_wavelength", "0.01 mm:1 mm:log3", (1e-5, 1e-4, 1e-3)),
         ("waves", "2:6:lin3", (2, 4, 6)),
         ("waves", [3, 8], (3, 8)),
@@ -80,6 +89,9 @@ def test_labels_are_short_unless_they_would_be_equal() -> None:
         ({"factors": "3.5/0.9"}, "factors must be greater than 1; got 0.9"),
         ({"factors": "2/2:3/3:lin3"}, "factors must be a list, not a range"),
         ({"rubber": [3]}, "rubber must be names and files"),
+        ({"rubber": 3}, "rubber must be names and files, or a mapping from names; got 3"),
+        ({"temperature": [20, 60]}, 'in kelvin or have a unit, such as "20 C"; got 20 K'),
+        ({"speed": np.ones((2, 2))}, "speed must be a finite number .*; got an array of shape"),
     ],
 )
 def test_wrong_axis_is_one_sentence(vary: dict[str, Any], words: str) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.questions.vary.speed_and_temperature import _in_decades, friction_by_decade
+from gripscale.questions.vary.speed_and_temperature import friction_by_decade, in_decades
 from gripscale.rubber import Rubber
 
 RUBBER = Rubber(2e6, [3e6, 4e6], [2e-2, 5e-4])
@@ -64,7 +64,7 @@ def test_elements_as_dense_as_a_spectrum_do_not_jump_between_decades(shift: floa
     """Elements 2/3 of a decade apart with equal shares: 3/2 of one in each decade, wherever."""
     place = np.arange(-6.0, 2.0, 2.0 / 3.0) + shift
     parts: dict[int, float] = {}
-    for n, part in _in_decades(place, np.ones_like(place)):
+    for n, part in in_decades(place, np.ones_like(place)):
         parts[n] = parts.get(n, 0.0) + part
     inner = [parts[n] for n in range(-5, 1)]
     np.testing.assert_allclose(inner, 1.5, rtol=1e-12)

@@ -1,4 +1,4 @@
-"""Compounds side by side: one temperature, differences that add up, ranges from the data."""
+"""Compounds side by side: one temperature, a ranking by the answer, errors that cancel."""
 
 from __future__ import annotations
 
@@ -6,21 +6,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy import stats
 
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
-from gripscale.io import netcdf
 from gripscale.io.table import significant
 from gripscale.questions import Compounds, at_one_temperature, compare_compounds
 from gripscale.questions.page_of_folder import write_report
-from gripscale.questions.vary.charts_side_by_side import compound_friction_figure
-from gripscale.questions.vary.page_side_by_side import (
-    CHAIN_RANKS_NOTHING,
-    compounds_sentences,
-    ratio_lines,
-    side_by_side_totals,
-)
+from gripscale.questions.vary.charts_side_by_side import ranking_figure
+from gripscale.questions.vary.friction_ratio import FrictionRatio, series_changes, series_error
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 from tests.samples import HALF_PLANE, ROOT, case_text, write_road
 
@@ -73,9 +68,17 @@ def test_temperatures_that_cannot_be_one_are_refused_or_said() -> None:
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Compounds:
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("compounds")
-    (folder / "case.toml").write_text(CASE)
+    road = gs.surface.self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=2e-4, seed=1)
+    write_road(folder / "road.txt", gs.Profile(road.x, road.z))
+    text = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
+    (folder / "case.toml").write_text(case_text(text, solver=HALF_PLANE))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def made(folder: Path) -> Compounds:
     compounds = {
         "one": measured(1.0, 0.02),
         "twin": measured(1.0, 0.02),
@@ -84,96 +87,89 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Compounds:
     return compare_compounds(read_case(folder / "case.toml"), compounds, folder / "out")
 
 
-def test_differences_add_up(made: Compounds) -> None:
+def test_compounds_are_ranked_by_the_answer(folder: Path, made: Compounds) -> None:
+    data, case = made.data, read_case(folder / "case.toml")
+    answer = gs.answer(gs.Case(case.surface, made.rubbers["lossy"], pressure=3e5, speed=0.3))
+    lossy = data.sel(rubber="lossy")
+    assert lossy.answer_friction == pytest.approx(answer.friction, rel=1e-9)
+    ends = float(lossy.answer_friction_low), float(lossy.answer_friction_high)
+    assert ends == pytest.approx(answer.friction_interval, rel=1e-9)
+    first, over_next, *_, basis = made.lines
+    assert first.startswith("Answer: friction μ ranks lossy 0.")
+    assert first.endswith("(50 %: no significant difference).")
+    assert "by waves of" in over_next
+    assert "by relaxation times of" in over_next
+    assert "measured moduli, pieces of the road and grids" in basis
+
+
+def test_parts_by_wavelength_and_relaxation_time_add_up(made: Compounds) -> None:
     data = made.data
-    total = data.total_friction.values
-    np.testing.assert_allclose(data.friction_running.values[:, -1], total, rtol=1e-12)
-    by_wave = data.friction_difference.sum("scale").values
-    by_decade = data.friction_by_decade_difference.fillna(0.0).sum("decade").values
-    for parts in (by_wave, by_decade):
-        np.testing.assert_allclose(parts, total - total[0], atol=1e-12)
-    assert abs(data.total_friction_difference.values[2]) > 0.02
+    for name in ("octave", "decade"):
+        parts = data["octave_friction" if name == "octave" else "friction_by_decade"]
+        np.testing.assert_allclose(parts.sum(name), data.answer_friction, rtol=1e-9)
 
 
-def test_their_report_is_that_of_a_study_over_rubbers(made: Compounds, tmp_path: Path) -> None:
-    netcdf.save(made.data, tmp_path / "compounds.nc")
-    page = write_report(tmp_path).read_text()
-    for word in ("lossy", "Totals of all 3 predictions", "Compounds side by side"):
-        assert word in page
+def test_what_both_share_of_the_road_cancels(made: Compounds) -> None:
+    """A ratio on one road is better known than two numbers of different roads."""
+    data = made.data
+    own = np.log(data.answer_friction_high / data.answer_friction).sel(rubber=["one", "lossy"])
+    pair = data.sel(rubber="lossy", over="one")
+    both = np.log(float(pair.friction_ratio_high / pair.friction_ratio))
+    assert 0.0 < both < 0.7 * np.hypot(*own.values)
+    twin = data.sel(rubber="twin", over="one")
+    assert float(twin.friction_ratio) == pytest.approx(1.0, rel=1e-9)
+    assert float(twin.friction_ratio_low) < 1.0 < float(twin.friction_ratio_high)
 
 
-def test_a_twin_differs_by_less_than_what_the_data_leave_open(made: Compounds) -> None:
-    twin = made.data.sel(rubber="twin")
-    assert twin.total_friction_difference == 0.0
-    assert twin.total_friction_difference_low < 0.0 < twin.total_friction_difference_high
-    twins, lossy = compounds_sentences(made.data)
-    assert ", not beyond what the measured moduli leave open; most" in twins
-    assert ", beyond what the measured moduli leave open" in lossy
+def test_the_error_of_a_measurement_is_what_its_series_do(folder: Path, made: Compounds) -> None:
+    """The largest change of ln mu over all series that fit, against contacts solved anew.
 
-
-def test_ranges_hold_every_admissible_series(made: Compounds) -> None:
-    """Solved one by one with the case's own half-planes, of which ratios are exact here."""
-    lossy = made.data.sel(rubber="lossy")
-    load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
-    sines = gs.SineStack([10e-3, 2e-3], [1e-3, 0.2e-3])
-    found = [
-        gs.solve_chain(one, sines, solver=gs.theory.HalfPlane(points=128), **load).friction
-        for one in made.rubbers["lossy"].admissible_rubbers()
+    To first order, and of a grid on which the borders of the contact move point by point.
+    """
+    case, best = read_case(folder / "case.toml"), made.rubbers["lossy"]
+    (profile,) = case.surface.measured.surfaces
+    load = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 2e-3, "tolerance": 0.05}
+    contact = gs.solve_rough_contact(best, profile, **load)
+    solved = [
+        gs.solve_rough_contact(each, profile, **load).friction_from_dissipation
+        for each in best.admissible_rubbers()[:12]
     ]
-    assert lossy.total_friction_low == pytest.approx(min(*found, float(lossy.total_friction)))
-    assert lossy.total_friction_high == pytest.approx(max(*found, float(lossy.total_friction)))
-    assert lossy.total_friction_low < lossy.total_friction < lossy.total_friction_high
+    changes = np.log(np.array(solved) / contact.friction_from_dissipation)
+    first_order = series_changes(contact, best)
+    np.testing.assert_allclose(first_order[:12], changes, atol=0.1 * np.abs(changes).max())
+    assert series_error(first_order) == pytest.approx(np.abs(first_order).max() / 3.0)
 
 
-def test_the_answer_is_the_ratio_with_what_both_measurements_leave_open(made: Compounds) -> None:
-    """Waves by hand: of the chain, and nothing but the moduli."""
-    data = made.data
-    total = data.total_friction
-    np.testing.assert_allclose(data.friction_ratio, total / total.values[0], rtol=1e-12)
-    down = np.log(total / data.total_friction_low)
-    up = np.log(data.total_friction_high / total)
-    # two even ranges, added as if normal
-    both = 1.645 / np.sqrt(3.0) * np.hypot(up.values[2], down.values[0])
-    ratio = data.sel(rubber="lossy")
-    assert np.log(ratio.friction_ratio_high / ratio.friction_ratio) == pytest.approx(both)
-    first, basis = ratio_lines(data, "rubber")
-    assert first.startswith("Answer: lossy has the most friction. Over one: twin friction × 1.00 (")
-    assert basis == "  by the chain of sine waves: not all of the surfaces were measured"
+def test_confidence_is_that_of_students_t() -> None:
+    ratio = FrictionRatio(0.2, 0.1, 5.0)
+    assert ratio.confidence == pytest.approx(stats.t.cdf(2.0, 5.0))
+    width = stats.t.ppf(0.95, 5.0) * 0.1
+    assert np.log(ratio.interval) == pytest.approx([0.2 - width, 0.2 + width])
+    assert np.isnan(FrictionRatio(0.2, np.nan).confidence)
+    assert FrictionRatio(0.0, 0.0).confidence == 0.5
 
 
-def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
-    road = gs.surface.self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=2e-4, seed=1)
-    write_road(tmp_path / "road.txt", gs.Profile(road.x, road.z))
-    text = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
-    (tmp_path / "case.toml").write_text(case_text(text, solver=HALF_PLANE))
+def test_waves_by_hand_have_no_interval(tmp_path: Path) -> None:
+    (tmp_path / "case.toml").write_text(CASE)
     compounds = {"one": measured(1.0, 0.02), "lossy": measured(3.0, 0.02)}
-    result = compare_compounds(read_case(tmp_path / "case.toml"), compounds, tmp_path / "out")
-    data = result.data
-    np.testing.assert_allclose(
-        data.friction_ratio, data.answer_friction / data.answer_friction.values[0], rtol=1e-12
-    )
-    # what both know of the road makes a ratio better known than two numbers
-    own = np.log(data.answer_friction_high / data.answer_friction).values
-    both = float(np.log(data.friction_ratio_high / data.friction_ratio)[1])
-    assert 0.0 < both < np.hypot(*own)
-    first, basis = ratio_lines(data, "rubber")
-    assert first.startswith("Answer: lossy grips more than one: friction × ")
-    assert "direct contact of the measured surface, the same for all" in basis
-    *said, last = compounds_sentences(data)
-    assert [text.startswith("chain: μ of lossy is ") for text in said] == [True]
-    assert "leave open" not in said[0]
-    assert last == CHAIN_RANKS_NOTHING
-    headings = [
-        column.heading for column in side_by_side_totals(data, "rubber", "compound").columns
-    ]
-    assert headings[-2] == "difference of μ from the first"
-    ranking, chain, _ = compound_friction_figure(data).axes
-    assert ranking.get_title() == "direct contact: the ranking"
-    assert chain.get_title() == "chain, less reliable"
-    best = [text.get_text() for text in ranking.get_xticklabels()]
-    assert best == [significant(mu, 2) for mu in data.answer_friction.values]
-    page = result.page(tmp_path / "page.html").read_text()
-    assert page.index("μ of lossy") < page.index("Answers, from the direct contact")
+    made = compare_compounds(read_case(tmp_path / "case.toml"), compounds)
+    first, *_, basis = made.lines
+    assert first.startswith("Answer: friction μ ranks lossy 0.")
+    assert "sure" not in first
+    assert "without an interval: not all of the surfaces were measured" in basis
+
+
+def test_their_page_has_ranking_figures_and_inputs(made: Compounds, tmp_path: Path) -> None:
+    made.save(tmp_path / "compounds.nc")
+    page = write_report(tmp_path).read_text()
+    for word in ("lossy", "Compounds by friction", "Compounds side by side", "Glassy modulus"):
+        assert word in page
+    assert page.index("friction μ ranks lossy") < page.index("Compounds by friction")
+    ratios, running, decades = ranking_figure(made.data, "rubber").axes
+    labels = [text.get_text() for text in ratios.get_xticklabels()]
+    assert labels == [significant(mu, 2) for mu in made.data.answer_friction.values]
+    assert len(running.get_lines()) == 3
+    assert decades.get_ylabel().startswith("difference of")
 
 
 def test_two_to_six_compounds(tmp_path: Path) -> None:

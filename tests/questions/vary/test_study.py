@@ -173,7 +173,7 @@ def test_failed_chain_is_a_status(
     assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]
     told: list[Progress] = []
     Study(read_case(case), {"speed": SPEEDS}).run(tmp_path, on_task=told.append)
-    assert [t.stored for t in told] == [True, True]
+    assert not told
 
 
 def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,11 +19,11 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.experiment.design import Index, stack, variable_attributes
+from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import BASIS, STATUS, UPPER_HEIGHT
+from gripscale.model import BASIS
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
 
@@ -291,65 +291,3 @@ ANSWER_NUMBERS = {
     **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }
 """All numbers of an answer, and their meaning."""
-_LEFT_OUT = ("friction_uncertainty", "fraction_uncertainty", "_grid_error", "share", "_by_slope")
-POINT_NUMBERS = (
-    "factor_label",
-    *(name for name in ANSWER_NUMBERS if not name.endswith(_LEFT_OUT)),
-)
-"""Names that `with_answer` adds for the rubber that slides."""
-
-
-def with_answer(data: xr.Dataset) -> xr.Dataset:
-    """Return predictions of the direct contact with the answer of each.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        A study (`gripscale.questions.Study`); one of another model is returned as it is.
-
-    Returns
-    -------
-    xarray.Dataset
-        With `POINT_NUMBERS` over the axes of the study, as `answer_of_samples` names them, and of
-        rubber at rest `static_answer_contact_fraction` and so on. NaN where the direct contact has
-        no result, or the surface is too short for an interval.
-    """
-    if UPPER_HEIGHT not in data:  # no direct contact
-        return data
-    data = data.drop_dims("factor", errors="ignore")
-    for prefix in ("", "static_"):
-        total = data.get(f"{prefix}total_contact_fraction")
-        if total is None:
-            continue
-        parts: dict[Index, xr.Dataset] = {}
-        for index in np.ndindex(total.shape):
-            row = data.isel(dict(zip(total.dims, index, strict=True)))
-            parts[index] = _of_prediction(row, prefix)
-        sizes = {str(dim): size for dim, size in total.sizes.items()}
-        stacked = stack({at: part.drop_vars("factor_label") for at, part in parts.items()}, sizes)
-        data = data.assign({f"{prefix}{name}": stacked[name] for name in stacked})
-        label = parts[(0,) * total.ndim]["factor_label"]
-        data["factor_label"] = label.assign_attrs(variable_attributes("factors of the answer"))
-    return data
-
-
-def _of_prediction(row: xr.Dataset, prefix: str) -> xr.Dataset:
-    """Return the answer of a prediction of a study, which is a sample of all its profiles."""
-    names = [*reduce.SAMPLED_QUANTITIES, *(f"{name}_error" for name in reduce.SMOOTH)]
-    names.append("adhesive_friction")
-    names += [name.removeprefix("total_") for name in BASIS]
-    numbers = {name: float(row.get(f"{prefix}total_{name}", math.nan)) for name in names}
-    if prefix:
-        numbers |= dict.fromkeys(["friction", "friction_from_dissipation"], 0.0)
-    sample = xr.Dataset({name: (("model", "sample"), [[value]]) for name, value in numbers.items()})
-    sample[STATUS] = (
-        ("model", "sample"),
-        np.array([[row[f"{prefix}{STATUS}"].item()]], dtype=object),
-    )
-    sample = sample.assign_coords(
-        model=[DIRECT], subject=(("model", "sample"), np.array([["surface"]], dtype=object))
-    )
-    best = answer_of_samples(sample)
-    at_rest = {name for name in best if prefix and "friction" in str(name)}
-    names = [name for name in POINT_NUMBERS if name in best and name not in at_rest]
-    return best[names].reset_coords(drop=True)

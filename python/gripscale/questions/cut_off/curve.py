@@ -97,7 +97,8 @@ def at_cut_off(data: xr.Dataset, name: str, length: float) -> float:
     lengths, values = data["cut_off"].values[::-1], data[name].values[::-1]
     if not lengths[0] * (1.0 - 1e-9) <= length <= lengths[-1] * (1.0 + 1e-9):
         return math.nan
-    return float(np.exp(np.interp(math.log(length), np.log(lengths), np.log(values))))
+    with np.errstate(divide="ignore"):  # no friction at rest
+        return float(np.exp(np.interp(math.log(length), np.log(lengths), np.log(values))))
 
 
 def _rules(data: xr.Dataset, surface: Surface) -> Iterator[tuple[str, float]]:

@@ -22,7 +22,7 @@ from gripscale.core.units import MILLI, display_unit_of, in_mm
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, change, on_page, significant
-from gripscale.model import STATUS
+from gripscale.model import STATUS, OnProgress
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.cut_off.charts import cut_off_panels, cut_off_sheet
 from gripscale.questions.cut_off.curve import (
@@ -211,6 +211,7 @@ def cut_off(
     folder: str | Path | None = None,
     workers: int | None = None,
     on_task: OnTask | None = None,
+    on_step: OnProgress = None,
 ) -> CutOff:
     """Return contact and friction of a case against the cut-off.
 
@@ -224,8 +225,8 @@ def cut_off(
         Hurst exponent of the continued roughness [-], in place of what the case states.
     folder : path, optional
         Keeps the solution as soon as it is there: what was interrupted resumes.
-    workers, on_task
-        As for `gripscale.experiment.Bench`.
+    workers, on_task, on_step
+        As for `gripscale.experiment.Bench`; a step is the `RoughContact` of a line at a cut-off.
 
     Returns
     -------
@@ -241,7 +242,7 @@ def cut_off(
         For what cannot be used; if nothing was measured.
     """
     end = None if down_to is None else in_si("down_to", down_to, "length")
-    with bench_in(folder, workers, None, on_task) as bench:
+    with bench_in(folder, workers, None, on_task, on_step) as bench:
         data = cut_off_curve(case, case.load, bench, down_to=end, hurst=hurst)
     return cut_off_result(data, case)
 

@@ -94,7 +94,9 @@ def design_command(
 
     def print_point(point: xr.Dataset) -> None:
         rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
-        print_wrapped(work.console, f"rolling resistance {rolling:+z.1%}: friction {gain:+.1%}")
+        friction = ", ".join(f"{mu:.3f}" for mu in point.answer_friction.values)
+        line = f"rolling resistance {rolling:+z.1%}: friction {friction} ({gain:+.1%})"
+        print_wrapped(work.console, line)
 
     result = design(
         work.case,
@@ -106,9 +108,8 @@ def design_command(
             for name, value in zip(names_of(others), others, strict=True)
         },
         roads={name: read_surface(name, work.file) for name in sorted({g.road for g in goals})},
-        folder=work.target,
-        workers=workers,
         on_point=print_point,
+        **work.solving(workers),
     )
     write_targets(result.data, work.target)
     contents = "figure, and master curve, Prony series and rubber of each point (target_*)"

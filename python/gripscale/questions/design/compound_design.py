@@ -15,7 +15,7 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -26,9 +26,11 @@ from gripscale.case import Case
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
-from gripscale.experiment.task import canonical_json, load_stored
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.experiment.task import Task, canonical_json, load_stored
+from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
-from gripscale.questions.design.compound_gain import gain, series_derivatives, series_error
+from gripscale.questions.design.compound_gain import gain, series_derivatives
 from gripscale.questions.design.compound_limits import changed, require_shift
 from gripscale.questions.design.compound_search import (
     LEAST_GAP,
@@ -40,8 +42,10 @@ from gripscale.questions.design.compound_search import (
 from gripscale.questions.design.design_dataset import of_change, of_compound, variable
 from gripscale.questions.design.goal_friction import GoalFriction
 from gripscale.questions.design.rolling import rolling_ratio
-from gripscale.questions.vary.inputs import identity
-from gripscale.questions.vary.rubber_comparison import at_one_temperature
+from gripscale.questions.vary.friction_ratio import series_error
+from gripscale.questions.vary.inputs import at_temperature, identity, model_of
+from gripscale.questions.vary.ranking import at_one_temperature
+from gripscale.questions.words import believed
 from gripscale.rubber import Rubber
 
 DESIGN_FILE = "design.nc"
@@ -117,6 +121,22 @@ def solved_point(
         | of_change(admissible, optimum.ratio)
         | {"limit_worth": variable(np.array(list(worth.values())), text, dim="widened")}
     )
+
+
+def todays_answers(
+    case: Case, problem: DesignProblem, folder: Path | None, on_task: OnTask | None
+) -> Array:
+    """Return the friction of today's compound at each goal, as `gripscale.answer` states it [-]."""
+    model, tasks = model_of(DirectContact.name, case), {}
+    for goal in problem.friction.goals:
+        of_goal = model if goal.temperature is None else at_temperature(model, goal.temperature)
+        load = replace(case.load, speed=goal.speed, pressure=goal.pressure)
+        road = problem.roads[goal.road]
+        tasks[f"today, {goal}"] = Task(problem.rubber, road, load, of_goal)
+    with bench_in(folder, problem.friction.workers, None, on_task) as bench:
+        solved = bench.solve(tasks)
+    answers = [solved[task.key] for task in tasks.values()]
+    return np.array([float(answer[believed(answer, "friction")]) for answer in answers])
 
 
 def left_out(case: Case) -> list[str]:

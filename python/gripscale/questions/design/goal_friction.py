@@ -21,16 +21,21 @@ from typing import TypeVar
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import Job, in_threads
 from gripscale.core.units import celsius
 from gripscale.half_space.model import smallest_wavelength
 from gripscale.half_space.result import RoughContact
-from gripscale.half_space.sensitivity import FrictionAdjoint
+from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.questions.design.compound_limits import changed, require_shift, rubber_at
+from gripscale.questions.design.compound_limits import (
+    changed,
+    modulus_parts,
+    require_shift,
+    rubber_at,
+)
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, Surface
 
@@ -95,6 +100,8 @@ class GoalFriction:
     thickness: float | None = None
     """Of the rubber [m]; None: a half-space."""
     _before: dict[int, RoughContact] = field(default_factory=dict, repr=False)
+    _solved: dict[bytes, tuple[float, Array]] = field(default_factory=dict, repr=False)
+    _terms: dict[int, ComplexArray] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -172,12 +179,31 @@ class GoalFriction:
         return np.array([sum(np.array(rows)[of_goal == i]) for i in range(len(self.goals))])
 
     def log_friction(self, ratio: Array) -> tuple[float, Array]:
-        """Return the weighted mean of ln mu [-] of moduli times `ratio`, and its gradient."""
-        solved = self.contacts(changed(self.rubber, ratio))
-        slopes = self._each(lambda index: FrictionAdjoint.of(solved[index]).by_log_terms())
-        friction = self.averaged([contact.friction_from_dissipation for contact in solved])
-        gradient = self.averaged(slopes) / friction[:, None] / ratio
-        return float(self.weights @ np.log(friction)), np.asarray(self.weights @ gradient)
+        """Return the weighted mean of ln mu [-] of moduli times `ratio`, and its gradient.
+
+        What was solved is kept: points of a curve are sought from the same compounds.
+        """
+        key = np.asarray(ratio, dtype=float).tobytes()
+        if key not in self._solved:
+            solved = self.contacts(changed(self.rubber, ratio))
+            slopes = self._each(lambda index: self._gradient(index, solved[index]))
+            friction = self.averaged([contact.friction_from_dissipation for contact in solved])
+            gradient = self.averaged(slopes) / friction[:, None]
+            value = float(self.weights @ np.log(friction))
+            self._solved[key] = value, np.asarray(self.weights @ gradient)
+        return self._solved[key]
+
+    def _gradient(self, index: int, contact: RoughContact) -> Array:
+        """Return d mu / d r_i of one part, all terms of E* at once."""
+        grid, adjoint = contact.grid, FrictionAdjoint.of(contact)
+        if index not in self._terms:  # the same for all compounds: their grid is
+            body = rubber_at(self.rubber, self.goals[self.parts[index].goal].temperature)
+            omega = contact.speed * np.broadcast_to(grid.along, grid.spectrum_shape)
+            storage, loss = modulus_parts(body, np.abs(omega))
+            self._terms[index] = storage + 1j * np.sign(omega)[..., None] * loss
+        _, relative = relative_change(contact)
+        changes = np.moveaxis(relative[..., None] * self._terms[index], -1, 0)
+        return np.array([float(adjoint.by_modulus(change).sum()) for change in changes])
 
     def _each(self, work: Callable[[int], _T]) -> list[_T]:
         """Return the work of each part, on all threads; the parts are independent."""

@@ -32,31 +32,29 @@ _TITLE = "Trade-off: each row is the admissible compound of most friction"
 def design_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the answer of a design, what it is for, what decides it, and what it rests on."""
     same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
-    answers = []
-    if same is not None:
-        answers.append(f"friction {_gain(same)} {_at_rolling(same)}")
-    if math.isfinite(least):
-        answers.append(f"rolling resistance {_percent(least - 1.0)} at the same friction")
-    elif float(data.gain[0]) >= 0.0 and (same is None or data.sizes["point"] > 1):
-        lowest = data.isel(point=0)
-        answers.append(
-            f"rolling resistance {_percent(float(lowest.rolling_ratio) - 1.0)} still with "
-            f"friction {_gain(lowest)}"
-        )
     chosen = data.isel(point=-1) if same is None else same
-    pairs = zip(chosen.widened.values.tolist(), chosen.limit_worth.values.tolist(), strict=True)
-    worths = {name: math.expm1(worth) for name, worth in pairs}
-    decide = any(worth > DECIDES for name, worth in worths.items() if name != ROLLING_LEVEL)
-    decided = "the limits decide" if decide else "the limits do not decide"
-    answer = "; or ".join(answers) or "no more friction for less rolling resistance"
-    yield f"Answer: {answer}; {decided}"
+    now, then = data.today_answer_friction.values, chosen.answer_friction.values
+    goals = [f" at {goal}" for goal in data.goal.values] if now.size > 1 else [""]
+    pairs = [
+        f"{old:.3f} now → {new:.3f}{at}" for old, new, at in zip(now, then, goals, strict=True)
+    ]
+    lead = f"friction {', '.join(pairs)} with the design {_at_rolling(chosen)}"
+    yield f"Answer: {lead}: {_gain(chosen)}."
+    if math.isfinite(least):
+        yield f"  Or the same friction with rolling resistance {_percent(least - 1.0)}."
+    elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:
+        lowest = data.isel(point=0)
+        yield f"  Or friction {_gain(lowest)} {_at_rolling(lowest)}."
+    named = zip(chosen.widened.values.tolist(), chosen.limit_worth.values.tolist(), strict=True)
+    worths = {name: math.expm1(worth) for name, worth in named}
+    if any(worth > DECIDES for name, worth in worths.items() if name != ROLLING_LEVEL):
+        yield (
+            f"  The limits you allow (moduli at most × {data.attrs['largest_factor']:g}) set the "
+            "size of the gain, not physics."
+        )
     if json.loads(data.attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
         last = _percent(float(data.rolling_ratio[-1]) - 1.0)
         yield f"  more rolling resistance than {last} gives no more friction"
-    for goal in data.goal.values.tolist():
-        today = float(data.today_friction.sel(goal=goal))
-        design = float(chosen.friction.sel(goal=goal))
-        yield f"  for {goal}: friction {today:.3f} today, {design:.3f} designed"
     tangent = float(data.today_rolling_loss_factor)
     yield (
         f"  rolling resistance is tan δ and loss compliance at {data.attrs['rolling_band']}, the "
@@ -79,9 +77,8 @@ def design_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield the gain at today's rolling resistance, and the least of it at today's friction."""
     same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
     if same is not None:
-        low, high = _percent(float(same.gain_low)), _percent(float(same.gain_high))
-        detail = f"{_at_rolling(same)}; {low} to {high} (90 %)"
-        yield Card("Friction", _percent(float(same.gain)), detail)
+        now, then = float(data.today_answer_friction[0]), float(same.answer_friction[0])
+        yield Card("Friction", f"{now:.3f} → {then:.3f}", f"{_gain(same)} {_at_rolling(same)}")
     if math.isfinite(least):
         yield Card("Rolling resistance", _percent(least - 1.0), "at the same friction")
 
@@ -163,7 +160,8 @@ def design_table(data: xr.Dataset) -> Table:
     ]
     notes = []
     for at, goal in enumerate(data.goal.values.tolist()):
-        columns.append(Column(f"friction_{at + 1}", data.friction.values[:, at], f"μ {at + 1}"))
+        friction = data.answer_friction.values[:, at]
+        columns.append(Column(f"friction_{at + 1}", friction, f"μ {at + 1}"))
         notes.append(f"μ {at + 1}: {goal}")
     for at, limit in enumerate(data.limit.values.tolist()):
         name = limit.split(" at ")[0]

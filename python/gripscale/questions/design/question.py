@@ -17,6 +17,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.core import checks
 from gripscale.core.finding import doubt
+from gripscale.experiment.solve import OnTask
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table
@@ -32,10 +33,11 @@ from gripscale.questions.design.compound_design import (
     rising_levels,
     solved_point,
     stored_points,
+    todays_answers,
 )
 from gripscale.questions.design.compound_limits import CompoundLimits
 from gripscale.questions.design.compound_search import design_problem
-from gripscale.questions.design.design_dataset import today
+from gripscale.questions.design.design_dataset import today, variable
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
@@ -89,6 +91,7 @@ def design(
     folder: str | Path | None = None,
     workers: int | None = None,
     on_point: OnPoint | None = None,
+    on_task: OnTask | None = None,
 ) -> CompoundDesign:
     """Return the trade-off curve of a case: friction of new compounds by rolling resistance.
 
@@ -118,13 +121,16 @@ def design(
         Threads; one per core by default.
     on_point : callable, optional
         Called with the Dataset of each point as it is solved or read.
+    on_task : callable, optional
+        Called with today's answer at each goal, as for `gripscale.experiment.Bench`.
 
     Returns
     -------
     CompoundDesign
-        Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %), friction,
-        moduli and master curve; over `compound` the other compounds; today's values without
-        either.
+        Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %),
+        `answer_friction`, that of the answer times the gain at each goal, friction of the direct
+        contact, moduli and master curve; over `compound` the other compounds; today's values
+        without either, such as `today_answer_friction`.
 
     Raises
     ------
@@ -140,12 +146,14 @@ def design(
     named = rubbers or {}
     key = design_key(case, problem, wanted, named)
     stored, fruitless = stored_points(target, key)
+    now = todays_answers(case, problem, target, on_task)
     reference = Reference.of(problem.friction)
     compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
     others, notes = other_compounds(
         problem, reference, {name: each.rubber for name, each in compounds.items()}
     )
     base = today(problem, reference.contacts, DESIGN_TOLERANCE)
+    base["today_answer_friction"] = variable(now, "friction of the answer", dim="goal")
     base = base.merge(others).assign_attrs(
         {**base.attrs, **case.attributes},
         case_file=case.origin.name,
@@ -169,6 +177,9 @@ def design(
         point = stored.get(level)
         if point is None:
             point = solved_point(problem, reference, level, points[-1:])
+            designed = now * (point.friction / base.today_friction).values
+            text = "friction of the answer with the design"
+            point["answer_friction"] = variable(designed, text, dim="goal")
         rises = not points or float(point.gain) > float(points[-1].gain)
         if rises:
             points.append(point)

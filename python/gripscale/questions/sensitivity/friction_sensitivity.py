@@ -32,10 +32,10 @@ from gripscale.half_space.location import contact_trace, trace_variables, with_t
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sensitivity import TEXTS, contact_sensitivity
 from gripscale.model import STATUS
+from gripscale.questions.vary.friction_ratio import answer_with_contacts
 from gripscale.questions.vary.inputs import conditions_of
 
 if TYPE_CHECKING:
-    from gripscale.half_space.result import RoughContact
     from gripscale.model import Load, OnProgress
     from gripscale.rubber import Rubber
     from gripscale.surface import Surface
@@ -86,14 +86,7 @@ class FrictionSensitivity(DirectContact):
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:
         """Return the answer with the derivatives; without any if the contact has no result."""
-        contacts: list[RoughContact] = []
-
-        def keep(contact: RoughContact) -> None:
-            contacts.append(contact)
-            if on_progress is not None:
-                on_progress(contact)
-
-        answer = super().predict(rubber, surface, load, on_progress=keep)
+        answer, contacts = answer_with_contacts(self, rubber, surface, load, on_progress)
         if answer[STATUS].item() != CONVERGED:
             return answer
         shifted_to = None if rubber.shift is None else rubber.reference_temperature

@@ -73,6 +73,15 @@ _CURVES = (
 signed = fixed(2, "+")
 
 
+def effect_sentence(data: xr.Dataset) -> str:
+    """Return what a per cent of both moduli does to the friction."""
+    loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
+    return (
+        f"1 % more E″ gives {least_to_most(loss, digits(2))} % more friction; 1 % less E′ gives "
+        f"{least_to_most(-storage, digits(2))} % more"
+    )
+
+
 class Sensitivity(Result):
     """The derivatives of the friction of a case by all of its inputs."""
 
@@ -84,17 +93,13 @@ class Sensitivity(Result):
         if STORAGE not in data:
             reasons = sorted({failure.sentence for failure in self.failures})
             return [f"Answer: none. No contact was solved: {'; '.join(reasons)}"]
-        loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
         load = [
             display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
             for name in ("pressure", "speed")
             if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
         ]
         where = f", at {' and '.join(load)}" if load else ""
-        lines = [
-            f"Answer: 1 % more E'' at all frequencies gives {least_to_most(loss, digits(2))} % "
-            f"more friction, 1 % less E' {least_to_most(-storage, digits(2))} %{where}"
-        ]
+        lines = [f"Answer: {effect_sentence(data)}{where}."]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():
                 effect = np.maximum(point[LOSS].values, 0.0)
@@ -103,7 +108,7 @@ class Sensitivity(Result):
                 low, high = np.exp(ends)
                 where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
                 between = f"between {low:.2g} and {high:.2g} rad/s"
-                lines.append(f"  half of the effect of E''{where} is {between}")
+                lines.append(f"  half of the effect of E″{where} is {between}")
         return lines
 
     @property
@@ -142,7 +147,7 @@ class Sensitivity(Result):
             yield (
                 f"The rule of thumb for {name} takes tan δ at "
                 f"{float(self.data.rule_frequency[i]):.2g} rad/s ({RULE_FREQUENCY:g} Hz, shifted); "
-                f"{shares} of the effect of E'' lies within half a decade of it."
+                f"{shares} of the effect of E″ lies within half a decade of it."
             )
 
     def table(self) -> Table:
@@ -154,7 +159,7 @@ class Sensitivity(Result):
                 symbol,
                 format=signed,
             )
-            for key, name, symbol in (("loss", LOSS, "E''"), ("storage", STORAGE, "E'"))
+            for key, name, symbol in (("loss", LOSS, "E″"), ("storage", STORAGE, "E′"))
         ]
         columns = [self._points_column(), *moduli, *self._scalar_columns("")]
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
@@ -176,7 +181,7 @@ class Sensitivity(Result):
         for i in chosen:
             text, point = listed[i]
             unit = text if len(listed) > 1 else ""
-            for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+            for name, symbol in ((LOSS, "E″"), (STORAGE, "E′")):
                 values = [float(point[name].values[decade == row].sum()) for row in rows]
                 columns.append(Column(f"{name}_{i}", values, symbol, unit, format=signed))
         notes = []
@@ -197,7 +202,7 @@ class Sensitivity(Result):
         lead, *below = self.lines
         panels = charts.sensitivity_panels(self.data) if STORAGE in self.data else []
         cards = []
-        for name, symbol in ((LOSS, "E''"), (STORAGE, "E'")):
+        for name, symbol in ((LOSS, "E″"), (STORAGE, "E′")):
             if name in self.data:
                 value = least_to_most(self.data[name].sum("frequency"), digits(2))
                 detail = "of friction, at all frequencies"

@@ -33,6 +33,7 @@ from gripscale.case import Case
 from gripscale.conditions import Conditions
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core.parallel import in_threads, worker_count
 from gripscale.half_space import sensitivity
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import DirectContact
@@ -204,7 +205,11 @@ def first_order(
     tangent = Tangent.of(case)
     drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
-    errors = {each.name: _scatter(tangent, each, count, seed) for each in sources}
+    jobs = [lambda _, each=each: _scatter(tangent, each, count, seed) for each in sources]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
+        scatter = dict(in_threads(jobs, worker_count(None)))
+    errors = {each.name: scatter[at] for at, each in enumerate(sources)}
     errors |= {ROAD: tangent.sampling_errors} if ROAD not in asked.without else {}
     labels = np.array([SOURCES[name].label for name in errors], dtype=object)
     text = "relative standard error of {}, by first order"
@@ -228,14 +233,12 @@ def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
         every = (each.inputs for each in draws(tangent.usual, [source], count, seed))
         return [inputs for inputs in every if inputs is not None]
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        if source.name in SOLVED:
-            every = drawn(SOLVED[source.name])
-            changes = np.array([tangent.solved_change(inputs) for inputs in every])
-            return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))
-        of_friction = of_area = drawn(count)
-        if of_area[0].rubber is not tangent.usual.rubber:
-            of_area = drawn(FEW_DRAWS)  # each is a difference of contacts
-        friction = [tangent.change(inputs) for inputs in of_friction]
-        return np.array([np.std(friction), np.std(list(map(tangent.area_change, of_area)))])
+    if source.name in SOLVED:
+        every = drawn(SOLVED[source.name])
+        changes = np.array([tangent.solved_change(inputs) for inputs in every])
+        return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))
+    of_friction = of_area = drawn(count)
+    if of_area[0].rubber is not tangent.usual.rubber:
+        of_area = drawn(FEW_DRAWS)  # each is a difference of contacts
+    friction = [tangent.change(inputs) for inputs in of_friction]
+    return np.array([np.std(friction), np.std(list(map(tangent.area_change, of_area)))])

@@ -9,8 +9,8 @@ KINDS = {
 }
 COMMANDS = {
     "study": "command:study_command",
-    "compare-rubbers": "command_side_by_side:compare_rubbers",
-    "compare-surfaces": "command_side_by_side:compare_surfaces_command",
+    "compare-rubbers": "command:compare_rubbers",
+    "compare-surfaces": "command:compare_surfaces_command",
 }
 FORMS = (
     Form(
@@ -38,7 +38,6 @@ FORMS = (
         "compare-surfaces",
         "Roads under this rubber",
         "The road of the case beside others, under its rubber and its load.",
-        (FormField("--samples", "samples", "20"),),
         others="roads",
     ),
 )

@@ -36,6 +36,9 @@ _QUANTITIES = {
 }
 """Axes of numbers, with the kind of quantity."""
 
+COLDEST = 100.0
+"""Temperature [K] below which a number without a unit is taken for degrees."""
+
 COUNTS = {"waves": MOST_SINE_WAVES, "pressure_classes": MOST_CLASSES}
 """Axes of whole numbers, with the largest."""
 
@@ -147,7 +150,12 @@ def _quantity(name: str, value: Any) -> float:
     elif isinstance(value, str) and name == "temperature":
         raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
     check = checks.not_negative if name == "speed" else checks.positive
-    return check(name, number, unit=AXIS_UNITS[name])
+    si = check(name, number, unit=AXIS_UNITS[name])
+    if name == "temperature" and si < COLDEST:
+        raise InputError(
+            f'temperature must be in kelvin or have a unit, such as "20 C"; got {si:g} K'
+        )
+    return si
 
 
 def _cut_off(name: str, value: Any) -> CutOffRule:
@@ -389,7 +397,7 @@ def named_values(name: str, value: Any) -> tuple[tuple[Any, ...], tuple[str, ...
     """
     if isinstance(value, Mapping):
         return tuple(value.values()), tuple(str(label) for label in value)
-    entries = value.split(",") if isinstance(value, str) else list(value)
+    entries = value.split(",") if isinstance(value, str) else [*_entries(name, value)]
     for entry in entries:
         if not isinstance(entry, str | Path):
             raise InputError(

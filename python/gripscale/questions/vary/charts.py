@@ -19,9 +19,10 @@ from gripscale.charts import chart, draw, style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW, RowFlags
+from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
+from gripscale.io.table import significant
 from gripscale.questions.vary.axis import (
     WORDS,
     axis_label,
@@ -31,9 +32,17 @@ from gripscale.questions.vary.axis import (
     numeric,
     of_numbers,
 )
+from gripscale.questions.vary.schema import (
+    PER_WAVE,
+    VARIABLES,
+    Role,
+    label_of,
+    rest_name,
+    telling,
+    variable_of,
+)
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
-from gripscale.questions.vary.words import is_evidence, telling, words_of
-from gripscale.questions.words import AXIS_TITLES, believed
+from gripscale.questions.words import AXIS_TITLES, believed, is_estimated
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,18 +51,7 @@ _MOST_CURVES = 12
 """Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
 MOST_BANDS = 3
 """Curves beyond which intervals would cover each other, and are not drawn."""
-PER_WAVE = ("running_contact_fraction", "running_friction", "contact_fraction", "friction")
-TITLES = {
-    f"{kind}_{name}": f"{title} [-]"
-    for kind in ("total", "answer", "answer_total")
-    for name, title in AXIS_TITLES.items()
-}
-"""Titles of axes."""
 _ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
-REPLACED = {f"total_{name}": f"answer_{name}" for name in _ESTIMATED}
-"""Totals of a model that are not drawn where there is an answer."""
-FRICTIONS = ("answer_total_friction", "answer_friction", "total_friction")
-"""Drawn from zero."""
 INTERVAL = "90 % interval"
 
 
@@ -69,26 +67,28 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     """Return a chart for each total over each numeric axis, and for each number per wave."""
     axes = [axis for axis in dimensions(data) if of_numbers(data, axis) and data.sizes[axis] > 1]
     best = [name for name in map(partial(believed, data), _ESTIMATED) if name in data]
-    totals = [
-        str(name)
-        for name, variable in data.data_vars.items()
-        if variable.dims
-        and set(variable.dims) <= set(dimensions(data))
-        and variable.dtype.kind in "fi"
-        and telling(variable)
-        and name not in best
-        and not is_evidence(str(name))
-        and not (str(name) in REPLACED and best[0].startswith("answer"))
-    ]
-    totals = [name for name in best if telling(data[name])] + totals
+    answered = is_estimated(data, "contact_fraction")
+    totals = [name for name in best if telling(data[name])]
+    for name, values in data.data_vars.items():
+        variable = variable_of(data, str(name))
+        replaced = answered and variable.role == Role.NUMBER and variable.measures
+        if (
+            values.dims
+            and set(values.dims) <= set(dimensions(data))
+            and values.dtype.kind in "fi"
+            and telling(values)
+            and variable.role in (Role.ANSWER, Role.NUMBER)
+            and name not in best
+            and not replaced
+        ):
+            totals.append(str(name))
     panels = [
         _total_panel(data, name, axis)
         for axis in axes
         for name in totals
         if axis in data[name].dims
     ]
-    if "friction_by_decade" in data and data.sizes["decade"] > 1:
-        panels.append(_relaxation_panel(data))
+    panels += stacked_panels(data).values()
     if REDUCED_SPEED in data.coords:
         panels += [_reduced_panel(data, believed(data, name)) for name in reversed(AXIS_TITLES)]
     for name in PER_WAVE if "wavelength" in data else ():
@@ -126,12 +126,14 @@ def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
 
 def _label(data: xr.Dataset, name: str) -> str:
     unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
-    return TITLES.get(name, f"{words_of(data, name)} [{'-' if unit == '1' else unit}]")
+    variable = variable_of(data, name)
+    words = AXIS_TITLES.get(variable.measures if name in VARIABLES else "", variable.label)
+    return f"{words} [{'-' if unit == '1' else unit}]"
 
 
 def _sentence(data: xr.Dataset, name: str) -> str:
     """Return what a variable means, with a capital unless a letter of an equation comes first."""
-    text = str(data[name].attrs.get("long_name", words_of(data, name)))
+    text = str(data[name].attrs.get("long_name", label_of(data, name)))
     return text if text[1:2] == " " else text[:1].upper() + text[1:]
 
 
@@ -162,11 +164,15 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
         marks.append(Series(x, y, only, label or "sliding", "solid" if numbers else "", marker="o",
                             size=3.0 if numbers else 4.5, beyond=beyond if numbers else False,
                             clip=not numbers, **bars))  # fmt: skip
-    area = name.endswith("contact_fraction")
-    words, over = words_of(data, name), words_of(data, axis)
+    words, over = label_of(data, name), label_of(data, axis)
+    measures = variable_of(data, name).measures
     return Panel(
         abscissa,
-        PlotAxis(_label(data, name), log=area, low=0.0 if name in FRICTIONS else None),
+        PlotAxis(
+            _label(data, name),
+            log=measures == "contact_fraction",
+            low=0.0 if measures == "friction" else None,
+        ),
         marks,
         name=f"{name}-over-{axis}",
         caption=f"{_sentence(data, name)}, over {over}.",
@@ -213,7 +219,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
 
 def _at_rest(result: xr.Dataset) -> str:
     """Return the name of the contact of rubber at rest."""
-    return f"static_{believed(result, 'contact_fraction')}"
+    return rest_name(believed(result, "contact_fraction"))
 
 
 def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
@@ -233,6 +239,7 @@ def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
 
 def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     """Return a number of each wave against wavelength, a curve for each prediction."""
+    variable = variable_of(data, name)
     flags = data["wavelength"].copy(data=style.waves_beyond(data))
     values, lengths, flags = xr.broadcast(data[name], data["wavelength"] / MILLI, flags)
     over = [str(dim) for dim in values.dims if dim != "scale"]
@@ -241,11 +248,11 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     marks: list[Mark] = []
     for i, (at, colour, label) in enumerate(curves):
         x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
-        beyond = style.down_to(beyond) if name.startswith("running") else beyond
-        marks.append(Series(x, y, colour, label or words_of(data, name), marker="o", size=3.0,
+        beyond = style.down_to(beyond) if variable.running else beyond
+        marks.append(Series(x, y, colour, label or label_of(data, name), marker="o", size=3.0,
                             beyond=beyond, listed=i % every == 0))  # fmt: skip
-    area = "fraction" in name
-    down = " down to each wave" if name.startswith("running") else " of each wave"
+    area = variable.measures == "contact_fraction"
+    down = " down to each wave" if variable.running else " of each wave"
     label = f"{_AREA if area else 'friction coefficient'}{down} [-]"
     return Panel(
         chart.wavelength_axis(lengths.values),
@@ -253,7 +260,7 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
         marks,
         name=f"{name}-per-wave",
         caption=f"{_sentence(data, name)}, against wavelength.",
-        alt=f"{words_of(data, name)} against wavelength, which falls to the right.",
+        alt=f"{label_of(data, name)} against wavelength, which falls to the right.",
         height=400,
     )
 
@@ -264,124 +271,65 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     Dashed is what rests on the rubber beyond its measured band.
     """
     assert axis in result.dims
-    panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
+    names = [name for name, variable in PER_WAVE.items() if variable.running]
+    panels = [_wave_panel(result, name, thinned=False) for name in names]
     return Sheet(panels, legend="beside").on_paper()
 
 
-_HEIGHT = 3.4
 _AREA = "real contact area $A_r/A_0$"
 _LEAST_SHARE = 0.005
-"""Decades of relaxation time that never reach this share of the friction are not drawn."""
+"""Octaves and decades that never reach this share of the friction are not drawn."""
 
 
-def wavelength_names(result: xr.Dataset) -> list[str]:
-    """Return the wavelengths of a study over one axis, for a legend; ranges where they vary."""
-    names = []
-    for i in range(result.sizes["scale"]):
-        values = result.wavelength.isel(scale=i).values / MILLI
-        values = values[np.isfinite(values)]
-        low, high = (values.min(), values.max()) if values.size else (math.nan, math.nan)
-        same = high <= low * 1.01
-        names.append(f"{high:.3g} mm" if same else f"{low:.3g} to {high:.3g} mm")
-    return names
+def octaves_panel(result: xr.Dataset, axis: str) -> Panel:
+    """Return friction over one axis as the sum of its octaves of wavelength."""
+    parts = result.octave_friction.sortby("octave", ascending=False)
+    names = [f"from {significant(end, 2)} mm" for end in parts.octave.values / MILLI]
+    ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
+    return _stacked(result, axis, parts, names, ordinate, "Viridis")
 
 
-def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
-    """Draw friction as the sum of its waves, and contact area down to each of them, over one axis.
-
-    Each band of friction is the friction coefficient of a wave. Waves beyond the measured band of
-    the rubber are hatched, and dashed.
-    """
-    abscissa, x = varied_axis(result, axis)
-    beyond = style.waves_beyond(result.transpose("scale", axis, ...))
-    friction = result.friction.transpose("scale", axis).values
-    running = result.running_contact_fraction.transpose("scale", axis).values
-    looks = zip(running, style.shades(len(running)), beyond, strict=True)
-    total = Series(
-        x, result.total_friction, INK, width=1.2, beyond=style.predictions_beyond(result)
-    )
-    panels = [
-        Panel(
-            abscissa,
-            PlotAxis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
-            [*_wave_bands(result, x, *_stack(friction), beyond), total],
-        ),
-        Panel(
-            abscissa,
-            PlotAxis(f"{_AREA} down to each wave [-]", log=True),
-            [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
-        ),
-    ]
-    return Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength").on_paper()
-
-
-def _stack(rows: Array) -> tuple[Array, Array]:
-    """Return the lower and upper ends of rows upon each other; all missing leaves a gap."""
-    upper = np.cumsum(np.where(np.isnan(rows), 0.0, rows), axis=0)
-    upper[:, np.isnan(rows).all(axis=0)] = np.nan
-    return np.vstack([np.zeros_like(upper[:1]), upper[:-1]]), upper
-
-
-def _wave_bands(
-    result: xr.Dataset, x: Array, low: Array, high: Array, beyond: RowFlags
-) -> list[Mark]:
-    """Return a band for each wave, the last first: so they stand in the legend as in the stack."""
-    bands: list[Mark] = [
-        ShadedBand(x, least, most, colour, name, 1.0, flags, edged=True)
-        for least, most, colour, name, flags in zip(
-            low, high, style.shades(len(low)), wavelength_names(result), beyond, strict=True
-        )
-    ]
-    return bands[::-1]
-
-
-def decades_figure(result: xr.Dataset, axis: str) -> Figure:
-    """Draw the share of each decade of relaxation time in the friction over one axis.
+def decades_panel(result: xr.Dataset, axis: str) -> Panel:
+    """Return the share of each decade of relaxation time in the friction over one axis.
 
     The split is that of small strain (see
-    `gripscale.questions.vary.speed_and_temperature`), and the figure says so.
+    `gripscale.questions.vary.speed_and_temperature`), and the panel says so.
     """
-    share = (result.friction_by_decade / result.total_friction).transpose("decade", axis)
-    share = share.isel(decade=np.nanmax(share.values, axis=1) >= _LEAST_SHARE)
-    abscissa, x = varied_axis(result, axis)
-    low, high = _stack(np.nan_to_num(share.values))
-    scale = style.shades(max(share.sizes["decade"], 2), "Cividis")
-    marks: list[Mark] = [
-        ShadedBand(
-            x, least, most, colour, style.power_of_ten(round(math.log10(time))), 1.0, edged=True
-        )
-        for least, most, colour, time in zip(low, high, scale, share.decade.values, strict=False)
-    ]
-    total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
-                   beyond=style.predictions_beyond(result))  # fmt: skip
+    parts = result.friction_by_decade / result[believed(result, "friction")]
+    names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
     ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
-    panel = Panel(abscissa, ordinate, [*marks[::-1], total])
-    look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
-    return Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look).on_paper()
+    return _stacked(result, axis, parts, names, ordinate, "Cividis")
 
 
-def _relaxation_panel(data: xr.Dataset) -> Panel:
-    """Return friction summed up over relaxation times.
-
-    The sum at the end of a decade is exact whatever the spacing of the Maxwell elements; the parts
-    of the decades would rise and fall with how many of them one holds.
-    """
-    name = "friction_by_decade"
-    parts = data[name]
-    summed = parts.cumsum("decade", skipna=True).where(parts.notnull())
-    times = 10.0 * data["decade"].values.astype(float)
-    over = [str(dim) for dim in parts.dims if dim != "decade"]
+def _stacked(
+    result: xr.Dataset,
+    axis: str,
+    parts: xr.DataArray,
+    names: list[str],
+    ordinate: PlotAxis,
+    scale: str,
+) -> Panel:
+    """Return a band for each part, the last first: so they stand in the legend as in the stack."""
+    rows = parts.transpose(..., axis).values
+    there = np.nan_to_num(rows)
+    upper = np.where(np.isnan(rows).all(axis=0), np.nan, np.cumsum(there, axis=0))
+    seen = np.flatnonzero(there.max(axis=1) >= _LEAST_SHARE * there.sum(axis=0).max())
+    abscissa, x = varied_axis(result, axis)
+    bands: list[Mark] = [
+        ShadedBand(x, upper[i] - there[i], upper[i], colour, names[i], 1.0, edged=True)
+        for i, colour in zip(seen, style.shades(max(seen.size, 2), scale), strict=False)
+    ]
+    total = Series(x, upper[-1], INK, width=1.2, clip=False,
+                   beyond=style.predictions_beyond(result))  # fmt: skip
+    name = "friction_by_decade" if parts.name is None else str(parts.name)
+    words = label_of(result, name)
     return Panel(
-        PlotAxis("relaxation times up to [s]", log=True),
-        PlotAxis(f"{words_of(data, name)} [-]"),
-        [
-            Series(times, summed.isel(at).values, colour, label or words_of(data, name), marker="o")
-            for at, colour, label in _curves(data, over)
-        ],
-        name=f"{name}-over-decade",
-        caption="Friction coefficient of all Maxwell elements up to a relaxation time, split as at "
-        "small strain.",
-        alt="Friction summed up over relaxation times.",
+        abscissa,
+        ordinate,
+        [*bands[::-1], total],
+        name=f"{name}-over-{axis}",
+        caption=f"{words}, stacked.",
+        alt=f"{words}, stacked against {label_of(result, axis)}.",
     )
 
 
@@ -418,7 +366,7 @@ def map_figure(result: xr.Dataset) -> Figure:
             [
                 chart.ValueMap(
                     *_finer(abscissa.log, speeds, celsius, result[name].values),
-                    TITLES[name],
+                    _label(result, name),
                     levels=9,
                 ),
                 *points,
@@ -479,7 +427,7 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
         marks.append(Series(speeds.of(x), y.values, scale[round(255 * float(share))],
                             name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
                             beyond=beyond.values, listed=False))  # fmt: skip
-    words, area = words_of(data, name), name.endswith("contact_fraction")
+    words, area = label_of(data, name), variable_of(data, name).measures == "contact_fraction"
     return Panel(
         PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
         PlotAxis(_label(data, name), log=area, low=None if area else 0.0),
@@ -491,22 +439,32 @@ def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
     )
 
 
+def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
+    """Return what makes the friction over a single axis of numbers, by the name of its figure."""
+    several = [name for name in dimensions(data) if data.sizes[name] > 1]
+    if several != numeric(data) or len(several) != 1:
+        return {}
+    data = data.isel({name: 0 for name in dimensions(data) if name not in several})
+    panels = {}
+    if "octave_friction" in data:
+        panels["stacked"] = octaves_panel(data, several[0])
+    if "friction_by_decade" in data:
+        panels["decades"] = decades_panel(data, several[0])
+    return panels
+
+
 def study_figures(result: xr.Dataset) -> Iterator[tuple[str, Figure]]:
-    """Yield totals and, over a single axis, what the waves do; over two axes the page does."""
+    """Yield totals and, over a single axis, what makes them; over two axes the page does."""
     yield "totals", totals_figure(result)
     if REDUCED_SPEED in result.coords and np.isfinite(result.total_friction.values).any():
         yield "friction_master_curve", friction_master_figure(result)
         if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
             yield "map", map_figure(result)
     several = [name for name in dimensions(result) if result.sizes[name] > 1]
-    if len(several) != 1 or "wavelength" not in result:
-        return
-    axis = several[0]
-    result = result.isel({name: 0 for name in dimensions(result) if name != axis})
     if not (result.prediction_status == "converged").any():
         return
-    yield "wavelength", wavelength_figure(result, axis)
-    if axis in numeric(result):
-        yield "stacked", stacked_figure(result, axis)
-        if "friction_by_decade" in result:
-            yield "decades", decades_figure(result, axis)
+    if len(several) == 1 and "wavelength" in result:
+        first = {name: 0 for name in dimensions(result) if name not in several}
+        yield "wavelength", wavelength_figure(result.isel(first), several[0])
+    for name, panel in stacked_panels(result).items():
+        yield name, Sheet([panel], 1, NARROW, 3.6, gap=0.02, legend="beside").on_paper()

@@ -81,17 +81,9 @@ def effects(
 ) -> xr.Dataset:
     """Return what each effect of the conditions of a model is worth.
 
-    Parameters
-    ----------
-    model : Model
-        With conditions, such as `Chain(conditions=...)` or `DirectContact(conditions=...)`.
-    rubber, surface, load
-        As for `Model.predict`.
-    folder : path, optional
-        Keeps the finished predictions: what was interrupted goes on where it stopped, and what was
-        solved by a study or a comparison that shares the folder is not solved again.
-    workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
+    `model` has conditions, such as `Chain(conditions=...)` or `DirectContact(conditions=...)`. A
+    `folder` keeps the finished predictions, and shares them with a study or a comparison there.
+    Other arguments are those of `Model.predict` and `gripscale.experiment.Bench`.
 
     Returns
     -------
@@ -160,20 +152,8 @@ def case_effects(
 ) -> xr.Dataset | None:
     """Return what each effect is worth in a sliding case, and write it into `folder`.
 
-    Parameters
-    ----------
-    case : Case
-        The case.
-    model : Model
-        With the conditions of the case.
-    folder : path
-        Gets `effects_<model>.nc`.
-    store : path
-        Keeps the finished predictions.
-    dynamic : ChainResult, optional
-        The chain of the sliding case, where it is solved already.
-    workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
+    `model` has the conditions of the case; `folder` gets `effects_<model>.nc`, `store` keeps the
+    finished predictions. `dynamic` is the chain of the sliding case, where it is solved already.
 
     Returns
     -------

@@ -11,8 +11,9 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
 from gripscale.experiment.task import canonical_json
-from gripscale.half_space.model import DirectContact
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Model
+from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import SineStack, Surface
@@ -20,6 +21,8 @@ from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
 TEMPERATURE = "temperature_K"
 """Attribute of a comparison of compounds: the temperature that all of them hold for [K]."""
+READING_NOTES = "reading_notes"
+"""Attribute of what stands side by side: how inputs were read, a line each."""
 OF_THE_CASE = "case"
 """What stands for the surface or the rubber of the case itself."""
 _NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
@@ -131,10 +134,8 @@ def default_model(case: Case, varied: Mapping[str, Sequence[Any]] | None = None)
     return DirectContact.name if measured and not {*OF_THE_CHAIN} & {*values} else Chain.name
 
 
-def model_of(
-    model: Model | str, case: Case, tolerance: float | None = DirectContact().tolerance
-) -> Model:
-    """Return a model, or the one of this name with the conditions of the case.
+def model_of(model: Model | str, case: Case, tolerance: float | None = JUDGED_TO) -> Model:
+    """Return a model, or the chain of a case or its answer by the direct contact by their names.
 
     `tolerance` is the estimated relative error of a direct contact chosen by name; None for its
     first full grid. Raises `InputError` if the name is another, or the tolerance out of range.
@@ -143,4 +144,4 @@ def model_of(
         return model
     if checks.one_of("model", model, NAMED_MODELS) == Chain.name:
         return case.chain
-    return DirectContact(tolerance=tolerance, conditions=case.conditions)
+    return AnswerModel(tolerance, case.conditions, case.below_measurement)

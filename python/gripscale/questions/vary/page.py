@@ -1,4 +1,4 @@
-"""A study in tables and sentences: what was varied, the totals of each prediction."""
+"""A study in tables and on its page: what was varied, each prediction, curves and inputs."""
 
 from __future__ import annotations
 
@@ -9,17 +9,23 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import MILLI
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, digits, percent, significant
 from gripscale.model import ADHESIVE_FRICTION, FRICTION_OUTSIDE_BAND, STATUS, status_words
-from gripscale.questions.answer.estimate import ANSWER_NUMBERS
 from gripscale.questions.chain.findings import study_sentence
+from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers, places
+from gripscale.questions.vary.charts import study_charts
+from gripscale.questions.vary.page_of_answer import study_cards, study_lines
+from gripscale.questions.vary.schema import Role, label_of, rest_name, telling, variable_of
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
-from gripscale.questions.vary.words import is_evidence, telling, words_of
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
-from gripscale.report.failures import Failure
+from gripscale.report.again import rerun_section
+from gripscale.report.elements import Card, Element, Facts, Page, Section
+from gripscale.report.equations import method_section
+from gripscale.report.failures import Failure, explained
 
 _MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""
@@ -46,7 +52,9 @@ def study_table(data: xr.Dataset) -> Table:
     keys = len(columns)
     for name in reversed(SYMBOLS):
         column = believed(data, name)
-        columns.append(Column(column, each(column), SYMBOLS[name]))
+        # no friction at rest is none, not zero
+        values = [value or math.nan for value in each(column)]
+        columns.append(Column(column, values, SYMBOLS[name]))
         if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
             ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
             columns.append(Column(f"{column}_interval", ends, "90 %"))
@@ -74,7 +82,7 @@ def study_table(data: xr.Dataset) -> Table:
     if study_sentence(data):
         shares = each(FRICTION_OUTSIDE_BAND)
         columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
-    rest = f"static_{believed(data, 'contact_fraction')}"
+    rest = rest_name(believed(data, "contact_fraction"))
     if rest in data:
         columns.append(Column("static", each(rest), "A_r/A_0", "at rest"))
     status = [str(row.prediction_status.item()) for row in rows]
@@ -95,7 +103,7 @@ def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
     """Return each prediction without totals, and how many predictions there are."""
     endings = [
         Failure(str(sentence), str(word))
-        for name in (STATUS, f"static_{STATUS}")
+        for name in (STATUS, rest_name(STATUS))
         if name in data
         for sentence, word in zip(
             data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
@@ -179,15 +187,13 @@ def place_text(data: xr.Dataset, axis: str, i: int) -> str:
 def totals_of(data: xr.Dataset) -> list[str]:
     """Return the names of what there is one number or text of per prediction, best ones first."""
     axes = set(dimensions(data))
-    names = [
-        str(name)
+    roles = {
+        str(name): variable_of(data, str(name)).role
         for name, variable in data.data_vars.items()
-        if variable.dims
-        and set(variable.dims) <= axes
-        and not str(name).endswith(("_key", "_status_word"))
-        and not (is_evidence(str(name)) and not str(name).endswith(("_low", "_high")))
-    ]
-    return sorted(names, key=lambda name: name not in ANSWER_NUMBERS)
+        if variable.dims and set(variable.dims) <= axes
+    }
+    names = [name for name, role in roles.items() if role not in (Role.EVIDENCE, Role.RECORD)]
+    return sorted(names, key=lambda name: roles[name] not in (Role.ANSWER, Role.END))
 
 
 def totals_table(data: xr.Dataset) -> Table | None:
@@ -201,7 +207,7 @@ def totals_table(data: xr.Dataset) -> Table | None:
         Column(
             axis,
             [place_text(data, axis, index[axis]) for index in chosen],
-            words_of(data, axis),
+            label_of(data, axis),
             axis_unit(data, axis),
             words=axis in data.variables and data[axis].dtype.kind not in "fiub",
         )
@@ -210,8 +216,8 @@ def totals_table(data: xr.Dataset) -> Table | None:
     for name in names:
         values: list[Any] = [row[name].values[()] for row in rows]
         unit = str(data[name].attrs.get("units", "")).replace("1", "")
-        columns.append(Column(name, values, words_of(data, name), unit, format=digits(4)))
-    states = [name for name in names if name.endswith("status")]
+        columns.append(Column(name, values, label_of(data, name), unit, format=digits(4)))
+    states = [name for name in names if variable_of(data, name).role == Role.STATUS]
     bad = [any(str(row[name].values[()]) != CONVERGED for name in states) for row in rows]
     return Table("totals", columns, f"Totals of all {len(rows)} predictions", bad=bad)
 
@@ -224,12 +230,12 @@ def axis_unit(data: xr.Dataset, axis: str) -> str:
 def study_failures(data: xr.Dataset) -> Iterator[Failure]:
     """Yield each prediction that is not `converged`, or has a NaN total."""
     names = totals_of(data)
-    states = [name for name in names if name.endswith("status")]
-    totals = [name for name in names if name in ("total_contact_fraction", "contact_fraction")]
+    states = [name for name in names if variable_of(data, name).role == Role.STATUS]
+    totals = [name for name in names if variable_of(data, name).measures == "contact_fraction"]
     for index in places(data):
         row = data.isel(index)
         where = ", ".join(
-            " ".join(filter(None, [words_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
+            " ".join(filter(None, [label_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
             for n, i in index.items()
         )
         for name in states:
@@ -238,3 +244,65 @@ def study_failures(data: xr.Dataset) -> Iterator[Failure]:
                 yield Failure(f"{where}: NOT converged: {status or NONE}", word)
         if not states and any(math.isnan(float(row[name])) for name in totals):
             yield Failure(f"{where}: no total")
+
+
+_NAMED_FAILURES = 12
+"""Failed predictions that have a finding each."""
+
+
+def study_findings(data: xr.Dataset) -> Iterator[Finding]:
+    """Yield predictions without a result, extrapolation of the rubber, and notes on surfaces."""
+    failed = list(study_failures(data))
+    yield from (Finding(Severity.ERROR, explained(each)) for each in failed[:_NAMED_FAILURES])
+    if rest := len(failed[_NAMED_FAILURES:]):
+        yield Finding(Severity.ERROR, f"{rest} more did not converge; see the table of totals.")
+    if beyond := study_sentence(data):
+        share = float(data[FRICTION_OUTSIDE_BAND].max())
+        text = f"{beyond} There the Prony series is an extrapolation."
+        yield Finding(Severity.WARNING, text, share, topic=Topic.RUBBER)
+    notes = [shift_sentence(data), *str(data.attrs.get("notes", "")).splitlines()]
+    yield from (Finding(Severity.WARNING, text, topic=Topic.SURFACE) for text in notes if text)
+
+
+def study_page(data: xr.Dataset) -> Page:
+    """Return the page of a study: answer, predictions and curves, then the inputs."""
+    collapsed = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
+    axes: list[Element] = [axes_table(data)]
+    axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
+    curves, *inputs = study_sections(data)
+    return Page.of(
+        str(data.attrs.get("title", "Study")),
+        f"varied: {', '.join(label_of(data, axis) for axis in dimensions(data))}",
+        study_findings(data),
+        [*study_cards(data), *count_cards(data)],
+        [
+            Section("predictions", "Predictions", [study_table(data)]),
+            curves,
+            Section("axes", "What was varied", axes),
+            *inputs,
+            method_section(),
+            rerun_section(data.attrs),
+        ],
+        (line.strip() for line in study_lines(data)),
+    )
+
+
+def study_sections(data: xr.Dataset) -> list[Section]:
+    """Return the chapters on curves, inputs and totals."""
+    totals = totals_table(data)
+    return [
+        Section("curves", "Curves", study_charts(data)),
+        *input_sections(data),
+        Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
+    ]
+
+
+def count_cards(data: xr.Dataset) -> list[Card]:
+    """Return how many predictions there are, and how many of them failed."""
+    failed = len(list(study_failures(data)))
+    count = math.prod(data.sizes[name] for name in dimensions(data))
+    axes = " × ".join(label_of(data, axis) for axis in dimensions(data))
+    return [
+        Card("Predictions", str(count), axes),
+        Card("Not converged", str(failed), "see the table of totals", bad=failed > 0),
+    ]

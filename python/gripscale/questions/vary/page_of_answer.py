@@ -12,9 +12,10 @@ from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import least_to_most, significant
-from gripscale.model import STATUS, STEEP_SHARE, input_doubts_of
+from gripscale.model import STATUS, input_doubts_of
 from gripscale.questions.answer.estimate import AREA_TERM, ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
+from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary.axis import axis_shown, dimensions, name_of, of_numbers
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
@@ -27,14 +28,6 @@ _MODELS = {
     "direct": "direct contact of the measured surface",
 }
 """Models in words; others by their names."""
-ASK_DIRECT = (
-    "the surface was measured: `--model direct`, the default, gives the number to rely on, with an "
-    "interval"
-)
-ONLY_WAVES = (
-    "the varied input belongs to the chain only: `gripscale run` compares its friction with the "
-    "direct contact of the measured surface"
-)
 
 
 def study_lines(data: xr.Dataset) -> Iterator[str]:
@@ -64,7 +57,11 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
         yield f"from {' × '.join(_factors(data))}"
         yield "; ".join(_rests_on(data))
     elif data.attrs.get("surface_measured") and data.attrs.get("model") == "chain":
-        yield ONLY_WAVES if set(dimensions(data)) & set(OF_THE_CHAIN) else ASK_DIRECT
+        yield (
+            "the varied input belongs to the chain only: `gripscale run` has the answer"
+            if set(dimensions(data)) & set(OF_THE_CHAIN)
+            else "the surface was measured: `--model direct`, the default, gives the answer"
+        )
     elif data.attrs.get("model") == "direct":
         yield "no interval: the surface is too short to tell how well it represents its road"
     else:
@@ -89,8 +86,8 @@ def course(data: xr.Dataset, name: str) -> str:
     Empty where it has no value, or nothing slides.
     """
     column = believed(data, name)
-    values = data[column].values
-    if not np.isfinite(values).any() or not np.nanmax(values) > 0.0:
+    values = data[column].where(data[column] > 0.0).values  # none at rest
+    if not np.isfinite(values).any():
         return ""
     title = f"{HEADINGS[name]} {SYMBOLS[name]}"
     axes = dimensions(data)
@@ -153,8 +150,9 @@ def _held(data: xr.Dataset) -> Iterator[str]:
         if name not in dimensions(data) and f"nominal_{name}" in data.attrs:
             value = float(data.attrs[f"nominal_{name}"])
             yield display_unit_of(data.attrs, name).text(value)
-    if "cutoff_wavelength" in data:
-        yield f"roughness down to {1e3 * float(data.cutoff_wavelength):.3g} mm"
+    ends = [float(data[name]) for name in ("cutoff_wavelength", CONTINUED_TO) if name in data]
+    if ends:
+        yield f"roughness down to {1e3 * min(ends):.3g} mm"
     if "thickness" in data.attrs and "thickness" not in data.dims:
         thickness = display_unit_of(data.attrs, "thickness").text(data.attrs["thickness"])
         yield f"rubber {thickness} thick on a rigid base"
@@ -182,7 +180,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"sampling of the road up to ± {percent_text(sampling)} of it (standard error)"
     else:
         yield "no interval: the surface is too short to tell how well it represents its road"
-    steep = float(data[STEEP_SHARE].max()) if STEEP_SHARE in data else 0.0
+    steep = float(data["answer_steep_share"].max())
     if steep > WORTH_NAMING:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:

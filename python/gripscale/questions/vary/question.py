@@ -10,17 +10,14 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from gripscale.case import Case
 from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io.table import Table
 from gripscale.model import Model
-from gripscale.questions.answer.estimate import with_answer
 from gripscale.questions.result import Result
-from gripscale.questions.vary import page, page_of_answer, page_of_study
+from gripscale.questions.vary import page, page_of_answer
 from gripscale.questions.vary.study import Study
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
@@ -34,9 +31,6 @@ class Variation(Result):
 
     kind = "study"
 
-    def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
-        super().__init__(with_answer(data), inputs)
-
     @property
     def lines(self) -> Sequence[str]:
         """The course of friction and contact area with intervals, and what they rest on."""
@@ -45,7 +39,7 @@ class Variation(Result):
     @property
     def findings(self) -> Sequence[Finding]:
         """Predictions without a result, extrapolation, and notes about the surfaces."""
-        return tuple(page_of_study.study_findings(self.data))
+        return tuple(page.study_findings(self.data))
 
     @property
     def failure(self) -> str:
@@ -69,7 +63,7 @@ class Variation(Result):
 
     def page_content(self) -> Page:
         """Return the predictions, their curves, and the inputs."""
-        return page_of_study.study_page(self.data)
+        return page.study_page(self.data)
 
 
 def vary(

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from gripscale.core.finding import Finding, Severity
+from gripscale.charts.page_elements import Picture
+from gripscale.core.finding import Finding
 from gripscale.io.table import Table
 from gripscale.questions.inputs.page import rubbers_of
 from gripscale.questions.result import Result
-from gripscale.questions.vary import page_side_by_side
+from gripscale.questions.vary import page, page_side_by_side
+from gripscale.questions.vary.inputs import READING_NOTES
 from gripscale.report.elements import Page
-from gripscale.report.failures import explained, first_of
+from gripscale.report.failures import first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,34 +23,54 @@ if TYPE_CHECKING:
 
 
 class SideBySide(Result):
-    """Friction and contact area of several roads or compounds, with ratios to the first."""
+    """Answers of several roads or compounds, ranked by their friction."""
 
     dim: ClassVar[str]
     """Dimension of what stands side by side."""
-    of: ClassVar[str]
-    """What a failure counts."""
 
     @property
     def notes(self) -> Sequence[str]:
-        """How inputs were read, and why one has no range or no direct contact."""
-        return tuple(str(self.data.attrs.get("notes", "")).splitlines())
+        """How inputs were read, and what was not measured."""
+        return tuple(str(self.data.attrs.get(READING_NOTES, "")).splitlines())
 
     @property
     def lines(self) -> Sequence[str]:
-        """Friction of each over that of the first, with its interval."""
-        return tuple(page_side_by_side.ratio_lines(self.data, self.dim))
+        """The ranking by friction, with the confidence of each step and its causes."""
+        return tuple(page_side_by_side.ranking_lines(self.data, self.dim))
 
     @property
     def findings(self) -> Sequence[Finding]:
-        """What has no totals."""
-        failed = page_side_by_side.failed_totals(self.data)
-        return tuple(Finding(Severity.ERROR, explained(each)) for each in failed)
+        """What has no answer, and extrapolation of the rubber."""
+        return tuple(page.study_findings(self.data))
 
     @property
     def failure(self) -> str:
-        """What has no totals; empty if everything has."""
-        failed = page_side_by_side.failed_totals(self.data)
-        return first_of(failed, self.data.prediction_status.size, self.of)
+        """What has no answer; empty if everything has."""
+        failed, total = page.failed_predictions(self.data)
+        return first_of(failed, total, f"{page_side_by_side.CALLED[self.dim]}s")
+
+    def parts(self) -> Iterator[str | Table]:
+        """Yield the ranking, the texture of roads, and notes."""
+        yield from page_side_by_side.side_by_side_tables(self.data, self.dim)
+        yield from (f"note: {note}" for note in self.notes)
+
+    def table(self) -> Table:
+        """Return the answers by rank."""
+        return page_side_by_side.ranking_table(self.data, self.dim)
+
+    @abstractmethod
+    def pictures(self) -> Iterator[Picture]:
+        """Yield friction by wavelength, and the statistics of roads or the moduli of compounds."""
+
+    def figures(self) -> Iterator[tuple[str, Figure]]:
+        """Yield the pictures, with their names."""
+        for picture in self.pictures():
+            yield picture.name, picture.figure
+
+    def page_content(self) -> Page:
+        """Return the ranking, its figures, and the inputs."""
+        pictures = list(self.pictures())
+        return page_side_by_side.side_by_side_page(self.data, self.dim, self.findings, pictures)
 
 
 class Roads(SideBySide):
@@ -56,28 +79,12 @@ class Roads(SideBySide):
     kind = "roads"
     file = "surfaces.nc"
     dim = "surface"
-    of = "predictions"
 
-    def parts(self) -> Iterator[str | Table]:
-        """Yield answers, totals of each model, texture, and where the differences are."""
-        yield from page_side_by_side.roads_tables(self.data)
-        yield from page_side_by_side.roads_sentences(self.data)
-        yield from (f"note: {note}" for note in self.notes)
-
-    def table(self) -> Table:
-        """Return the answers of the roads, or their totals."""
-        return page_side_by_side.roads_tables(self.data)[0]
-
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield friction and area of the roads, and their correlation and spectrum."""
+    def pictures(self) -> Iterator[Picture]:
+        """Yield friction by wavelength, and correlation and spectrum."""
         from gripscale.questions.vary.charts_side_by_side import road_pictures
 
-        for picture in road_pictures(self.data):
-            yield picture.name, picture.figure
-
-    def page_content(self) -> Page:
-        """Return ratios, totals and statistics of the roads."""
-        return page_side_by_side.roads_page(self.data, self.findings)
+        yield from road_pictures(self.data)
 
 
 class Compounds(SideBySide):
@@ -86,7 +93,6 @@ class Compounds(SideBySide):
     kind = "compounds"
     file = "compounds.nc"
     dim = "rubber"
-    of = "compounds"
 
     @property
     def rubbers(self) -> dict[str, Rubber]:
@@ -95,25 +101,8 @@ class Compounds(SideBySide):
         rubbers = rubbers_of(self.data)
         return dict(zip(names, rubbers, strict=True)) if len(rubbers) == len(names) else {}
 
-    def parts(self) -> Iterator[str | Table]:
-        """Yield answers, totals of the chain, and what makes the differences."""
-        best = page_side_by_side.believed_table(self.data, self.dim, "compound")
-        yield from filter(None, [best])
-        yield page_side_by_side.compounds_table(self.data)
-        yield from page_side_by_side.compounds_sentences(self.data)
-        yield from (f"note: {note}" for note in self.notes)
-
-    def table(self) -> Table:
-        """Return the totals of the compounds."""
-        return page_side_by_side.compounds_table(self.data)
-
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield friction and area of the compounds, and their moduli."""
+    def pictures(self) -> Iterator[Picture]:
+        """Yield friction by wavelength and relaxation time, and the moduli."""
         from gripscale.questions.vary.charts_side_by_side import compound_pictures
 
-        for picture in compound_pictures(self.data, self.rubbers):
-            yield picture.name, picture.figure
-
-    def page_content(self) -> Page:
-        """Return ratios, totals, and what a study of the compounds has."""
-        return page_side_by_side.compounds_page(self.data, self.rubbers)
+        yield from compound_pictures(self.data, self.rubbers)

@@ -140,14 +140,12 @@ def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.Da
 
     Of the tasks of all points, last axis fastest. Empty where no temperature is stated.
     """
-    from gripscale.questions.vary.inputs import (
-        rubber_before,  # all of a case with it: not for pages
-    )
-
     asked = [task.model.conditions for task in tasks]
     if all(conditions is None or conditions.temperature is None for conditions in asked):
         return {}
-    flags = [rubber_before(task.rubber, task.model).shift_extrapolated for task in tasks]
+    pairs = [(task.rubber, task.model.conditions) for task in tasks]
+    before = [rubber if c is None else c.before(rubber) for rubber, c in pairs]
+    flags = [rubber.shift_extrapolated for rubber in before]
     values = np.reshape(flags, [len(axis.values) for axis in axes])
     text = "whether the temperature lies beyond those the shift of the rubber rests on"
     dims = [axis.name for axis in axes]
@@ -229,12 +227,12 @@ def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:
         text = str(wave.rubber_parameters.item()) if "rubber_parameters" in wave else ""
         matching = Rubber.from_dict(json.loads(text)) if text else rubber
         share = _shares(wave, matching) * float(wave.friction)
-        for n, part in _in_decades(np.log10(matching.relaxation_times), share):
+        for n, part in in_decades(np.log10(matching.relaxation_times), share):
             parts[n] = parts.get(n, 0.0) + part
     return parts
 
 
-def _in_decades(decade: Array, share: Array) -> Iterator[tuple[int, float]]:
+def in_decades(decade: Array, share: Array) -> Iterator[tuple[int, float]]:
     """Yield decades and the part of the shares of elements, at `decade` [decades], in each."""
     order = np.argsort(decade)
     for low, high, part in zip(*_ends(decade[order]), share[order], strict=True):

@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -30,18 +29,20 @@ from gripscale.core.units import GIVEN
 from gripscale.experiment.design import (
     SURFACE,
     Design,
-    Index,
     Point,
     basis_numbers,
     variable_attributes,
 )
-from gripscale.experiment.solve import Bench, OnTask, Progress, bench_in
+from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
-from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
-from gripscale.model import BASIS, Model, input_doubts
+from gripscale.model import Model, input_doubts
+from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
+from gripscale.questions.vary.answer_model import OCTAVE_UNIT, AnswerModel
 from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
+from gripscale.questions.vary.schema import VARIABLES, Role, at_rest, rest_name
 from gripscale.questions.vary.speed_and_temperature import (
     beyond_shift,
     friction_by_decade,
@@ -53,13 +54,18 @@ from gripscale.surface import Surface
 
 _RENAMED = {"temperature": "wave_temperature"}
 """Variables over waves that have the name of an axis."""
+_OF_THE_LOAD = ("nominal_pressure", "nominal_speed", "footprint", "thickness")
+_COMMON = ("cutoff_wavelength", CONTINUED_TO)
+"""Ends of the roughness, which are stated once where all predictions have them in common."""
 
 
 def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
-    """Return what a study keeps of an answer: numbers by wave and of the whole surface.
+    """Return what a study keeps: of the answer all but the load, of a model its numbers.
 
-    Of an answer from a measured surface also what it rests on, with its estimated errors.
+    These are by wave and of the whole surface, and what they rest on with its estimated errors.
     """
+    if isinstance(task.model, AnswerModel):
+        return answer.drop_vars(_OF_THE_LOAD, errors="ignore")
     names = [
         name
         for name, variable in answer.data_vars.items()
@@ -87,6 +93,22 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     time = [10.0**n for n in data.decade.values.tolist()]
     described = variable_attributes("shortest relaxation time of the decade", "s")
     return data.assign_coords(decade=xr.Variable("decade", time, described))
+
+
+def waves_by_octave(data: xr.Dataset) -> dict[str, Any]:
+    """Return the friction of the waves of a chain by octave of wavelength."""
+    friction = data["friction"].transpose(..., "scale").values
+    number = np.log2(np.broadcast_to(data["wavelength"].values, friction.shape) / OCTAVE_UNIT)
+    octave = np.floor(number + 1e-9)
+    every = np.unique(octave[np.isfinite(octave)])
+    parts = [np.where(octave == n, friction, 0.0).sum(axis=-1) for n in every]
+    dims = tuple(dim for dim in data["friction"].dims if dim != "scale")
+    ends = variable_attributes("shortest wavelength of the octave", "m")
+    about = variable_attributes("friction coefficient of the octave")
+    return {
+        "octave": ("octave", OCTAVE_UNIT * 2.0**every, ends),
+        "octave_friction": ((*dims, "octave"), np.stack(parts, -1), about),
+    }
 
 
 def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.Variable]:
@@ -228,14 +250,10 @@ class Study:
         return self._design(self.axes, static=False)
 
     @cached_property
-    def static_axes(self) -> tuple[Axis, ...]:
-        """The axes without speed, on which contact at rest does not depend."""
-        return tuple(axis for axis in self.axes if axis.name != "speed")
-
-    @cached_property
     def static_design(self) -> Design:
-        """The points of the rubber at rest; none if they are not wanted."""
-        return self._design(self.static_axes, static=True)
+        """The points of the rubber at rest, without speed; none if they are not wanted."""
+        axes = tuple(axis for axis in self.axes if axis.name != "speed")
+        return self._design(axes, static=True)
 
     @property
     def points(self) -> Sequence[Point]:
@@ -255,7 +273,8 @@ class Study:
         Parameters
         ----------
         folder : path, optional
-            Gets `study.nc`, and the predictions in `predictions`. Several studies may share one
+            Gets `study.nc`, and the predictions in `predictions`; has it that of just this study,
+            this is returned. Several studies may share one
             folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
             As for `solve_all`.
@@ -271,10 +290,10 @@ class Study:
         InputError, FileError
             An input that cannot be used, a result that cannot be written.
         """
+        data = None if folder is None else self.stored(folder)
+        if data is not None:
+            return data
         with bench_in(folder, workers, client, on_task) as bench:
-            data = None if folder is None else self.stored(folder)
-            if data is not None and self._all_there(data, bench):
-                return data
             answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
             data = self.assemble(answers).assign_attrs(kind="study")
         if folder is None:
@@ -286,69 +305,42 @@ class Study:
         data = load_stored(Path(folder) / STUDY_FILE)
         return data if data is not None and data.attrs.get("study_key") == self.key else None
 
-    def _all_there(self, data: xr.Dataset, bench: Bench) -> bool:
-        """Report every prediction as stored, if the store misses none that `data` rests on."""
-        labels: dict[str, str] = {}
-        for prefix, axes in (("", self.axes), ("static_", self.static_axes)):
-            if f"{prefix}prediction_key" in data:
-                keys = data[f"{prefix}prediction_key"]
-                for index, label in self._labels(axes, static=bool(prefix)):
-                    labels.setdefault(str(keys.values[index]), label)
-        answers: dict[str, xr.Dataset] = {}
-        assert bench.store is not None, "a study keeps its predictions"
-        for key in labels:
-            answer = bench.store.get(key)
-            if answer is None:
-                return False
-            answers[key] = answer
-        for number, (key, answer) in enumerate(answers.items(), start=1):
-            if bench.on_task is not None:
-                count = number, len(answers)
-                bench.on_task(Progress(*count, labels[key], answer, 0.0, stored=True))
-        return True
-
     def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
         result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
         if self.static_design.points:
-            rest = _at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
+            rest = at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
             result = xr.merge([result, rest], join="outer", compat="no_conflicts")
-        if set(BASIS) <= set(result):
-            result = result.assign(self._common_cut_off())
+        if {"friction", "wavelength"} <= set(result):
+            result = result.assign(waves_by_octave(result))
+        for name in _COMMON:
+            if name in result:
+                common, *others = np.unique(result[name].values)
+                attrs = variable_attributes("shortest wavelength of the roughness", "m")
+                result = result.drop_vars([name, rest_name(name)], errors="ignore")
+                result = result if others else result.assign({name: ((), common, attrs)})
+        if "factor_label" in result:
+            first = dict.fromkeys(self.design.sizes, 0)
+            result["factor_label"] = result["factor_label"].isel(first)
+        for key, variable in result.data_vars.items():
+            declared = VARIABLES.get(str(key))
+            if declared is not None and declared.role in (Role.ANSWER, Role.END, Role.EVIDENCE):
+                variable.attrs |= variable_attributes(declared.label)
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
         return result.assign_attrs(self._provenance())
 
-    def _common_cut_off(self) -> dict[str, Any]:
-        """Return the cut-off of all predictions by its name, if they have one."""
-        direct = isinstance(self.model, DirectContact)
-        cut_offs = {
-            resolved_wavelength(surface) if direct else surface.cutoff_wavelength
-            for surface in (point.task.surface for point in self.points)
-        }
-        if len(cut_offs) > 1:
-            return {}
-        text = "shortest wavelength of the roughness"
-        return {"cutoff_wavelength": ((), cut_offs.pop(), variable_attributes(text, "m"))}
-
-    def _labels(self, axes: tuple[Axis, ...], *, static: bool) -> Iterator[tuple[Index, str]]:
-        """Yield the index of each point on the axes, and its label."""
-        for index in product(*(range(len(axis.values)) for axis in axes)):
-            words = [
-                f"{axis.name} {axis.called(i, self.case.units)}"
-                for axis, i in zip(axes, index, strict=True)
-            ]
-            yield index, ", ".join(["static", *words] if static else words)
-
     def _design(self, axes: tuple[Axis, ...], *, static: bool) -> Design:
-        points = []
-        for index, label in self._labels(axes, static=static) if self.static or not static else ():
-            at = {axis.name: i for axis, i in zip(axes, index, strict=True)}
+        sizes, points = {axis.name: len(axis.values) for axis in axes}, []
+        for index in np.ndindex(*sizes.values()) if self.static or not static else ():
+            at = dict(zip(sizes, index, strict=True))
+            words = [f"{axis.name} {axis.called(at[axis.name], self.case.units)}" for axis in axes]
             values = {axis.name: axis.values[at[axis.name]] for axis in axes}
+            label = ", ".join(["static"] * static + words)
             points.append(Point(index, label, self._task(values, at, static=static)))
-        return Design({axis.name: len(axis.values) for axis in axes}, points)
+        return Design(sizes, points)
 
     def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
         load = self.case.load
@@ -414,11 +406,3 @@ class Study:
             "model": model.name,
             **provenance.version_attributes(),
         }
-
-
-def _at_rest(data: xr.Dataset) -> xr.Dataset:
-    """Return what `data` says of rubber at rest, where there is no friction, as `static_...`."""
-    moving = ["friction", "angular_frequency", "loss_factor", "loss_modulus_ratio", "load_time"]
-    moving += ["speed", "_band", "_missing", "_steep"]
-    names = [str(name) for name in data.data_vars if not any(word in str(name) for word in moving)]
-    return data[names].rename({name: f"static_{name}" for name in names})

@@ -1,0 +1,238 @@
+"""How much friction one compound or road has over another, and how sure their order is.
+
+    G = ln(mu / mu_0),    P(mu > mu_0) = T_n(G / s)
+
+with the standard error s of G, n degrees of freedom of s and T_n the distribution of Student's t.
+Errors that both share cancel in G. Two compounds slide on the same pieces of the same profiles,
+and what is left has these sources:
+
+- sampling: the scatter of the pieces of the road (`gripscale.half_space.sampling_error`). With the
+  relative residuals e_i of a piece under each compound, var(G) = n/(n - 1) sum (e_i - e_i,0)^2.
+- grid: the change of G from the grid before the last, times 0.4 (`grid_sequence`), or the
+  difference between the ratios of the two frictions, whichever is larger; even within it.
+- rubber: other series fit a measurement as well. With s the derivative of ln mu along a change of
+  ln E*, a series k changes ln mu by s . ln(E*_k/E*), to first order. Each series is an extreme of
+  three standard deviations, and the largest change is taken for three. Compounds were measured by
+  themselves: both errors count.
+- surface: the step from lines to their surface changes with the contact area, and is missed by
+  `LOAD_SENSITIVITY` times the difference of the logarithms of both areas.
+
+Two roads share none of the errors of their answers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import xarray as xr
+
+from gripscale.core.arrays import Array
+from gripscale.core.labels import labelled
+from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
+from gripscale.half_space.model import DirectContact
+from gripscale.half_space.result import RoughContact
+from gripscale.half_space.sampling_error import (
+    FEWEST_PIECES,
+    PIECE,
+    error_of_residuals,
+    friction_residuals,
+    pieces_that_carry,
+)
+from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
+from gripscale.model import Load, OnProgress
+from gripscale.questions.answer.intervals import LogError, combined, half_width
+from gripscale.rubber import Rubber
+from gripscale.surface import Surface
+
+ERROR_RATIO = 0.4
+"""Error after halving the spacing over the change by it, as in `grid_sequence`."""
+EXTREME = 3.0
+"""Standard deviations of an admissible series from the best one."""
+
+
+@dataclass(frozen=True)
+class FrictionRatio:
+    """Logarithm of the friction of one compound or road over that of another, and its error."""
+
+    log_ratio: float
+    """G [-]."""
+    sigma: float
+    """Standard error of G [-]; NaN if it is not known."""
+    freedom: float = math.inf
+    """Degrees of freedom of the standard error."""
+
+    @classmethod
+    def of_sources(
+        cls, log_ratio: float, sampling: tuple[float, float], *others: float
+    ) -> FrictionRatio:
+        """Return the ratio with a sampling error with its freedom, and `others` that are certain.
+
+        NaN among the others is an error that nobody knows and is left out.
+        """
+        pairs = [sampling, *((error, math.inf) for error in others if math.isfinite(error))]
+        error = combined([LogError(*map(xr.DataArray, pair)) for pair in pairs])
+        return cls(log_ratio, float(error.sigma), float(error.freedom))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Ends of the interval of the ratio that holds it 9 times in 10; NaN if not known."""
+        error = LogError(xr.DataArray(self.sigma), xr.DataArray(self.freedom))
+        width = math.asinh(float(half_width(error)))
+        return math.exp(self.log_ratio - width), math.exp(self.log_ratio + width)
+
+    @property
+    def confidence(self) -> float:
+        """Probability that the ratio is above one [-]; NaN if the error is not known."""
+        from scipy.special import stdtr
+
+        if self.log_ratio == 0.0 or not self.sigma > 0.0:
+            return 0.5 if self.log_ratio == 0.0 else math.nan
+        return float(stdtr(self.freedom, self.log_ratio / self.sigma))
+
+
+def grid_error(log_ratio: Callable[[str], float]) -> float:
+    """Return the largest error of G from the grids, by G of three frictions.
+
+    These are "friction_from_dissipation", "friction" from the traction, and "coarse_friction" from
+    dissipation on the grid before the last.
+    """
+    total = log_ratio("friction_from_dissipation")
+    changes = ERROR_RATIO * (total - log_ratio("coarse_friction")), total - log_ratio("friction")
+    return max(map(abs, changes))
+
+
+def coarse_friction(contact: RoughContact) -> float:
+    """Return the friction on the grid before the last of the same surface, or on the last [-]."""
+    same = [grid for grid in contact.grids if grid.cut_off == contact.grids[-1].cut_off]
+    return same[-2:][0].friction_from_dissipation
+
+
+def series_changes(contact: RoughContact, best: Rubber) -> Array:
+    """Return what each admissible series of a rubber changes in ln mu, to first order, (series,).
+
+    `best` is the rubber at the temperature of the contact; a design multiplies its modulus. Empty
+    if the error of its measurement is not known.
+    """
+    if best.admissible is None:
+        return np.zeros(0)
+    adjoint, grid = FrictionAdjoint.of(contact), contact.grid
+    modulus, relative = relative_change(contact)
+    omega = contact.speed * grid.along
+    others = best.admissible.complex_moduli(np.abs(omega))
+    others.imag *= np.sign(omega)
+    ratios = np.log(others / best.complex_modulus(omega))
+    along = [float(adjoint.by_modulus(relative * modulus * ratio).sum()) for ratio in ratios]
+    return np.array(along) / contact.friction_from_dissipation
+
+
+def series_error(changes: Array) -> float:
+    """Return the standard error of changes of ln mu by each series; NaN without a series."""
+    return float(np.abs(changes).max()) / EXTREME if changes.size else math.nan
+
+
+def answer_with_contacts(
+    model: DirectContact, rubber: Rubber, surface: Surface, load: Load, on_progress: OnProgress
+) -> tuple[xr.Dataset, list[RoughContact]]:
+    """Return the answer of a direct contact with the contact of each profile."""
+    contacts: list[RoughContact] = []
+
+    def keep(contact: RoughContact) -> None:
+        contacts.append(contact)
+        if on_progress is not None:
+            on_progress(contact)
+
+    return DirectContact.predict(model, rubber, surface, load, on_progress=keep), contacts
+
+
+RATIO_BASIS = {
+    "profile_friction_from_dissipation": "friction coefficient of a profile from the energy lost",
+    "profile_friction": "friction coefficient of a profile from the contact traction",
+    "profile_coarse_friction": "friction coefficient of a profile on the grid before the last",
+    "carrying_pieces": "pieces of a profile that carry its load",
+    "piece_residual": "friction less load of a piece of a profile, as shares in the whole",
+    "series_change": "change of ln μ by an admissible series of the rubber",
+}
+"""Names and meanings of what a `ComparedContact` answers with beside a direct contact."""
+
+
+class ComparedContact(DirectContact):
+    """Direct contact of one profile or map whose answer holds what a ratio needs."""
+
+    name: ClassVar[str] = DirectContact.name
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        """Return the answer with `RATIO_BASIS`, as far as there is friction."""
+        answer, (contact,) = answer_with_contacts(self, rubber, surface, load, on_progress)
+        if not contact.has_friction:
+            return answer
+        piece = PIECE * float(surface.sines.wavelength[0])
+        before = rubber if self.conditions is None else self.conditions.before(rubber)
+        values: Sequence[tuple[Sequence[str], Array | float]] = (
+            ((), contact.friction_from_dissipation),
+            ((), contact.friction),
+            ((), coarse_friction(contact)),
+            ((), pieces_that_carry(contact, piece)),
+            (("piece",), friction_residuals(contact, piece)),
+            (("series",), series_changes(contact, before)),
+        )
+        return answer.assign(
+            {
+                name: labelled(*value, "1", text, self.name)
+                for (name, text), value in zip(RATIO_BASIS.items(), values, strict=True)
+            }
+        )
+
+
+def scatter_of_pieces(residuals: Sequence[Array], carrying: Sequence[float]) -> tuple[float, float]:
+    """Return the standard error of G from the pieces of each profile, and its freedom.
+
+    `residuals` are the differences of the weighted residuals of both compounds; profiles are
+    independent. NaN if the road has too few pieces.
+    """
+    freedom = sum(count - 1.0 for count in carrying)
+    if freedom < FEWEST_PIECES - 1:
+        return math.nan, math.nan
+    errors = [error_of_residuals(r, count) for r, count in zip(residuals, carrying, strict=True)]
+    return math.hypot(*(error for error in errors if math.isfinite(error))), freedom
+
+
+def compound_ratio(over: xr.Dataset, under: xr.Dataset) -> FrictionRatio:
+    """Return the friction of one compound over that of another on the same surface.
+
+    Of answers with `RATIO_BASIS` over `sample`; without an error if one has none.
+    """
+    pair = over, under
+    frictions, areas = (
+        [float(d[f"answer_{name}"]) for d in pair] for name in ("friction", "contact_fraction")
+    )
+    log_ratio = math.log(frictions[0] / frictions[1])
+    lost = [each["profile_friction_from_dissipation"] for each in pair]
+    shares = [friction / friction.sum() for friction in lost]
+    over_pieces, under_pieces = (
+        (share * each["piece_residual"]).transpose("sample", "piece").values
+        for share, each in zip(shares, pair, strict=True)
+    )
+    sampling = scatter_of_pieces(
+        [row[np.isfinite(row)] for row in over_pieces - under_pieces],
+        np.minimum(*(each["carrying_pieces"].values for each in pair)).tolist(),
+    )
+
+    def of_friction(name: str) -> float:
+        high, low = (float(each[f"profile_{name}"].sum()) for each in pair)
+        return math.log(high / low)
+
+    changes = [
+        (share * each["series_change"]).sum("sample", skipna=False).dropna("series").values
+        for share, each in zip(shares, pair, strict=True)
+        if "series_change" in each
+    ]
+    rubbers = [series_error(change) for change in changes if change.size]
+    largest = grid_error(of_friction), LOAD_SENSITIVITY * abs(math.log(areas[0] / areas[1]))
+    even = [error / math.sqrt(3.0) for error in largest]
+    return FrictionRatio.of_sources(log_ratio, sampling, *even, *rubbers)

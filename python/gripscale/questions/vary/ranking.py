@@ -1,0 +1,302 @@
+"""Compounds on one road, or roads under one rubber, ranked by the friction of the answer.
+
+Every pair has the ratio of their frictions with its interval, and the confidence that one lies over
+the other (`gripscale.questions.vary.friction_ratio`). Where a surface was not measured all answers
+are those of the chain, whose errors nobody knows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case import Case
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.units import celsius
+from gripscale.experiment.design import variable_attributes
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.model import input_doubts
+from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.friction_ratio import FrictionRatio, compound_ratio
+from gripscale.questions.vary.inputs import (
+    READING_NOTES,
+    TEMPERATURE,
+    default_model,
+    measured_rubber_of,
+    model_of,
+    reading_notes,
+    surface_of,
+)
+from gripscale.questions.vary.side_by_side import Compounds, Roads
+from gripscale.questions.vary.study import Study, study_numbers
+from gripscale.questions.words import believed
+from gripscale.rubber import Rubber, temperature_doubts
+from gripscale.surface import Surface, profile_spectrum
+from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
+from gripscale.surface.texture import textures
+
+_SAME = 0.5
+"""Temperatures that differ by less are one [K]: 20 °C and 293 K."""
+_PER_DECADE = 12
+"""Lags and wavenumbers at which roads are drawn together."""
+FEWEST_COMPARED, MOST_COMPARED = 2, 6
+NORMAL = 1.645
+"""Half width of a 90 % interval over a standard error."""
+RANKED = {
+    "friction_ratio": "friction over that of `over`",
+    "friction_ratio_low": "low end of its 90 % interval",
+    "friction_ratio_high": "high end of its 90 % interval",
+    "confidence": "probability that the friction is larger than that of `over`",
+}
+"""Names and meanings of what is said of each pair."""
+
+
+def compare_compounds(
+    case: Case,
+    rubbers: Mapping[str, Any],
+    folder: str | Path | None = None,
+    *,
+    temperature: float | None = None,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> Compounds:
+    """Rank several compounds on the road of a case by the friction of their answers.
+
+    Parameters
+    ----------
+    case : Case
+        Surface, load and conditions; without a measured surface also the solver of the chain.
+    rubbers
+        Two to six compounds by what they are called: a `Rubber`, a `MeasuredRubber`, "case", or a
+        rubber known by name.
+    folder : path, optional
+        Keeps each answer as soon as it is there: what was interrupted resumes.
+    temperature : float, optional
+        Where they are compared [K]; by default the temperature of the case's conditions, or one
+        all of them have or can be shifted to.
+    workers, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    Compounds
+        Over `rubber` the numbers of the answer; over `rubber` and `over` the ratio of their
+        frictions and so on (`gripscale.questions.vary.ranking.RANKED`); friction by octave of
+        wavelength, `octave_friction`, and by decade of relaxation time, `friction_by_decade`.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two or more than six compounds, or they cannot be brought to one
+        temperature.
+    """
+    require_some("rubbers", rubbers, "compounds")
+    measured = {name: measured_rubber_of(value, case) for name, value in rubbers.items()}
+    if temperature is None and case.conditions is not None:
+        temperature = case.conditions.temperature
+    compounds = {name: each.rubber for name, each in measured.items()}
+    together, notes = at_one_temperature(compounds, temperature)
+    model = model_of(default_model(case), case)
+    if isinstance(model, AnswerModel):
+        model = replace(model, compared=True)
+    study = Study(case, {"rubber": together}, static=False, model=model)
+    data = ranked_answers(study, folder, workers, on_task)
+    loads = [point.task.load for point in study.points]
+    data = data.assign_attrs(
+        input_doubts([*study.surfaces, *measured.values()], loads, case.units),
+        title="Compounds on one road, by friction",
+        **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
+    )
+    kelvins = [rubber.reference_temperature for rubber in together.values()]
+    if kelvins[0] is not None and len({*kelvins}) == 1:
+        data = data.assign_attrs({TEMPERATURE: kelvins[0]})
+    return Compounds(data)
+
+
+def compare_surfaces(
+    case: Case,
+    surfaces: Mapping[str, Any],
+    folder: str | Path | None = None,
+    *,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> Roads:
+    """Rank several roads under the rubber of a case by the friction of their answers.
+
+    Parameters
+    ----------
+    case : Case
+        Rubber, load and conditions; without measured surfaces also the solver of the chain.
+    surfaces
+        Two to six roads by what they are called: a `Surface`, a `SineStack`, "case", or a surface
+        known by name.
+    folder : path, optional
+        Keeps each answer as soon as it is there: what was interrupted resumes.
+    workers, on_task
+        As for `gripscale.experiment.solve_all`.
+
+    Returns
+    -------
+    Roads
+        Over `surface` the numbers of the answer and the texture (`gripscale.surface.texture`); over
+        `surface` and `over` the ratio of their frictions and so on
+        (`gripscale.questions.vary.ranking.RANKED`); friction by octave of wavelength,
+        `octave_friction`; `correlation` over `lag` and `spectrum` over `wavenumber`.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two or more than six roads, or one is not known.
+    """
+    require_some("surfaces", surfaces, "roads")
+    roads = {
+        # a synthetic road with its profile, for the direct contact
+        name: with_profile(value)
+        if isinstance(value, str) and value in SYNTHETIC_SURFACES
+        else surface_of(value, case)
+        for name, value in surfaces.items()
+    }
+    study = Study(case, {"surface": roads}, static=False)
+    data = ranked_answers(study, folder, workers, on_task)
+    waves = [f"{name} was not measured" for name, road in roads.items() if road.measured is None]
+    heights = {
+        name: road.measured.heights if road.measured else None for name, road in roads.items()
+    }
+    data = data.assign(textures(heights, "surface")).assign(_measured(roads))
+    return Roads(
+        data.assign_attrs(
+            title="Roads under one rubber, by friction",
+            **{READING_NOTES: "\n".join([*reading_notes(surfaces.values()), *waves])},
+        )
+    )
+
+
+def at_one_temperature(
+    rubbers: Mapping[str, Rubber], temperature: float | None = None
+) -> tuple[dict[str, Rubber], tuple[str, ...]]:
+    """Return rubbers that hold for one temperature, and what is to be said of that.
+
+    Without a `temperature` it is that of the rubbers which cannot be shifted, or else of the first
+    that states one [K]. A rubber whose temperature is not known stays as it is, which is said.
+
+    Returns the rubbers, and a sentence for each that was shifted and for what is doubtful
+    (`gripscale.rubber.temperature_doubts`). Raises `InputError` if a rubber would have to be
+    shifted and has no shift.
+    """
+    temperatures = {
+        name: rubber.reference_temperature
+        for name, rubber in rubbers.items()
+        if rubber.reference_temperature is not None
+    }
+    wanted = temperature
+    if wanted is None:
+        fixed = {name: t for name, t in temperatures.items() if rubbers[name].shift is None}
+        if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
+            each = ", ".join(
+                f"{name} for {celsius(kelvin, '.1f')}" for name, kelvin in fixed.items()
+            )
+            raise InputError(
+                "compounds must hold for one temperature, or have a shift to it; got "
+                f"{each} without one"
+            )
+        wanted = next(iter((fixed or temperatures).values()), None)
+    if wanted is None:
+        return dict(rubbers), temperature_doubts(rubbers)
+    together, shifted = {}, []
+    for name, rubber in rubbers.items():
+        before = temperatures.get(name)
+        if before is None or abs(before - wanted) <= _SAME:
+            together[name] = rubber
+            continue
+        if rubber.shift is None:
+            raise InputError(
+                f"{name} holds for {celsius(before, '.1f')} and cannot be brought to "
+                f"{celsius(wanted, '.1f')}: "
+                "give it a shift, or leave it out"
+            )
+        together[name] = rubber.at(wanted)
+        shifted.append(f"{name} shifted from {celsius(before, '.1f')} to {celsius(wanted, '.1f')}")
+    return together, (*shifted, *temperature_doubts(together))
+
+
+def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
+    """Raise `InputError` unless there are two to six things to be compared."""
+    if not FEWEST_COMPARED <= len(mapping) <= MOST_COMPARED:
+        raise InputError(
+            f"{name} must be {FEWEST_COMPARED} to {MOST_COMPARED} {what} to be compared; got "
+            f"{len(mapping)}"
+        )
+
+
+def ranked_answers(
+    study: Study, folder: str | Path | None, workers: int | None, on_task: OnTask | None
+) -> xr.Dataset:
+    """Return the answers of a study over `rubber` or `surface`, with `RANKED` of each pair."""
+    with bench_in(folder, workers, None, on_task) as bench:
+        data = study.assemble(bench.solve(study.design.tasks, study_numbers))
+    (dim,) = study.design.sizes
+    names = data[dim].values
+    pairs = [[_ratio(data, dim, i, j) for j in range(names.size)] for i in range(names.size)]
+    numbers = [[(r.log_ratio, *r.interval, r.confidence) for r in row] for row in pairs]
+    values = np.moveaxis(np.array(numbers), -1, 0)
+    values[0] = np.exp(values[0])
+    columns = {
+        name: ((dim, "over"), part, variable_attributes(text))
+        for (name, text), part in zip(RANKED.items(), values, strict=True)
+    }
+    data = data.assign_coords(over=("over", names)).assign(columns)
+    return data.assign_attrs(case_file=study.case.origin.name)
+
+
+def _ratio(data: xr.Dataset, dim: str, i: int, j: int) -> FrictionRatio:
+    """Return the friction of number `i` over that of number `j`."""
+    over, under = (data.isel({dim: at}) for at in (i, j))
+    friction = believed(data, "friction")
+    high, low = (float(each[friction]) for each in (over, under))
+    if not (high > 0.0 and low > 0.0):
+        return FrictionRatio(math.nan, math.nan)
+    if i == j:
+        return FrictionRatio(0.0, 0.0)
+    if dim == "rubber" and "piece_residual" in data:
+        return compound_ratio(over, under)
+    widths = [float(each.get(f"{friction}_half_width", math.nan)) for each in (over, under)]
+    sigma = math.hypot(*(math.asinh(width) / NORMAL for width in widths))
+    return FrictionRatio(math.log(high / low), sigma)
+
+
+def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
+    """Return height difference correlation and spectrum of the roads that were measured.
+
+    At common places, NaN beyond the ends of each.
+    """
+    curves: dict[str, dict[str, tuple[Array, Array]]] = {"correlation": {}, "spectrum": {}}
+    for name, surface in surfaces.items():
+        if surface.correlation is not None:
+            curves["correlation"][name] = (surface.correlation.lag, surface.correlation.value)
+        if surface.measured is not None:
+            spectrum = profile_spectrum(surface.measured.followed).averaged()
+            curves["spectrum"][name] = (spectrum.wavenumber, spectrum.density)
+    out: dict[str, Any] = {}
+    for name, axis, unit, units, text in (
+        ("correlation", "lag", "m", "m2", "height difference correlation C_z"),
+        ("spectrum", "wavenumber", "rad/m", "m3", "one-sided power spectrum of lines"),
+    ):
+        if not curves[name]:
+            continue
+        low, high = (pick(float(pick(x)) for x, _ in curves[name].values()) for pick in (min, max))
+        places = np.geomspace(low, high, max(2, int(_PER_DECADE * np.log10(high / low)) + 1))
+        values = np.full((len(surfaces), places.size), np.nan)
+        for road, (x, y) in curves[name].items():
+            good = (x > 0.0) & (y > 0.0)
+            logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
+            values[list(surfaces).index(road)] = np.exp(logs)
+        out[name] = (("surface", axis), values, variable_attributes(text, units))
+        out[axis] = (axis, places, variable_attributes(axis, unit))
+    return out

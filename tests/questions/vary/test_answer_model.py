@@ -1,0 +1,82 @@
+"""Every row of a study is the answer of its case, whatever the case has."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.case_file import read_case
+from gripscale.core.errors import InputError
+from gripscale.surface import Profile, self_affine_profile
+from tests.samples import HALF_PLANE, SOFTENING, case_text, write_road
+
+PROFILES = 'files = ["road.txt", "lane.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
+CASES = {
+    "profiles": "",
+    "continued": '\n[below_measurement]\ndown_to = "0.3 mm"\nhurst = 0.8\n',
+    "conditions": f"\n{SOFTENING}",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two profiles of different lengths, so that means over them differ by their weights."""
+    folder = tmp_path_factory.mktemp("answers")
+    for name, length, seed in (("road", 0.4, 1), ("lane", 0.2, 2)):
+        road = self_affine_profile(0.8, 3e-3, 4e-4, length=length, step=2e-4, seed=seed)
+        write_road(folder / f"{name}.txt", Profile(road.x, road.z))
+    for name, more in CASES.items():
+        (folder / f"{name}.toml").write_text(case_text(PROFILES, solver=HALF_PLANE) + more)
+    return folder
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_row_is_the_answer(folder: Path, name: str) -> None:
+    case = read_case(folder / f"{name}.toml")
+    row = gs.vary(case, speed=[0.3]).data.isel(speed=0)
+    answer = gs.answer(case)
+    for quantity in ("friction", "contact_fraction"):
+        ends = [float(row[f"answer_{quantity}_{end}"]) for end in ("low", "high")]
+        assert float(row[f"answer_{quantity}"]) == pytest.approx(
+            getattr(answer, quantity), rel=1e-12
+        )
+        assert ends == pytest.approx(getattr(answer, f"{quantity}_interval"), rel=1e-12)
+    if name == "continued":
+        assert any("roughness continued" in str(label) for label in row.factor_label.values)
+
+
+def test_a_varied_row_is_the_answer_of_the_varied_case(folder: Path) -> None:
+    case = read_case(folder / "profiles.toml")
+    rows = gs.vary(case, pressure=["2 bar", "5 bar"], speed=3.0).data
+    other = gs.Case(case.surface, case.rubber, pressure="5 bar", speed=3.0)
+    row = rows.isel(pressure=1, speed=0)
+    assert float(row.answer_friction) == pytest.approx(gs.answer(other).friction, rel=1e-12)
+
+
+def test_friction_by_octave_and_by_relaxation_time_add_up(folder: Path) -> None:
+    data = gs.vary(read_case(folder / "profiles.toml"), speed=[0.3, 3.0]).data
+    np.testing.assert_allclose(data.octave_friction.sum("octave"), data.answer_friction, rtol=1e-9)
+    by_decade = data.friction_by_decade.fillna(0.0)
+    np.testing.assert_allclose(by_decade.sum("decade"), data.answer_friction, rtol=1e-9)
+    # ten times the speed is lost by relaxation times a tenth as long
+    mean = (by_decade * np.log10(data.decade)).sum("decade") / by_decade.sum("decade")
+    assert -1.2 < float(mean[1] - mean[0]) < -0.5
+
+
+def test_there_is_no_friction_at_rest(folder: Path) -> None:
+    result = gs.vary(read_case(folder / "profiles.toml"), speed=[0.0, 0.3])
+    texts = {column.name: column.texts() for column in result.table().columns}
+    assert texts["answer_friction"][0] == "-"
+    assert texts["answer_friction_interval"][0] == "-"
+    assert texts["answer_contact_fraction"][0] != "-"
+    assert " at 0 m/s" not in result.lines[0].partition("real contact area")[0]
+
+
+def test_waves_by_hand_have_no_direct_contact() -> None:
+    waves = gs.SineStack([5e-3, 1e-3], [2e-4, 4e-5])
+    case = gs.Case(waves, gs.Rubber(2e6, [4e6], [1e-3]), pressure=3e5, speed=0.3)
+    with pytest.raises(InputError, match="needs a measured profile; got waves stated by hand"):
+        gs.vary(case, speed=[0.3], model="direct")
