@@ -97,6 +97,7 @@ def test_bokeh_refuses_what_it_has_not(caplog: pytest.LogCaptureFixture) -> None
 def test_a_part_stands_once_in_a_document() -> None:
     shared = Part("Range1d", start=0.0, end=1.0)
     plots = [Part("Plot", x_range=shared), Part("Plot", x_range=shared)]
-    first, second = document(plots)["roots"]
+    (root,) = document(Part("Column", children=plots))["roots"]
+    first, second = root["attributes"]["children"]
     assert first["attributes"]["x_range"]["attributes"] == {"start": 0.0, "end": 1.0}
     assert second["attributes"]["x_range"] == {"id": shared.id}

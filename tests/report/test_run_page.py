@@ -203,7 +203,7 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     first, second, chain, *_ = run_cards(replace(run, direct=whole))
     assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
     # 0.25 exp(-+asinh(0.2))
-    assert first.detail == "best estimate; 0.205 to 0.305 (90 %)"
+    assert (first.interval, first.detail) == ("0.205 to 0.305 (90 %)", "best estimate")
     assert (second.label, second.value) == ("Real contact area A_r/A_0", "0.0400")
     assert chain.label == "Chain of waves, μ"
     totals = (float(whole[f"total_{name}"]) for name in ("friction", "contact_fraction"))
@@ -328,7 +328,7 @@ def test_measured_friction_is_that_of_the_record(
     """A page reads results only: a case file that was changed since changes nothing."""
     folder = changed_run(lambda data: data)
     (folder / "case.toml").write_text("[measured\n", encoding="utf-8")
-    assert '<section id="measured"' not in write_report(folder).read_text(encoding="utf-8")
+    assert '<details id="measured"' not in write_report(folder).read_text(encoding="utf-8")
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], source="mu.csv")
     tree = netcdf.load_tree(folder / "dynamic.nc")
     record = (
@@ -338,7 +338,7 @@ def test_measured_friction_is_that_of_the_record(
     )
     netcdf.save(tree.to_dataset(), folder / "dynamic.nc", {"inputs": record})
     page = write_report(folder).read_text(encoding="utf-8")
-    assert '<section id="measured"' in page
+    assert '<details id="measured"' in page
 
 
 def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:

@@ -66,24 +66,39 @@ class Code:
 Element = Text | Finding | Facts | Table | Chart | Image | Equation | Code
 
 
+_OPEN_FIGURES = 2
+"""Figures that a page opens with."""
+
+
 @dataclass(frozen=True)
 class Section:
-    """A chapter of the page."""
+    """A chapter: the first of a page opens with two figures, all else is folded."""
 
     name: str
     title: str
     elements: Sequence[Element]
-    folded: bool = False
+
+    @property
+    def opening(self) -> Sequence[Element]:
+        """The elements before the first figure that a page does not open with."""
+        figures = [at for at, e in enumerate(self.elements) if isinstance(e, Chart | Image)]
+        return self.elements[: next(iter(figures[_OPEN_FIGURES:]), None)]
+
+    @property
+    def rest(self) -> Sequence[Element]:
+        """The elements behind the opening."""
+        return self.elements[len(self.opening) :]
 
 
 @dataclass(frozen=True)
 class Card:
-    """One result at the head of the page."""
+    """A result at the head of the page; one with an interval is larger than those without."""
 
     label: str
     value: str
     detail: str
     bad: bool = False
+    interval: str = ""
 
 
 _MOST_OPEN = 3

@@ -90,17 +90,17 @@ def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None)
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
-    """Return a trace on the page: along the whole line, to be zoomed, and a stretch to scale."""
+    """Return a trace on the page: a stretch to scale, and along the whole line, to be zoomed."""
     trace = _around_contact(trace)
     lines = draw.linked_on_page(
         _line_panels(trace),
         f"contact-{_word(name)}",
         f"{name}: rubber on the surface, contact pressure, and friction and load from the "
-        "beginning of the line. The shade is the stretch of the next figure. Draw a box to zoom; "
+        "beginning of the line. The shade is the stretch to scale. Draw a box to zoom; "
         "the tools above move the line and zoom by the wheel.",
         f"Heights of surface and rubber, pressure, and running friction along {name}.",
     )
-    return [lines, *draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
+    return [*draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)]), lines]
 
 
 def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:

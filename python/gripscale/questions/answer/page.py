@@ -85,9 +85,9 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     for name in reliance.estimated_names(data):
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
         ends = interval_text(data, name)
-        detail = f"{source}; {ends} ({100.0 * LEVEL:.0f} %)" if ends else source
+        interval = f"{ends} ({100.0 * LEVEL:.0f} %)" if ends else ""
         value = significant(float(data[f"best_{name}"]))
-        yield Card(title, value, detail, bad=bool(reliance.no_answer(data)))
+        yield Card(title, value, source, bool(reliance.no_answer(data)), interval)
 
 
 def number_and_interval(data: xr.Dataset, name: str) -> str:

@@ -49,7 +49,7 @@ TITLES = {
     for name, title in AXIS_TITLES.items()
 }
 """Titles of axes."""
-_ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
+_ESTIMATED = (*reversed(AXIS_TITLES), "adhesive_friction")
 REPLACED = {f"total_{name}": f"best_{name}" for name in _ESTIMATED}
 """Totals of a model that are not drawn where there is a best estimate."""
 FRICTIONS = ("best_friction", "total_friction")
