@@ -13,8 +13,10 @@ AXIS_TITLES = {
 """Headings and symbols at an axis, without the unit."""
 JUDGE = "direct contact of the profiles"
 """What a figure of a chain calls the model that judges it."""
+OF_THE_PAPER = "the paper's chain of waves"
+"""What texts call the chain where the answer is that of a measured surface."""
 ANSWER = "answer (90 %)"
-"""What figures call the best estimate with its interval."""
+"""What figures call the answer with its interval."""
 
 
 def believed(data: xr.Dataset, name: str) -> str:
