@@ -134,12 +134,12 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     stop = elements.work_button("Stop", end, color="danger", visible=False)
     return elements.column(
         problem_pane(state, "run"),
+        answer,
         choice,
         form,
         pn.Row(elements.work_button("Run", start, color="primary"), stop),
         bar,
         status,
-        answer,
         folded_output,
     )
 

@@ -113,7 +113,7 @@ def summary_sheet(
                 for row, (text, colour) in enumerate(names)
             ),
             x=replace(moduli.x, numbers=6),
-            title="Measured, and as solved",
+            title="Master curve, measured and as solved",
         ),
         replace(heights, x=_along(trace, _lengths(trace.x, trace)), title="The whole profile"),
     ]
