@@ -32,7 +32,7 @@ INTRO = (
     "same results from it.</p>"
 )
 TABS_STYLE = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
-COLOURS = """\
+PAGE_STYLE = """\
 :root { color-scheme: light; background: #fff; }
 @media (prefers-color-scheme: dark) { :root { filter: invert(0.9) hue-rotate(180deg); } }
 """
@@ -90,7 +90,7 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     require_writable(root)
     make_folder(root)
     port = _free_port(port)
-    pn.extension("filedropper", raw_css=[COLOURS])
+    pn.extension("filedropper", raw_css=[PAGE_STYLE])
 
     def page() -> pn.Column:
         return visit_page(root.resolve(), case)

@@ -113,8 +113,9 @@ class Answer(NumbersWithIntervals):
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         if self.is_solved:
             for name, trace in named_traces(self.data, self.inputs)[:1]:
-                cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
-                yield "summary", summary_sheet(trace, self.inputs, cards, words)
+                if "series_omega" in self.inputs:
+                    cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
+                    yield "summary", summary_sheet(trace, self.inputs, cards, words)
                 yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:

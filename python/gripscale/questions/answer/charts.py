@@ -102,7 +102,8 @@ def summary_sheet(
     trace = _around_contact(trace)
     heights, *_ = _line_panels(trace)
     (moduli, _), close = moduli_panels(inputs), _stretch_panel(trace)
-    pressure = next(mark.label for mark in close.marks if getattr(mark, "colour", "") == ORANGE)
+    bands = (mark for mark in close.marks if isinstance(mark, chart.ShadedBand))
+    pressure = next(band.label for band in bands if band.label)
     names = (("storage $E'$", BLUE), ("loss $E''$", ORANGE))
     panels = [
         _number_panel(cards, words),
