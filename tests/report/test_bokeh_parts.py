@@ -22,6 +22,7 @@ from gripscale.charts.chart import (
     ShadedBand,
     ValueMap,
 )
+from gripscale.charts.page import draw_linked
 from gripscale.questions.page_of_folder import page_of, read_result
 
 X = np.array([1.0, 2.0, 4.0])
@@ -68,7 +69,7 @@ def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
 
 def test_bokeh_has_every_attribute_of_linked_panels() -> None:
     panels = [Panel(PlotAxis("x"), PlotAxis("y"), MARKS[:2])] * 2
-    column = model(draw.linked_on_page(panels, "linked", "", "").figure)
+    column = model(draw_linked(panels, "linked", "", "").figure)
     first, second = (figure for figure, *_ in column.children)
     assert first.x_range is second.x_range
     assert [len(each.tools) for each in column.toolbar.tools[:4]] == [2] * 4

@@ -67,27 +67,25 @@ Element = Text | Finding | Facts | Table | Chart | Image | Equation | Code
 
 
 _OPEN_FIGURES = 2
-"""Figures that a page opens with."""
 
 
 @dataclass(frozen=True)
 class Section:
-    """A chapter: the first of a page opens with two figures, all else is folded."""
+    """A chapter of the page."""
 
     name: str
     title: str
     elements: Sequence[Element]
 
     @property
-    def opening(self) -> Sequence[Element]:
-        """The elements before the first figure that a page does not open with."""
-        figures = [at for at, e in enumerate(self.elements) if isinstance(e, Chart | Image)]
-        return self.elements[: next(iter(figures[_OPEN_FIGURES:]), None)]
+    def figures(self) -> list[int]:
+        """Places of its figures among its elements."""
+        return [at for at, e in enumerate(self.elements) if isinstance(e, Chart | Image)]
 
     @property
-    def rest(self) -> Sequence[Element]:
-        """The elements behind the opening."""
-        return self.elements[len(self.opening) :]
+    def opening(self) -> Sequence[Element]:
+        """The elements before the first figure that a page does not open with."""
+        return self.elements[: next(iter(self.figures[_OPEN_FIGURES:]), None)]
 
 
 @dataclass(frozen=True)
@@ -145,14 +143,16 @@ class Page:
         return [notice for notice in self.notices if notice.severity == Severity.ERROR]
 
     @property
-    def notices_open(self) -> list[Finding]:
-        """The first few warnings, below the numbers."""
-        return open_and_folded(self.notices)[0][len(self.errors) :]
+    def warnings(self) -> tuple[list[Finding], list[Finding]]:
+        """The first few warnings, below the numbers, and the others, which are folded."""
+        opened, folded = open_and_folded(self.notices)
+        return opened[len(self.errors) :], folded
 
     @property
-    def notices_folded(self) -> list[Finding]:
-        """The other warnings."""
-        return open_and_folded(self.notices)[1]
+    def open_chapters(self) -> int:
+        """How many chapters are open: up to the first with figures, all others are folded."""
+        drawn = (at for at, section in enumerate(self.sections, start=1) if section.figures)
+        return next(drawn, 1)
 
     @property
     def charts(self) -> list[Chart]:

@@ -168,8 +168,8 @@ def test_on_a_measured_road_the_direct_contact_answers(tmp_path: Path) -> None:
     ]
     assert headings[-2] == "difference of μ from the first"
     ranking, chain, _ = compound_friction_figure(data).axes
-    assert ranking.get_title() == "the answer: direct contact"
-    assert chain.get_title() == "the paper's chain of waves,\nfor comparison"
+    assert ranking.get_title() == "direct contact: the ranking"
+    assert chain.get_title() == "chain, less reliable"
     best = [text.get_text() for text in ranking.get_xticklabels()]
     assert best == [significant(mu, 2) for mu in data.best_friction.values]
     page = result.page(tmp_path / "page.html").read_text()

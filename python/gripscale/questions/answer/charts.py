@@ -36,6 +36,8 @@ DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST, LOWEST = 0.15, 0.2
 """Least height of the stretch to scale and what it shows below its contact, over its length."""
+_LINES = ((0.0, 9.0), (0.1, 22.0), (0.31, 10.0))
+"""Distance from the top [panel] and size [points] of the lines of a number of a slide."""
 NamedTrace = tuple[str, xr.Dataset]
 """Name of a profile and its trace."""
 PAGE = 420
@@ -100,8 +102,7 @@ def summary_sheet(
     `words` say what the numbers of the `cards` are for; `inputs` is the record of the inputs.
     """
     trace = _around_contact(trace)
-    heights, *_ = _line_panels(trace)
-    (moduli, _), close = moduli_panels(inputs), _stretch_panel(trace)
+    close, heights, moduli = _stretch_panel(trace), _line_panels(trace)[0], moduli_panels(inputs)[0]
     bands = (mark for mark in close.marks if isinstance(mark, chart.ShadedBand))
     pressure = next(band.label for band in bands if band.label)
     names = (("storage $E'$", BLUE), ("loss $E''$", ORANGE))
@@ -127,22 +128,21 @@ def _number_panel(cards: Sequence[Card], words: str) -> chart.Panel:
     notes = [chart.Note(0.0, 1.0, words, GREY, frame="xy", top=True, size=8.0)]
     for at, card in zip((0.88, 0.4), cards, strict=False):
         colour = RED if card.bad else INK
-        rows = (
-            (0.0, card.label.replace("A_r/A_0", "$A_r/A_0$"), 9.0),
-            (0.1, card.value, 22.0),
-            (0.31, card.interval or card.detail, 10.0),
-        )
+        label = card.label.replace("A_r/A_0", "$A_r/A_0$")
+        texts = (label, card.value, card.interval or card.detail)
         notes += [
             chart.Note(0.0, at - down, text, colour, frame="xy", top=True, size=size)
-            for down, text, size in rows
+            for text, (down, size) in zip(texts, _LINES, strict=True)
         ]
     return chart.Panel(chart.PlotAxis(), chart.PlotAxis(), notes, framed=False)
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
     """Return a trace on the page: a stretch to scale, and along the whole line, to be zoomed."""
+    from gripscale.charts.page import draw_linked  # of Bokeh, which only pages need
+
     trace = _around_contact(trace)
-    lines = draw.linked_on_page(
+    lines = draw_linked(
         _line_panels(trace),
         f"contact-{_word(name)}",
         f"{name}: rubber on the surface, contact pressure, and friction and load from the "

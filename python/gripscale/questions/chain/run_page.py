@@ -85,22 +85,21 @@ def run_page(run: RunSource) -> Page:
     origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
-    results = Section("results", "Contact and friction, wave by wave", _results(run, tables))
-    contact = results
-    if run.direct is not None:
-        elements = answer.contact_elements(run.direct, run.record)
-        contact = Section("contact", "Rubber on the surface", elements)
     return Page.of(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
         [*notices(run), *([_OF_ANOTHER] if stale else [])],
         [*run_cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
-            contact,
+            Section(
+                "contact",
+                "Rubber on the surface",
+                [] if run.direct is None else answer.contact_elements(run.direct, run.record),
+            ),
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", surface),
             Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
-            *([results] if results is not contact else []),
+            Section("results", "Contact and friction, wave by wave", _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
             Section(
                 "cut-off",

@@ -293,14 +293,14 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
 
 
 def _temperatures(sweeps: Sweeps) -> draw.ColourBar:
-    """Return what the colours of sweeps mean, cold blue to warm red."""
+    """Return what the colours of sweeps mean, cold blue to warm yellow."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
-    return draw.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
+    return draw.ColourBar(celsius[0], celsius[-1], "Plasma", CELSIUS.label)
 
 
 def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:
     """Yield sweeps with the colours of their temperatures among all `sweeps`."""
-    kelvin, scale = sweeps.temperatures, shades(256, "Turbo")
+    kelvin, scale = sweeps.temperatures, shades(256, "Plasma")
     for sweep in drawn:
         share = (sweep.temperature - kelvin[0]) / max(kelvin[-1] - kelvin[0], 1e-9)
         yield sweep, scale[round(255 * min(max(share, 0.0), 1.0))]

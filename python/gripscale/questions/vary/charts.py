@@ -33,7 +33,7 @@ from gripscale.questions.vary.axis import (
 )
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
 from gripscale.questions.vary.words import is_evidence, telling, words_of
-from gripscale.questions.words import AXIS_TITLES, OF_THE_PAPER, believed, is_estimated
+from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,7 +49,7 @@ TITLES = {
     for name, title in AXIS_TITLES.items()
 }
 """Titles of axes."""
-_ESTIMATED = (*reversed(AXIS_TITLES), "adhesive_friction")
+_ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
 REPLACED = {f"total_{name}": f"best_{name}" for name in _ESTIMATED}
 """Totals of a model that are not drawn where there is a best estimate."""
 FRICTIONS = ("best_friction", "total_friction")
@@ -208,16 +208,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
     several = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
     several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
     legend = "above" if several else ""
-    look: dict[str, Any] = {"legend": legend, "legend_columns": 4, "keys": keys}
-    if not is_estimated(result, "contact_fraction"):
-        look["legend_title" if legend else "title"] = _chain_title(result)
-    return Sheet([area, friction], **look).on_paper()
-
-
-def _chain_title(result: xr.Dataset) -> str:
-    """Return the title of figures of the chain; empty for another model."""
-    of_chain = result.attrs.get("model") == "chain"
-    return f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}" if of_chain else ""
+    return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
 
 
 def _at_rest(result: xr.Dataset) -> str:
@@ -255,7 +246,7 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
                             beyond=beyond, listed=i % every == 0))  # fmt: skip
     area = "fraction" in name
     down = " down to each wave" if name.startswith("running") else " of each wave"
-    label = f"{_AREA if area else 'friction'}{down} [-]"
+    label = f"{_AREA if area else 'friction coefficient'}{down} [-]"
     return Panel(
         chart.wavelength_axis(lengths.values),
         PlotAxis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
@@ -274,11 +265,11 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
     """
     assert axis in result.dims
     panels = [_wave_panel(result, name, thinned=False) for name in PER_WAVE[:2]]
-    return Sheet(panels, legend="beside", title=_chain_title(result)).on_paper()
+    return Sheet(panels, legend="beside").on_paper()
 
 
 _HEIGHT = 3.4
-_AREA = "contact area"
+_AREA = "real contact area $A_r/A_0$"
 _LEAST_SHARE = 0.005
 """Decades of relaxation time that never reach this share of the friction are not drawn."""
 
@@ -312,7 +303,7 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
     panels = [
         Panel(
             abscissa,
-            PlotAxis("friction, wave upon wave [-]", low=0.0),
+            PlotAxis("friction coefficient $\\mu$, wave upon wave [-]", low=0.0),
             [*_wave_bands(result, x, *_stack(friction), beyond), total],
         ),
         Panel(
@@ -321,8 +312,7 @@ def stacked_figure(result: xr.Dataset, axis: str) -> Figure:
             [Series(x, row, colour, beyond=flags) for row, colour, flags in looks],
         ),
     ]
-    look: dict[str, Any] = {"legend": "beside", "legend_title": "wavelength"}
-    return Sheet(panels, height=_HEIGHT, title=_chain_title(result), **look).on_paper()
+    return Sheet(panels, height=_HEIGHT, legend="beside", legend_title="wavelength").on_paper()
 
 
 def _stack(rows: Array) -> tuple[Array, Array]:
@@ -364,11 +354,10 @@ def decades_figure(result: xr.Dataset, axis: str) -> Figure:
     ]
     total = Series(x, high[-1] if len(high) else 0.0 * x, INK, width=1.2, clip=False,
                    beyond=style.predictions_beyond(result))  # fmt: skip
-    ordinate = PlotAxis("share of friction, split as at small strain [-]", low=0.0, high=1.0)
+    ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
     panel = Panel(abscissa, ordinate, [*marks[::-1], total])
     look: dict[str, Any] = {"legend": "beside", "legend_title": "relaxation\ntime from [s]"}
-    title = _chain_title(result)
-    return Sheet([panel], 1, NARROW, 3.6, gap=0.02, title=title, **look).on_paper()
+    return Sheet([panel], 1, NARROW, 3.6, gap=0.02, **look).on_paper()
 
 
 def _relaxation_panel(data: xr.Dataset) -> Panel:

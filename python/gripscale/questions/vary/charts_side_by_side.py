@@ -19,7 +19,6 @@ from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant
 from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
-from gripscale.questions.words import OF_THE_PAPER
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,11 +31,6 @@ MOST_TICKS = 4
 CUBIC_MM = 1e-9
 LEAST_POWER_SHARE = 0.02
 """Share of the largest friction of an octave from which one is drawn."""
-_MODELS = {
-    "chain": f"{OF_THE_PAPER}, for comparison",
-    "direct": "direct contact of the measured surface",
-}
-"""Titles of the panels of models."""
 _STEP = 1.12
 """Between the bars of roads beside the smallest wavelength, as a ratio of wavelengths."""
 
@@ -48,10 +42,9 @@ def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterat
             "compound_friction",
             compound_friction_figure(data),
             "Where the road was measured, friction of the direct contact over that of the first "
-            "compound with its 90 % interval, which ranks the compounds, and μ below it. Of "
-            f"{OF_THE_PAPER}, for comparison: friction of all waves down to each wavelength, where "
-            "bars are the ranges of the totals, and the difference from the first by relaxation "
-            "time.",
+            "compound with its 90 % interval, which ranks the compounds, and μ below it. Of the "
+            "chain, less reliable: friction of all waves down to each wavelength, where bars are "
+            "the ranges of the totals, and the difference from the first by relaxation time.",
             "A point with an interval and a curve for each compound, rising towards short waves, "
             "and bars of differences.",
         )
@@ -87,7 +80,7 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
     `data` is that of `gripscale.questions.Compounds`. Waves and relaxation times are of the chain.
     """
     ranked = "best_friction" in data
-    chain = f"{OF_THE_PAPER},\nfor comparison" if ranked else OF_THE_PAPER
+    chain = "chain, less reliable" if ranked else "chain"
     marks: list[Mark] = []
     for name, colour in zip(data.rubber.values.tolist(), COLOURS, strict=False):
         compound = data.sel(rubber=name)
@@ -97,7 +90,7 @@ def compound_friction_figure(data: xr.Dataset) -> Figure:
     panels.append(
         Panel(
             chart.wavelength_axis(data.wavelength.values / MILLI),
-            PlotAxis("friction of this and longer waves [-]", low=0.0),
+            PlotAxis("$\\mu$ of this and larger waves [-]", low=0.0),
             marks,
             title=chain,
         )
@@ -123,10 +116,10 @@ def _ranking_panel(data: xr.Dataset) -> Panel:
         )  # fmt: skip
     best = {float(at): significant(mu, 2) for at, mu in enumerate(data.best_friction.values)}
     return Panel(
-        PlotAxis("friction $\\mu$ [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
-        PlotAxis("friction over that of the first [-]", margin=0.1),
+        PlotAxis("$\\mu$, best estimate [-]", ticks=best, low=-0.5, high=len(names) - 0.5),
+        PlotAxis("$\\mu$ over that of the first [-]", margin=0.1),
         marks,
-        title="the answer: direct contact",
+        title="direct contact: the ranking",
     )
 
 
@@ -163,7 +156,7 @@ def _decades_panel(data: xr.Dataset) -> Panel:
     }
     return Panel(
         PlotAxis("relaxation time from [s]", ticks=ticks),
-        PlotAxis("friction minus that of the first [-]"),
+        PlotAxis("difference of $\\mu$ from the first [-]"),
         [*marks, CrossLine(0.0, width=0.7)],
     )
 
@@ -223,9 +216,9 @@ def roads_friction_figure(data: xr.Dataset) -> Figure:
         ends = [*wavelength, wavelength[-1] / _STEP ** len(roads)]
         panels.append(Panel(
             chart.wavelength_axis(ends),
-            PlotAxis("friction of this and longer waves [-]", low=0.0),
+            PlotAxis("$\\mu$ of this and longer waves [-]", low=0.0),
             marks,
-            title=_MODELS.get(str(model), str(model)),
+            title=str(model),
         ))  # fmt: skip
     layout = {"sharey": True}
     panels = panels or [Panel(PlotAxis(), PlotAxis())]

@@ -51,16 +51,17 @@ def study_page(data: xr.Dataset) -> Page:
     collapsed = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
     axes: list[Element] = [axes_table(data)]
     axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
-    charts = study_charts(data)
+    curves, *inputs = study_sections(data)
     return Page.of(
         str(data.attrs.get("title", "Study")),
         f"varied: {', '.join(words_of(data, axis) for axis in dimensions(data))}",
         study_findings(data),
         [*study_cards(data), *count_cards(data)],
         [
-            Section("predictions", "Predictions", [*charts[:2], study_table(data), *charts[2:]]),
+            Section("predictions", "Predictions", [study_table(data)]),
+            curves,
             Section("axes", "What was varied", axes),
-            *study_inputs(data),
+            *inputs,
             method_section(),
             rerun_section(data.attrs),
         ],
@@ -68,10 +69,11 @@ def study_page(data: xr.Dataset) -> Page:
     )
 
 
-def study_inputs(data: xr.Dataset) -> list[Section]:
-    """Return the chapters on inputs and totals."""
+def study_sections(data: xr.Dataset) -> list[Section]:
+    """Return the chapters on curves, inputs and totals."""
     totals = totals_table(data)
     return [
+        Section("curves", "Curves", study_charts(data)),
         *input_sections(data),
         Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
     ]

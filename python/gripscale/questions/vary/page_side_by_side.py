@@ -19,10 +19,9 @@ from gripscale.io.table import Column, Table, change, fixed, significant
 from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of, status_words
 from gripscale.questions.inputs.page import texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
-from gripscale.questions.vary.charts import study_charts
 from gripscale.questions.vary.charts_side_by_side import compound_pictures, road_pictures
 from gripscale.questions.vary.inputs import TEMPERATURE
-from gripscale.questions.vary.page_of_study import count_cards, study_findings, study_inputs
+from gripscale.questions.vary.page_of_study import count_cards, study_findings, study_sections
 from gripscale.questions.words import SYMBOLS
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -352,7 +351,7 @@ def ratio_cards(data: xr.Dataset, dim: str) -> Iterator[Card]:
         low, high = ratio_ends(data, "friction", i)
         interval = f"{significant(low)} to {significant(high)} (90 %)" if math.isfinite(low) else ""
         label = f"{SYMBOLS['friction']} of {name}"
-        yield Card(label, f"× {significant(ratio)}", f"that of {names[0]}", interval=interval)
+        yield Card(label, f"× {significant(ratio)}", f"that of {names[0]}; {interval}".rstrip("; "))
 
 
 def roads_page(data: xr.Dataset, findings: Sequence[Finding]) -> Page:
@@ -381,6 +380,7 @@ def compounds_page(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Page:
     tables: list[Element] = [*filter(None, [best]), Text(_COMPOUNDS), compounds_table(data)]
     tables += map(Text, compounds_sentences(data))
     tables += map(image, compound_pictures(data, rubbers))
+    curves, *inputs = study_sections(data)
     return Page.of(
         f"Compounds side by side: {', '.join(names)}",
         str(data.attrs.get("title", "")),
@@ -388,8 +388,8 @@ def compounds_page(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Page:
         [*ratio_cards(data, "rubber"), *count_cards(data)],
         [
             Section("compounds", "Contact and friction", tables),
-            *study_inputs(data),
-            Section("curves", "Curves", study_charts(data)),
+            *inputs,
+            curves,
             method_section(),
             rerun_section(data.attrs),
         ],
