@@ -101,7 +101,7 @@ def test_page_begins_with_the_best_estimate(solved: xr.Dataset, folder: Path) ->
     assert "best estimate; ±" in head
     assert "Answer: friction coefficient μ rises from" in head
     figures = [a["id"] for _, a in page.tags if (a.get("id") or "").startswith("figure-")]
-    assert figures[0] == "figure-best_friction-over-speed"
+    assert figures[0] == "figure-best_contact_fraction-over-speed"
     assert "figure-total_friction-over-speed" not in figures
 
 

@@ -29,7 +29,7 @@ from gripscale.questions.answer.best_estimate import AREA_TERM
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, MeasuredSeries, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
-from gripscale.questions.words import AXIS_TITLES, HEADINGS
+from gripscale.questions.words import AXIS_TITLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -179,7 +179,7 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
         chart.wavelength_axis(length),
-        PlotAxis(f"{HEADINGS[name]} of longer waves [-]", log=area, low=None if area else 0.0),
+        PlotAxis(f"{AXIS_TITLES[name]},\nlonger waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
         caption=f"{capital} down to each wavelength, of every model: where area is lost "

@@ -80,8 +80,8 @@ def design_cards(data: xr.Dataset) -> Iterator[Card]:
     same, least = at_todays_rolling(data), rolling_at_todays_friction(data)
     if same is not None:
         low, high = _percent(float(same.gain_low)), _percent(float(same.gain_high))
-        ends, gain = f"{low} to {high} (90 %)", _percent(float(same.gain))
-        yield Card("Friction", gain, _at_rolling(same), interval=ends)
+        detail = f"{_at_rolling(same)}; {low} to {high} (90 %)"
+        yield Card("Friction", _percent(float(same.gain)), detail)
     if math.isfinite(least):
         yield Card("Rolling resistance", _percent(least - 1.0), "at the same friction")
 
