@@ -293,6 +293,17 @@ def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(narrow: Visit) -> 
     assert all(layers == 4 for _, layers in told)
 
 
+def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(narrow: Visit) -> None:
+    narrow.page.set_viewport_size({"width": 390, "height": 900})
+    picture = narrow.page.locator(".image img").first
+    assert picture.bounding_box()["width"] <= 390 - 2 * 16
+    picture.click()
+    assert picture.bounding_box()["width"] >= 700
+    assert narrow.width() <= 390
+    picture.click()
+    assert picture.bounding_box()["width"] <= 390 - 2 * 16
+
+
 def test_print_keeps_figures_whole(visited: Visit) -> None:
     page = visited.page
     before = [plot.bounding_box()["width"] for plot in page.locator(".plot").all()]

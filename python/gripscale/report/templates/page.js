@@ -74,6 +74,9 @@ for (const button of document.querySelectorAll("button")) {
   button.addEventListener("click", () => work(button));
 }
 document.querySelector("nav").addEventListener("click", event => openChapter(event.target.hash ?? ""));
+for (const picture of document.querySelectorAll(".image img")) {
+  picture.addEventListener("click", () => picture.classList.toggle("whole"));
+}
 addEventListener("toggle", drawSoon, true);
 addEventListener("resize", rememberWidths);
 openChapter(location.hash);
