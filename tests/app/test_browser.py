@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import http.client
+import io
 import re
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
 from gripscale.app.case import MAX_UPLOAD
 from gripscale.app.run_tabs import POLL
@@ -190,9 +192,9 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
     assert box["width"] >= 0.95 * 1400
     assert box["height"] >= 600
     frame.locator("a[href='#rubber']").first.click()
-    top = "e => Math.abs(e.getBoundingClientRect().top) < 60"
+    inside = "e => e.open && e.getBoundingClientRect().top < innerHeight"
     place = frame.locator("#rubber")
-    whole_way.look(lambda: place.evaluate(top), "the chapter on the rubber")
+    whole_way.look(lambda: place.evaluate(inside), "the chapter on the rubber")
     assert frame.locator("h1").inner_text() == "Contact and friction: case-2.toml"
     with whole_way.page.context.expect_page() as opened:
         whole_way.page.get_by_text("Open this page alone").click()
@@ -221,20 +223,36 @@ def test_the_saved_case_is_the_text_shown(whole_way: AppVisit, tmp_path: Path) -
     assert 'speed = "0.03 m/s"' in text
 
 
-def test_the_answer_stands_above_the_output(whole_way: AppVisit) -> None:
+def test_the_run_tab_leads_with_the_answer(whole_way: AppVisit) -> None:
     whole_way.tab("4 Run")
     answer = whole_way.page.locator("dl.cards").first
     answer.wait_for(timeout=PATIENCE)
-    output = whole_way.says("Command and output")
-    assert answer.bounding_box()["y"] < output.bounding_box()["y"]
+    question = whole_way.page.get_by_label("Question")
+    assert answer.bounding_box()["y"] < question.bounding_box()["y"]
 
 
-def test_the_page_is_dark_on_white_in_a_dark_browser(whole_way: AppVisit) -> None:
+def paper(picture: bytes) -> tuple[int, ...]:
+    """Return the commonest colour of a picture."""
+    image = Image.open(io.BytesIO(picture)).convert("RGB")
+    return tuple(max(image.getcolors(image.width * image.height))[1])
+
+
+def test_page_and_report_are_dark_in_a_dark_browser(whole_way: AppVisit) -> None:
+    """The page is inverted with its figures, and the report in it, dark by itself, is not."""
     whole_way.page.emulate_media(color_scheme="dark")
-    look = "() => (({colorScheme, backgroundColor}) => [colorScheme, backgroundColor])"
-    style = whole_way.page.evaluate(f"{look}(getComputedStyle(document.documentElement))")
-    assert style == ["light", "rgb(255, 255, 255)"]
+    whole_way.tab("5 Results")
+    frame = whole_way.page.locator("iframe")
+    whole_way.page.frame_locator("iframe").locator("html[data-drawn]").wait_for(
+        timeout=PATIENCE, state="attached"
+    )
+    for picture in (frame.screenshot(), whole_way.page.screenshot(clip=TOP)):
+        assert paper(picture) == pytest.approx((25, 25, 25), abs=3)  # of rounding in filters
     whole_way.page.emulate_media(color_scheme="light")
+    assert paper(whole_way.page.screenshot(clip=TOP)) == (255, 255, 255)
+
+
+TOP = {"x": 0.0, "y": 0.0, "width": 1400.0, "height": 60.0}
+"""Where the title of the page stands."""
 
 
 @pytest.mark.parametrize("width", [1400, 390])

@@ -82,7 +82,7 @@ def test_three_warnings_are_open_and_the_others_folded() -> None:
     assert "<summary>3 more warnings</summary>" in markup
 
 
-def test_runs_are_compared_by_their_best_estimates(ran: Path) -> None:
+def test_runs_are_compared_by_their_answers(ran: Path) -> None:
     result = page_of_folder.read_result(ran)
     assert isinstance(result, RunSource)
     run = SimpleNamespace(text=(ran / "case.toml").read_text())

@@ -29,7 +29,7 @@ from tests.samples import Shell
 
 QUESTIONS = {
     "answer": ("run",),
-    "comparison": ("compare", "--rungs", "chain_half_plane,direct"),
+    "comparison": ("compare", "--models", "chain_half_plane,direct"),
     "study": ("study", "--vary", "speed=0.1,0.3"),
     "cut_off": ("cut-off",),
     "sensitivity": ("sensitivity", "--bands", "1"),

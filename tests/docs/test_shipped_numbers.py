@@ -18,7 +18,7 @@ def words(name: str) -> str:
 
 
 @pytest.mark.parametrize("page", ["README.md", "direct-contact.md"])
-def test_the_best_estimate_is_quoted(page: str) -> None:
+def test_the_answer_is_quoted(page: str) -> None:
     estimate = STORED["compare"].removeprefix("Best estimate (90 %): ")
     assert estimate in words(page)
 

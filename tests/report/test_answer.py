@@ -186,8 +186,9 @@ def test_those_without_a_number_stand_below_in_an_order() -> None:
     assert [notice.sentence for notice in notices] == order
     page = Page("", "", notices, [])
     assert [notice.sentence for notice in page.errors] == order[:1]
-    assert [notice.sentence for notice in page.notices_open] == order[1:3]
-    assert [notice.sentence for notice in page.notices_folded] == order[3:]
+    opened, folded = page.warnings
+    assert [notice.sentence for notice in opened] == order[1:3]
+    assert [notice.sentence for notice in folded] == order[3:]
     assert list(warning_lines(notices[:4], "report.txt")) == [
         "Warnings, by what they change:",
         *(f"  {text}" for text in order[:3]),

@@ -22,6 +22,7 @@ from gripscale.charts.chart import (
     ShadedBand,
     ValueMap,
 )
+from gripscale.charts.page import draw_linked
 from gripscale.questions.page_of_folder import page_of, read_result
 
 X = np.array([1.0, 2.0, 4.0])
@@ -68,7 +69,7 @@ def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
 
 def test_bokeh_has_every_attribute_of_linked_panels() -> None:
     panels = [Panel(PlotAxis("x"), PlotAxis("y"), MARKS[:2])] * 2
-    column = model(draw.linked_on_page(panels, "linked", "", "").figure)
+    column = model(draw_linked(panels, "linked", "", "").figure)
     first, second = (figure for figure, *_ in column.children)
     assert first.x_range is second.x_range
     assert [len(each.tools) for each in column.toolbar.tools[:4]] == [2] * 4
@@ -97,6 +98,7 @@ def test_bokeh_refuses_what_it_has_not(caplog: pytest.LogCaptureFixture) -> None
 def test_a_part_stands_once_in_a_document() -> None:
     shared = Part("Range1d", start=0.0, end=1.0)
     plots = [Part("Plot", x_range=shared), Part("Plot", x_range=shared)]
-    first, second = document(plots)["roots"]
+    (root,) = document(Part("Column", children=plots))["roots"]
+    first, second = root["attributes"]["children"]
     assert first["attributes"]["x_range"]["attributes"] == {"start": 0.0, "end": 1.0}
     assert second["attributes"]["x_range"] == {"id": shared.id}

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from PIL import Image
 
 from gripscale.case_file import run_case
@@ -20,9 +21,10 @@ from .conftest import CASE
 
 
 @contextmanager
-def visit(browser: Any, path: Path, width: int = 1280) -> Iterator[Visit]:
+def visit(browser: Any, path: Path, width: int = 1280, **options: Any) -> Iterator[Visit]:
     """Open `path` without a network; collect warnings, errors and requests."""
-    context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
+    size = {"width": width, "height": 900}
+    context = browser.new_context(viewport=size, offline=True, **options)
     seen = Visit(context.new_page())
 
     def route(route: Any) -> None:
@@ -39,15 +41,25 @@ def visit(browser: Any, path: Path, width: int = 1280) -> Iterator[Visit]:
     context.close()
 
 
-DRAWN = """() => document.documentElement.dataset.drawn
-    && Bokeh.documents.every(one => one.is_idle)"""
-"""Whether the page says that its figures are made, and each of them is at rest."""
+DRAWN = """() => {
+    const seen = [...document.querySelectorAll('.plot')].filter(
+        plot => !plot.closest('details:not([open])'));
+    return Number(document.documentElement.dataset.drawn) >= seen.length
+        && Bokeh.documents.every(each => each.is_idle);
+}"""
+"""Whether the page says that the figures of its open chapters are made, and each is at rest."""
 
 
 def drawn(seen: Visit) -> Visit:
-    """Wait until all figures of the page are drawn."""
+    """Wait until the figures of all open chapters are drawn."""
     seen.until(DRAWN)
     return seen
+
+
+def opened(seen: Visit) -> Visit:
+    """Open all chapters, and wait for their figures."""
+    seen.page.get_by_role("button", name="Open all").click()
+    return drawn(seen)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +70,7 @@ def run_page(run_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path
 @pytest.fixture(scope="module")
 def visited(browser: Any, run_page: Path) -> Iterator[Visit]:
     with visit(browser, run_page) as seen:
-        yield drawn(seen)
+        yield opened(seen)
 
 
 def coloured(picture: bytes) -> int:
@@ -98,6 +110,56 @@ def check_figures(seen: Visit) -> int:
     return len(plots)
 
 
+@pytest.fixture
+def folded(browser: Any, run_page: Path) -> Iterator[Visit]:
+    """The page of a run as it opens, in a dark browser."""
+    with visit(browser, run_page, color_scheme="dark") as seen:
+        yield drawn(seen)
+
+
+def test_the_page_opens_with_two_figures(folded: Visit) -> None:
+    """What else there is stands in chapters to be opened: the page is a few windows high."""
+    plots = folded.page.locator(".plot:visible")
+    assert plots.count() == 2
+    assert folded.page.locator("html").get_attribute("data-drawn") == "2"
+    assert folded.page.evaluate("document.documentElement.scrollHeight") <= 6000
+
+
+def test_a_chapter_opens_by_its_link_and_draws_its_figures(folded: Visit) -> None:
+    plot = folded.page.locator("#rubber .plot").first
+    assert not plot.is_visible()
+    folded.page.locator("nav a[href='#rubber']").click()
+    folded.until(CURVES, plot.element_handle())
+    assert folded.said == []
+
+
+BACK = """() => getComputedStyle(document.documentElement).backgroundColor"""
+DARK, LIGHT = "rgb(25, 25, 25)", "rgb(255, 255, 255)"
+
+
+def paper(picture: bytes) -> NDArray[np.int64]:
+    """Return the commonest colour of a picture."""
+    pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).reshape(-1, 3)
+    colours, counts = np.unique(pixels, axis=0, return_counts=True)
+    return np.asarray(colours[counts.argmax()], dtype=np.int64)
+
+
+def test_page_and_figures_are_dark_as_the_system_or_as_chosen(folded: Visit) -> None:
+    plot = folded.page.locator(".plot:visible").first
+    switch = folded.page.get_by_role("button", name="Light or dark")
+    assert folded.page.evaluate(BACK) == DARK
+    # a filter turns white into the paper of the page, to a shade or two of rounding
+    assert paper(plot.screenshot()) == pytest.approx(25, abs=3)
+    switch.click()
+    assert folded.page.evaluate(BACK) == LIGHT
+    assert (paper(plot.screenshot()) == 255).all()
+    switch.click()
+    assert folded.page.evaluate(BACK) == DARK
+    folded.page.emulate_media(media="print")
+    assert folded.page.evaluate(BACK) == LIGHT
+    assert plot.evaluate("e => getComputedStyle(e).filter") == "none"
+
+
 def test_title_and_headings(visited: Visit) -> None:
     assert visited.page.title().startswith("Contact and friction: ")
     assert " on road" in visited.page.title()
@@ -117,7 +179,7 @@ def test_every_picture_is_decoded(visited: Visit) -> None:
     sizes = visited.page.eval_on_selector_all(
         "main img", "all => all.map(e => [e.complete, e.naturalWidth, e.clientHeight])"
     )
-    assert len(sizes) == 12
+    assert len(sizes) == 11
     assert all(complete and width > 30 and height > 10 for complete, width, height in sizes)
 
 
@@ -201,7 +263,7 @@ def test_case_can_be_copied(visited: Visit) -> None:
 @pytest.fixture(scope="module")
 def narrow(browser: Any, run_page: Path) -> Iterator[Visit]:
     with visit(browser, run_page, 390) as seen:
-        yield drawn(seen)
+        yield opened(seen)
 
 
 def check_widths(seen: Visit, *widths: int) -> None:
@@ -232,6 +294,17 @@ def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(narrow: Visit) -> 
     assert all(layers == 4 for _, layers in told)
 
 
+def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(narrow: Visit) -> None:
+    narrow.page.set_viewport_size({"width": 390, "height": 900})
+    picture = narrow.page.locator(".image img").first
+    assert picture.bounding_box()["width"] <= 390 - 2 * 16
+    picture.click()
+    assert picture.bounding_box()["width"] >= 700
+    assert narrow.width() <= 390
+    picture.click()
+    assert picture.bounding_box()["width"] <= 390 - 2 * 16
+
+
 def test_print_keeps_figures_whole(visited: Visit) -> None:
     page = visited.page
     before = [plot.bounding_box()["width"] for plot in page.locator(".plot").all()]
@@ -245,7 +318,7 @@ def test_print_keeps_figures_whole(visited: Visit) -> None:
 
 def test_failed_run_is_loud(browser: Any, failed_folder: Path) -> None:
     with visit(browser, write_report(failed_folder)) as seen:
-        drawn(seen)
+        opened(seen)
         alert = seen.page.get_by_role("alert").first
         assert alert.is_visible()
         assert alert.bounding_box()["y"] < 400
@@ -266,7 +339,7 @@ def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path, speed: 
     )
     assert run_case(tmp_path / "case.toml", output=tmp_path / "results").converged
     with visit(browser, write_report(tmp_path / "results")) as seen:
-        drawn(seen)
+        opened(seen)
         assert check_figures(seen) >= 7
         assert seen.said == []
         assert seen.asked == []
@@ -274,7 +347,7 @@ def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path, speed: 
 
 def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
     with visit(browser, write_report(study_file, tmp_path / "study.html")) as seen:
-        drawn(seen)
+        opened(seen)
         assert check_figures(seen) == 6
         assert seen.page.title() == "Study of <contact>"
         assert seen.said == []
@@ -283,7 +356,18 @@ def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
 
 def test_comparison_is_drawn_and_fits_a_narrow_window(browser: Any, compared_folder: Path) -> None:
     with visit(browser, write_report(compared_folder)) as seen:
-        drawn(seen)
+        opened(seen)
         assert check_figures(seen) == 6
         assert seen.asked == []
         check_widths(seen, 420)
+
+
+def test_the_answer_is_large_with_its_interval(browser: Any, compared_folder: Path) -> None:
+    with visit(browser, write_report(compared_folder)) as seen:
+        value = seen.page.locator(".cards .value").first
+        interval = seen.page.locator(".cards .interval").first
+        assert float(value.inner_text()) > 0.0
+        assert interval.inner_text().endswith("(90 %)")
+        size = "e => parseFloat(getComputedStyle(e).fontSize)"
+        assert value.evaluate(size) >= 40.0 > interval.evaluate(size) >= 20.0
+        assert interval.bounding_box()["y"] < 300.0

@@ -156,7 +156,7 @@ def test_case_text_is_given_word_for_word(page: Page) -> None:
 
 def test_pictures_and_figures_have_texts(page: Page) -> None:
     pictures = [attrs for tag, attrs in page.tags if tag == "img"]
-    assert len(pictures) == 12  # ten equations, the blocks of two predictions
+    assert len(pictures) == 11  # nine equations, the blocks of two predictions
     assert all(attrs.get("alt") for attrs in pictures)
     plots = [attrs for _, attrs in page.tags if attrs.get("class") == "plot"]
     assert len(plots) >= 18
@@ -209,7 +209,7 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     cards = list(run_cards(replace(run, direct=whole)))
     first, second = cards  # no card of the chain
     assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
-    assert first.detail == "answer; 0.250 to 0.300 (90 %)"
+    assert (first.interval, first.detail) == ("0.250 to 0.300 (90 %)", "answer")
     assert (second.label, second.value) == ("Real contact area A_r/A_0", "0.0400")
     page = run_page(replace(run, direct=whole))
     (chapter,) = (section for section in page.sections if section.name == "results")
@@ -335,7 +335,7 @@ def test_measured_friction_is_that_of_the_record(
     """A page reads results only: a case file that was changed since changes nothing."""
     folder = changed_run(lambda data: data)
     (folder / "case.toml").write_text("[measured\n", encoding="utf-8")
-    assert '<section id="measured"' not in write_report(folder).read_text(encoding="utf-8")
+    assert '<details id="measured"' not in write_report(folder).read_text(encoding="utf-8")
     measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], source="mu.csv")
     tree = netcdf.load_tree(folder / "dynamic.nc")
     record = (
@@ -345,7 +345,7 @@ def test_measured_friction_is_that_of_the_record(
     )
     netcdf.save(tree.to_dataset(), folder / "dynamic.nc", {"inputs": record})
     page = write_report(folder).read_text(encoding="utf-8")
-    assert '<section id="measured"' in page
+    assert '<details id="measured"' in page
 
 
 def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:

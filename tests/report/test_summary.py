@@ -100,7 +100,7 @@ def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
     assert [(row["point"], row["gain [-]"]) for row in rows(design)] == [(0, 0.1), (1, 0.2)]
 
 
-def test_the_best_estimate_stands_beside_the_direct_contact() -> None:
+def test_the_answer_stands_beside_the_direct_contact() -> None:
     words = np.array(["converged", "converged"], dtype=object)
     comparison = xr.Dataset(
         {

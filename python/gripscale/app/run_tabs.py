@@ -32,7 +32,6 @@ from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.reliance import has_answer, headline, no_answer
-from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.registry import Form
@@ -133,12 +132,12 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     stop = elements.work_button("Stop", end, color="danger", visible=False)
     return elements.column(
         problem_pane(state, "run"),
+        answer,
         choice,
         form,
         pn.Row(elements.work_button("Run", start, color="primary"), stop),
         bar,
         status,
-        answer,
         folded_output,
     )
 
@@ -162,8 +161,8 @@ def answer_elements(run: AppRun) -> elements.PageElements:
         return []  # the next tab says why
     page = page_of_folder.page_of(result)
     numbers = elements.Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
-    folded = [elements.Folded(page.notices_folded)] if page.notices_folded else []
-    return [*page.errors, numbers, *page.notices_open, *folded]
+    opened, folded = page.warnings
+    return [*page.errors, numbers, *opened, *([elements.Folded(folded)] if folded else [])]
 
 
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
@@ -230,12 +229,7 @@ def downloads(run: AppRun) -> pn.FlexBox:
     return pn.FlexBox(*files, folder)
 
 
-NONE_TO_COMPARE = (
-    "Runs of the question Contact and friction stand here side by side, and none has finished; "
-    "every other answer has its page in the tab before."
-)
-COMPARED_CHARTS = ("contact-area", "friction")
-"""Figures of waves with one curve a run, where no run has an answer."""
+NONE_TO_COMPARE = "No run of Contact and friction has finished; the tab before has other answers."
 
 
 def all_runs_tab(runs: Runs) -> pn.Column:
@@ -275,11 +269,7 @@ def compared_elements(runs: Runs) -> elements.PageElements:
                 compared.append(ComparedRun(run, replace(view, name=name), direct))
     if not compared:
         return [Text(NONE_TO_COMPARE)]
-    charts = answer_charts(compared)
-    if not charts:
-        of_waves = contact_charts([view for _, view, _ in compared])
-        charts = [chart for chart in of_waves if chart.name in COMPARED_CHARTS]
-    return [runs_table(compared), *charts]
+    return [runs_table(compared), *answer_charts(compared)]
 
 
 def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:

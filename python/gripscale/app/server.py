@@ -32,8 +32,11 @@ INTRO = (
     "same results from it.</p>"
 )
 TABS_STYLE = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
-LIGHT = ":root { color-scheme: light; background: #fff; }"
-"""The page is dark on white whatever the browser prefers: its figures are."""
+PAGE_STYLE = """\
+:root { color-scheme: light; background: #fff; }
+@media (prefers-color-scheme: dark) { :root { filter: invert(0.9) hue-rotate(180deg); } }
+"""
+"""The page is drawn dark on white; a dark browser inverts it with its figures, hues kept."""
 HOST = "127.0.0.1"
 GONE_AFTER = 15_000
 """Milliseconds after which a page that was closed counts as left."""
@@ -87,7 +90,7 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     require_writable(root)
     make_folder(root)
     port = _free_port(port)
-    pn.extension("filedropper", raw_css=[LIGHT])
+    pn.extension("filedropper", raw_css=[PAGE_STYLE])
 
     def page() -> pn.Column:
         return visit_page(root.resolve(), case)

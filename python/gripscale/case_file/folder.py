@@ -124,6 +124,7 @@ _FIGURES = (
     "correlation",
     "master_curve",
     "contact_and_friction",
+    "summary",
     "direct_contact",
     "blocks_dynamic",
     "blocks_static",

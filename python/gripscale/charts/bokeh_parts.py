@@ -8,7 +8,7 @@ https://docs.bokeh.org/en/latest/docs/reference/models.html.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import count
 from typing import Any
 
@@ -46,9 +46,9 @@ def columns(values: Mapping[str, ArrayLike | list[NDArray[Any]]], **attributes: 
     return Part("ColumnDataSource", data=dict(values), **attributes)
 
 
-def document(roots: Sequence[Part]) -> dict[str, Any]:
-    """Return figures as a document of Bokeh, plain data for JSON."""
-    return {"version": __version__, "title": "", "config": None, "roots": _encoded(list(roots))}
+def document(root: Part) -> dict[str, Any]:
+    """Return a figure as a document of Bokeh, plain data for JSON."""
+    return {"version": __version__, "title": "", "config": None, "roots": [_encoded(root)]}
 
 
 def model(root: Part) -> Any:
@@ -58,5 +58,5 @@ def model(root: Part) -> Any:
     return Deserializer().deserialize(_encoded(root))
 
 
-def _encoded(parts: Part | list[Part]) -> Any:
-    return Serializer(deferred=False).encode(parts)
+def _encoded(root: Part) -> Any:
+    return Serializer(deferred=False).encode(root)

@@ -180,6 +180,8 @@ class Note:
     """Coordinates that are shares of the frame: "x", "xy" or none."""
     top: bool = False
     """Whether the point is at the top of the words, not in their middle."""
+    size: float = 7.0
+    """Of the letters [points]."""
     boxed: bool = False
     italic: bool = False
 
@@ -219,6 +221,8 @@ class Panel:
     """Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere."""
     to_scale: bool = False
     """Whether lengths along both axes are equal."""
+    framed: bool = True
+    """Whether paper shows the axes; False for a panel of words."""
 
     def with_marks(self, marks: Iterable[Mark]) -> Panel:
         """Return the panel with more marks, drawn above the others."""

@@ -25,9 +25,4 @@ SCALES = {
         "7d1d6c 892269 962666 a32b61 af315b bb3754 c53d4d d04544 da4e3b e35832 ea6428 "
         "f0701e f57e14 f98c09 fb9b06 fbaa0e fbb91e f8c931 f5d948 f1e864 f2f485 fcfea4"
     ),
-    "Turbo": (
-        "30123b 392972 4040a1 4456c7 466be3 467ff6 4193fe 36a8f9 28bbeb 1ccdd7 17dcc2 "
-        "1ee8af 32f197 4df97c 6dfd62 8bfe4b a4fc3b b6f735 caed33 dde036 ecd139 f7c039 "
-        "fcae34 fe982c fb8022 f56817 ec520e e04008 d23005 c02302 ac1601 940c01 7a0402"
-    ),
 }

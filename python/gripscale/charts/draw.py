@@ -85,13 +85,6 @@ def panels_on_page(panels: Iterable[Panel]) -> list[Chart]:
     return [draw_panel(panel) for panel in panels]
 
 
-def linked_on_page(panels: Sequence[Panel], name: str, caption: str, alt: str) -> Chart:
-    """Draw panels below each other with Bokeh, zoomed together along their abscissa."""
-    from gripscale.charts.page import draw_linked
-
-    return draw_linked(panels, name, caption, alt)
-
-
 PICTURE_DPI = 170
 SHADES = 96
 """Colours a picture is reduced to: a third of the bytes, no visible loss."""

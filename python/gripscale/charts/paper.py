@@ -137,6 +137,8 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
         _draw_mark(figure, axes, mark)
     if panel.to_scale:
         axes.set_aspect("equal", adjustable="box")
+    if not panel.framed:
+        axes.set_axis_off()
     if any(isinstance(mark, chart.Bars) for mark in panel.marks):
         axes.use_sticky_edges = False  # of bars upon bars, which would leave no room above
     if panel.title:
@@ -259,7 +261,7 @@ def _draw_note(axes: Axes, note: chart.Note) -> None:
         textcoords="offset points",
         va="top" if note.top else "center",
         ha=note.align,
-        fontsize=7.0,
+        fontsize=note.size,
         fontstyle="italic" if note.italic else "normal",
         color=note.colour,
         bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0} if note.boxed else None,

@@ -37,10 +37,7 @@ def render(page: Page) -> str:
     return template.render(
         page=page,
         # the template turns plain data into JSON without any markup
-        figures={
-            "places": {chart.figure.id: f"plot-{chart.name}" for chart in page.charts},
-            "document": document([chart.figure for chart in page.charts]),
-        },
+        figures={chart.name: document(chart.figure) for chart in page.charts},
         library=Markup(library),
         style=Markup("\n".join(template_text(room, name) for name in styles)),
         script=Markup(script),

@@ -66,24 +66,40 @@ class Code:
 Element = Text | Finding | Facts | Table | Chart | Image | Equation | Code
 
 
+_OPEN_FIGURES = 2
+
+
 @dataclass(frozen=True)
 class Section:
-    """A chapter of the page."""
+    """A chapter of the page; one that only stands beside the answer is folded."""
 
     name: str
     title: str
     elements: Sequence[Element]
     folded: bool = False
 
+    @property
+    def figures(self) -> list[int]:
+        """Places of its figures among its elements."""
+        return [at for at, e in enumerate(self.elements) if isinstance(e, Chart | Image)]
+
+    @property
+    def opening(self) -> Sequence[Element]:
+        """The elements before the first figure that a page does not open with."""
+        if self.folded:
+            return ()
+        return self.elements[: next(iter(self.figures[_OPEN_FIGURES:]), None)]
+
 
 @dataclass(frozen=True)
 class Card:
-    """One result at the head of the page."""
+    """A result at the head of the page; one with an interval is larger than those without."""
 
     label: str
     value: str
     detail: str
     bad: bool = False
+    interval: str = ""
 
 
 _MOST_OPEN = 3
@@ -130,14 +146,16 @@ class Page:
         return [notice for notice in self.notices if notice.severity == Severity.ERROR]
 
     @property
-    def notices_open(self) -> list[Finding]:
-        """The first few warnings, below the numbers."""
-        return open_and_folded(self.notices)[0][len(self.errors) :]
+    def warnings(self) -> tuple[list[Finding], list[Finding]]:
+        """The first few warnings, below the numbers, and the others, which are folded."""
+        opened, folded = open_and_folded(self.notices)
+        return opened[len(self.errors) :], folded
 
     @property
-    def notices_folded(self) -> list[Finding]:
-        """The other warnings."""
-        return open_and_folded(self.notices)[1]
+    def open_chapters(self) -> int:
+        """How many chapters are open: up to the first with figures, all others are folded."""
+        drawn = (at for at, section in enumerate(self.sections, start=1) if section.figures)
+        return next(drawn, 1)
 
     @property
     def charts(self) -> list[Chart]:

@@ -37,14 +37,6 @@ _EQUATIONS = [
         f"{_LW}, equation 5",
     ),
     (
-        "self-affine",
-        r"C_z(l) = \xi_\perp^2 \left( \dfrac{l}{\xi_\parallel} \right)^{6-2D} "
-        r"\quad \mathrm{for}\  l < \xi_\parallel , \qquad \xi_\perp^2 \quad \mathrm{beyond}",
-        "A self-affine surface up to its cut-off; H = 3 − D. It describes the surface; the chain "
-        "does not use it.",
-        f"{_LW}, equation 6",
-    ),
-    (
         "sines",
         r"C_z(l) = \sum_i A_i^2 \left( 1 - \cos \dfrac{2 \pi l}{\lambda_i} \right) , \qquad "
         r"\lambda_{i+1} = \dfrac{\lambda_i}{s_\lambda} , \quad A_{i+1} = \dfrac{A_i}{s_A}",

@@ -93,7 +93,7 @@ def test_a_theory_knows_the_temperature_only(made: SolvedLadder) -> None:
     assert any("Softening: in the chains" in line for line in remarks(data))
 
 
-def test_table_and_best_estimate_have_the_area_term(made: SolvedLadder) -> None:
+def test_table_and_answer_have_the_area_term(made: SolvedLadder) -> None:
     data = made.data
     text = as_text(comparison_table(data))
     direct = made.data.sel(model="direct")

@@ -230,4 +230,4 @@ def test_command_draws_map_and_master_curve_of_the_direct_contact(shell: Shell, 
     figures = {path.stem for path in (case.parent / "results/study/figures").glob("*.png")}
     assert {"map", "friction_master_curve", "totals"} <= figures
     for words in ("temperature 60 C", "60 °C lies beyond", "Over a_T v, friction: cannot be"):
-        assert words in result.stdout
+        assert words in result.output

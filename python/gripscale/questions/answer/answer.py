@@ -22,9 +22,9 @@ from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
-from gripscale.questions.answer.charts import named_traces, trace_sheet
+from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
-from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
+from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import answer_number, is_measured, no_answer
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.inputs import record
@@ -116,6 +116,9 @@ class Answer(NumbersWithIntervals):
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         for name, trace in named_traces(self.data, self.inputs)[:1]:
+            if "series_omega" in self.inputs:
+                cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
+                yield "summary", summary_sheet(trace, self.inputs, cards, words)
             yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:

@@ -6,6 +6,7 @@ All are drawn from a trace (`gripscale.half_space.location.contact_trace`), whic
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +15,14 @@ import xarray as xr
 
 from gripscale.charts import chart, draw
 from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
+from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, RED, SKY, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MEGA, MICRO, MILLI
 from gripscale.half_space.location import contact_trace, traces_of
 from gripscale.half_space.result import RoughContact
 from gripscale.io.table import percent
+from gripscale.questions.inputs.charts_of_rubber import moduli_panels
+from gripscale.report.elements import Card
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,6 +36,8 @@ DRAPED = 0.3
 """Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
 FLATTEST, LOWEST = 0.15, 0.2
 """Least height of the stretch to scale and what it shows below its contact, over its length."""
+_LINES = ((0.0, 9.0), (0.1, 22.0), (0.31, 10.0))
+"""Distance from the top [panel] and size [points] of the lines of a number of a slide."""
 NamedTrace = tuple[str, xr.Dataset]
 """Name of a profile and its trace."""
 PAGE = 420
@@ -89,18 +94,63 @@ def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None)
     return _sheet([*fields, *lines, close], heights, title)
 
 
-def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
-    """Return a trace on the page: along the whole line, to be zoomed, and a stretch to scale."""
+def summary_sheet(
+    trace: xr.Dataset, inputs: xr.Dataset, cards: Sequence[Card], words: str
+) -> draw.Sheet:
+    """Describe an answer for a slide, 16:9: its numbers, the rubber on the surface, its moduli.
+
+    `words` say what the numbers of the `cards` are for; `inputs` is the record of the inputs.
+    """
     trace = _around_contact(trace)
-    lines = draw.linked_on_page(
+    close, heights, moduli = _stretch_panel(trace), _line_panels(trace)[0], moduli_panels(inputs)[0]
+    bands = (mark for mark in close.marks if isinstance(mark, chart.ShadedBand))
+    pressure = next(band.label for band in bands if band.label)
+    names = (("storage $E'$", BLUE), ("loss $E''$", ORANGE))
+    panels = [
+        _number_panel(cards, words),
+        replace(close, title=f"Rubber (blue) on the surface, to scale\norange: {pressure}"),
+        replace(
+            moduli.with_marks(
+                chart.Note(0.04, 0.96 - 0.1 * row, text, colour, frame="xy", top=True, size=8.0)
+                for row, (text, colour) in enumerate(names)
+            ),
+            x=replace(moduli.x, numbers=6),
+            title="Master curve, measured and as solved",
+        ),
+        replace(heights, x=_along(trace, _lengths(trace.x, trace)), title="The whole profile"),
+    ]
+    layout = {"width_ratios": [1.0, 1.4], "height_ratios": [1.2, 1.0]}
+    return draw.Sheet(panels, 2, WIDE, WIDE * 9.0 / 16.0, legend="", layout=layout)
+
+
+def _number_panel(cards: Sequence[Card], words: str) -> chart.Panel:
+    """Return the first two results of a page with their intervals, large."""
+    notes = [chart.Note(0.0, 1.0, words, GREY, frame="xy", top=True, size=8.0)]
+    for at, card in zip((0.88, 0.4), cards, strict=False):
+        colour = RED if card.bad else INK
+        label = card.label.replace("A_r/A_0", "$A_r/A_0$")
+        texts = (label, card.value, card.interval or card.detail)
+        notes += [
+            chart.Note(0.0, at - down, text, colour, frame="xy", top=True, size=size)
+            for text, (down, size) in zip(texts, _LINES, strict=True)
+        ]
+    return chart.Panel(chart.PlotAxis(), chart.PlotAxis(), notes, framed=False)
+
+
+def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
+    """Return a trace on the page: a stretch to scale, and along the whole line, to be zoomed."""
+    from gripscale.charts.page import draw_linked  # of Bokeh, which only pages need
+
+    trace = _around_contact(trace)
+    lines = draw_linked(
         _line_panels(trace),
         f"contact-{_word(name)}",
         f"{name}: rubber on the surface, contact pressure, and friction and load from the "
-        "beginning of the line. The shade is the stretch of the next figure. Draw a box to zoom; "
+        "beginning of the line. The shade is the stretch to scale. Draw a box to zoom; "
         "the tools above move the line and zoom by the wheel.",
         f"Heights of surface and rubber, pressure, and running friction along {name}.",
     )
-    return [lines, *draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)])]
+    return [*draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)]), lines]
 
 
 def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:
@@ -112,7 +162,7 @@ def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:
         _stretch_panel(trace, name),
         chart.Panel(
             _along(trace, x),
-            chart.PlotAxis("d ln $\\mu$ / d $z$\n[% / (µm mm)]"),
+            chart.PlotAxis("friction by height\n[% / (µm mm)]"),
             [
                 chart.Series(x, 100.0 * values, GREEN, "change of $\\mu$ by the height", width=0.9),
                 chart.CrossLine(0.0),

@@ -115,10 +115,10 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
         source = "by the chain of waves"
     for name in reliance.estimated_names(data):
         title, number = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}", headline(data, name)
-        parts = [source, f"{number.interval} ({100.0 * LEVEL:.0f} %)" if number.interval else ""]
-        parts.append(friction_parts(data) if name == "friction" else "")
-        detail = "; ".join(filter(None, parts))
-        yield Card(title, significant(number.value), detail, bad=bool(reliance.no_answer(data)))
+        parts = [source, friction_parts(data) if name == "friction" else ""]
+        detail, bad = "; ".join(filter(None, parts)), bool(reliance.no_answer(data))
+        interval = f"{number.interval} ({100.0 * LEVEL:.0f} %)" if number.interval else ""
+        yield Card(title, significant(number.value), detail, bad, interval)
     if MEASURED_FRICTION in data:
         value = significant(float(data[MEASURED_FRICTION]))
         yield Card("Measured friction μ", value, measured_words(data))

@@ -174,7 +174,7 @@ def calibration_page(
     cards = []
     for e in estimates(data):
         value, words = written(e.value, e.unit, 3), PARAMETERS[e.name].words
-        cards.append(Card(words, value, estimate_interval(e), not e.determined))
+        cards.append(Card(words, value, "", not e.determined, f"{estimate_interval(e)} (90 %)"))
     errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
     return Page.of(
         f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
@@ -182,8 +182,8 @@ def calibration_page(
         [*errors, *findings],
         cards,
         [
-            Section("law", "The law", [Text(_CALIBRATION), law_facts(data), *tables]),
-            Section("points", "Point by point", [fit, residuals, points]),
+            Section("law", "The law", [fit, law_facts(data), Text(_CALIBRATION), *tables]),
+            Section("points", "Point by point", [residuals, points]),
             Section("profiles", "How well the data determine the law", [profiles]),
             rerun_section(data.attrs),
         ],

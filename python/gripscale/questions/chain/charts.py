@@ -39,7 +39,7 @@ from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
 from gripscale.questions.vary.axis import EFFECTS, MODELS
-from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE
+from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, OF_THE_PAPER
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -62,7 +62,9 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
 def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
     """Describe what `contact_figure` draws; arguments and errors are its own."""
     views = [PredictionView(data, name) for name, data in predictions.items()]
-    return Sheet([_total_panel(views, name) for name in AXIS_TITLES])
+    judged = any(not view.waves for view in views)
+    title = f"Points: {OF_THE_PAPER}, for comparison" if judged else ""
+    return Sheet([_total_panel(views, name) for name in AXIS_TITLES], legend_title=title)
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:

@@ -179,7 +179,7 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     area, (words, capital) = name == "contact_fraction", _words(name)
     return Panel(
         chart.wavelength_axis(length),
-        PlotAxis(f"{AXIS_TITLES[name]} of longer waves [-]", log=area, low=None if area else 0.0),
+        PlotAxis(f"{AXIS_TITLES[name]},\nlonger waves [-]", log=area, low=None if area else 0.0),
         marks,
         name=f"by-wavelength-{name}",
         caption=f"{capital} down to each wavelength, of every model: where area is lost "

@@ -15,7 +15,7 @@ from gripscale.questions.cut_off.curve import AREA, CONTACT_SLOPE, FRICTION, SLO
 
 _CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
-    AREA: ("$A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
+    AREA: ("contact area $A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
 }
 _SAME = 0.01
 """Relative distance of two rules that lie on each other in a figure."""

@@ -149,8 +149,8 @@ class CutOff(Result):
         else:
             for name, curve in self._curves:
                 value = on_page(significant(float(self.data[curve][-1])))
-                detail = f"{self._range(curve)}, roughness down to {in_mm(self._end, 3)}"
-                cards.append(Card(HEADINGS[name].capitalize(), value, detail))
+                detail, ends = f"roughness down to {in_mm(self._end, 3)}", self._range(curve)
+                cards.append(Card(HEADINGS[name].capitalize(), value, detail, interval=ends))
         return Page.of(
             f"Contact and friction of {case} against the cut-off",
             self.lines[0],

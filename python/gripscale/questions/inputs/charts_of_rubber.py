@@ -81,7 +81,7 @@ def master_curve_sheet(
     """Describe what `master_curve_figure` draws; arguments and errors are its own."""
     omega = np.asarray(excitation, dtype=float)
     variables, attrs = rubber_variables(rubber, master, fit, omega)
-    panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
+    panels = moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
     layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
     return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
 
@@ -91,7 +91,7 @@ def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]
 
     `excited` is the prediction of the chain whose waves are marked, if any.
     """
-    panels = _moduli_panels(inputs, np.empty(0))
+    panels = moduli_panels(inputs)
     if excited is not None:
         omega = excited["angular_frequency"].values
         values = excited["modulus"].values / MEGA, excited["loss_factor"].values
@@ -136,11 +136,11 @@ def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]
     return draw.panels_on_page(panels)
 
 
-def _moduli_panels(
-    inputs: xr.Dataset, excitation: Array, rubber: Rubber | None = None
+def moduli_panels(
+    inputs: xr.Dataset, excitation: ArrayLike = (), rubber: Rubber | None = None
 ) -> list[Panel]:
     """Return moduli and loss factor of recorded inputs; `rubber` at what it is excited with."""
-    omega = inputs["series_omega"].values
+    omega, excitation = inputs["series_omega"].values, np.asarray(excitation, dtype=float)
     ends = [inputs.attrs.get(f"band_{end}_rad_per_s") for end in ("low", "high")]
     low, high = ends[0] or 0.0, math.inf if ends[1] is None else ends[1]
     beyond = (omega < low) | (omega > high)
@@ -293,14 +293,14 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
 
 
 def _temperatures(sweeps: Sweeps) -> draw.ColourBar:
-    """Return what the colours of sweeps mean, cold blue to warm red."""
+    """Return what the colours of sweeps mean, cold blue to warm yellow."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
-    return draw.ColourBar(celsius[0], celsius[-1], "Turbo", CELSIUS.label)
+    return draw.ColourBar(celsius[0], celsius[-1], "Plasma", CELSIUS.label)
 
 
 def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:
     """Yield sweeps with the colours of their temperatures among all `sweeps`."""
-    kelvin, scale = sweeps.temperatures, shades(256, "Turbo")
+    kelvin, scale = sweeps.temperatures, shades(256, "Plasma")
     for sweep in drawn:
         share = (sweep.temperature - kelvin[0]) / max(kelvin[-1] - kelvin[0], 1e-9)
         yield sweep, scale[round(255 * min(max(share, 0.0), 1.0))]

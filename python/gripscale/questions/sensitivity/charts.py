@@ -83,7 +83,7 @@ def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
         panels.append(
             Panel(
                 axis,
-                PlotAxis(f"d ln $\\mu$ / d ln {symbol} per decade"),
+                PlotAxis(f"friction by {symbol} [% for 1 %,\nper decade]"),
                 [*curves, *rules, CrossLine(0.0)],
                 name=f"sensitivity-{'loss' if name == LOSS else 'storage'}",
                 caption=f"Per cent of friction for a per cent of {letter} in a decade: {meaning}.",

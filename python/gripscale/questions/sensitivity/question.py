@@ -219,9 +219,10 @@ class Sensitivity(Result):
             ],
             cards,
             [
-                Section("effects", "What the friction depends on", effects),
                 Section(
-                    "curves", "Over the master curve", [Text(_CURVES), *draw.panels_on_page(panels)]
+                    "effects",
+                    "What the friction depends on",
+                    [Text(_CURVES), *draw.panels_on_page(panels), *effects],
                 ),
                 Section("heights", "Which heights count", draw.panels_on_page(heights)),
                 rerun_section(self.data.attrs),

@@ -1,13 +1,46 @@
 "use strict";
 
-// Draws the figures from the data block of the page, then says so on <html data-drawn>.
-async function drawAll() {
-  const {places, document: figures} = JSON.parse(document.getElementById("figures").textContent);
-  const item = {docid: "figures", roots: places, root_ids: Object.keys(places)};
-  await Bokeh.embed.embed_items({figures}, [item]);
-  const roots = Bokeh.documents.flatMap(each => each.roots());
-  watchOutlines(new Set(roots.flatMap(root => [...root.references()])));
-  document.documentElement.dataset.drawn = String(roots.length);
+const figures = JSON.parse(document.getElementById("figures").textContent);
+const chapters = document.querySelectorAll("details");
+let drawing = Promise.resolve();
+
+// Draws the figures that stand in no closed chapter, then says on <html data-drawn> how many are.
+async function drawOpen() {
+  for (const plot of document.querySelectorAll(".plot:empty")) {
+    if (!plot.closest("details:not([open])")) {
+      const figure = figures[plot.id.replace("plot-", "")];
+      const item = {docid: "figure", roots: {[figure.roots[0].id]: plot.id}};
+      item.root_ids = Object.keys(item.roots);
+      await Bokeh.embed.embed_items({figure}, [item]);
+      watchOutlines(Bokeh.documents.at(-1).roots()[0].references());
+    }
+  }
+  rememberWidths();
+  document.documentElement.dataset.drawn = document.querySelectorAll(".plot:not(:empty)").length;
+}
+
+function drawSoon() {
+  drawing = drawing.then(drawOpen);
+}
+
+function openChapter(hash) {
+  const chapter = document.getElementById(hash.slice(1));
+  if (chapter?.matches("details")) {
+    chapter.open = true;
+  }
+}
+
+function openAll(button) {
+  const open = [...chapters].every(chapter => chapter.open);
+  chapters.forEach(chapter => { chapter.open = !open; });
+  button.textContent = open ? "Open all" : "Close all";
+}
+
+// Chooses the other colours; `page.css` follows the system until then.
+function changeColours() {
+  const root = document.documentElement;
+  const dark = getComputedStyle(root).getPropertyValue("--figures") !== "none";
+  root.className = dark ? "light" : "dark";
 }
 
 // Remembers the width of each figure for the print stylesheet.
@@ -35,10 +68,16 @@ async function copyText(button) {
   }
 }
 
-for (const button of document.querySelectorAll("button[data-copies]")) {
+for (const button of document.querySelectorAll("button")) {
+  const work = {"open-all": openAll, "other-colours": changeColours}[button.id] ?? copyText;
   button.hidden = false;
-  button.addEventListener("click", () => copyText(button));
+  button.addEventListener("click", () => work(button));
 }
+document.querySelector("nav").addEventListener("click", event => openChapter(event.target.hash ?? ""));
+for (const picture of document.querySelectorAll(".image img")) {
+  picture.addEventListener("click", () => picture.classList.toggle("whole"));
+}
+addEventListener("toggle", drawSoon, true);
 addEventListener("resize", rememberWidths);
-rememberWidths();
-drawAll();
+openChapter(location.hash);
+drawSoon();
