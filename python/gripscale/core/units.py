@@ -17,8 +17,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core.checks import MOST, short_repr
+from gripscale.core.arrays import MOST
 from gripscale.core.errors import InputError
+from gripscale.core.wording import short_repr
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
@@ -88,6 +89,9 @@ _SPELLINGS = {word: unit for unit, words in _OTHER_SPELLINGS.items() for word in
 _EXAMPLES = {
     "length": "100 mm",
     "pressure": "3 bar",
+    "modulus": "5 MPa",
+    "frequency": "10 Hz",
+    "angle": "45 deg",
     "speed": "0.3 m/s",
     "time": "0.1 s",
     "temperature": "20 C",
@@ -161,6 +165,40 @@ def parse_quantity(value: Any, kind: str) -> float:
     if spelled(unit, kind) is None:
         raise ValueError(f"unknown unit {short_repr(unit)}; expected one of {listed(kind)}")
     return _finite(quantity_in_si(float(number), unit, kind), kind)
+
+
+_KINDS = {next(iter(sizes)): kind for kind, sizes in reversed(UNITS.items())} | {
+    "rad/s": "frequency"
+}
+"""Kind of quantity by its SI unit: of pressure and modulus the former, whose units are more."""
+
+
+def si_value(name: str, value: Any, unit: str, kind: str = "") -> Any:
+    """Return `value` in the SI `unit` if it is a text such as "3 bar", or a list with such texts.
+
+    `kind` is the kind of quantity where the unit does not say it. Raises `InputError` for a number
+    with another unit or none; any other value is returned as it is.
+    """
+    kind = kind or _KINDS.get(unit, "")
+    if isinstance(value, list | tuple) and any(isinstance(item, str) for item in value):
+        return [si_value(f"each of {name}", item, unit, kind) for item in value]
+    if not kind or not isinstance(value, str) or not _QUANTITY.fullmatch(value):
+        return value
+    try:
+        return parse_quantity(value, kind) / UNITS[kind].get(unit, 1.0)
+    except ValueError as error:
+        raise InputError(f"{name} = {short_repr(value)}: {error}") from error
+
+
+def readable(value: float, unit: str) -> str:
+    """Return a value in the SI `unit` as text in the unit of its size, such as 0.1 mm."""
+    sizes = UNITS.get(_KINDS.get(unit, ""), {})
+    units = [u for u in sizes if u.endswith(unit) and u not in ("min", "cm", "h", "mm/s", "km/h")]
+    if unit in ("m", "Pa", "s") and 0.0 < abs(value) < math.inf:
+        fits = [u for u in units if abs(value) >= 0.9999 * sizes[u]]
+        unit = max(fits or units, key=lambda u: sizes[u] if fits else -sizes[u])
+        value /= sizes[unit]
+    return f"{plain(value, 4)} {unit}".removesuffix(" 1").rstrip()
 
 
 def unit_of(value: object, kind: str) -> str:
