@@ -22,11 +22,12 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import checks
+from gripscale.core.described import Described
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import COMMAND
-from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
+from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, parse_quantity
 from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
@@ -110,7 +111,7 @@ class BelowMeasurement:
     seed: int = 0
 
 
-class Case:
+class Case(Described):
     """A surface, a rubber, a load and conditions: all that a question needs.
 
     Parameters
@@ -210,11 +211,17 @@ class Case:
         self.options = dict(options or {})
         _ = self.rubber_before  # refuses a temperature without a shift
 
-    def __repr__(self) -> str:
-        unit = self.display_unit
-        load = ", ".join(unit(key).text(getattr(self.load, key)) for key in ("pressure", "speed"))
-        name = self.rubber.name or "rubber"
-        return f"Case({self.surface.source or 'surface'}; {name}; {load})"
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield surface, rubber, load and conditions."""
+        yield "surface", self.surface.source or "unnamed"
+        yield "rubber", self.rubber.name or "unnamed"
+        for key in ("pressure", "speed", "footprint", "thickness"):
+            if getattr(self.load, key) is not None:
+                yield key, self.display_unit(key).text(getattr(self.load, key), 4)
+        waves = self.surface.sines.wavelength
+        yield "waves", f"{waves.size} from {in_mm(waves[0], 4)} to {in_mm(waves[-1], 4)}"
+        if self.conditions is not None:
+            yield "conditions", ", ".join(f"{k}={v}" for k, v in self.conditions.shown_rows())
 
     @property
     def rubber(self) -> Rubber:

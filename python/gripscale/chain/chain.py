@@ -23,6 +23,7 @@ from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
 from gripscale.chain.prediction import ChainError, ChainResult, ChainSolve, RubberAt
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.model import MOST_CLASSES, Load, LoadTime, OnProgress
@@ -70,15 +71,15 @@ def solve_chain(
     rubber: Rubber,
     sines: SineStack,
     *,
-    pressure: float,
-    speed: float,
-    footprint: float,
+    pressure: Quantity,
+    speed: Quantity,
+    footprint: Quantity,
     solver: WaveSolverLike = "finite_strain",
-    smallest_wavelength: float | None = None,
+    smallest_wavelength: Quantity | None = None,
     max_scales: int | None = None,
     pressure_classes: int = 1,
     load_time: LoadTime = "passage",
-    thickness: float | None = None,
+    thickness: Quantity | None = None,
     on_scale: Callable[[ChainResult], None] | None = None,
     start: ChainResult | None = None,
     rubber_at: RubberAt | None = None,

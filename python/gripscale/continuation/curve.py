@@ -51,7 +51,7 @@ from gripscale.continuation.roughness import (
     slope_on_faces,
 )
 from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array, Mask, Quantity
 from gripscale.core.checks import checked
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import in_threads, worker_count
@@ -277,10 +277,10 @@ def contact_by_cut_off(
     rubber: Rubber,
     lines: Profile | Sequence[Profile],
     *,
-    pressure: float,
-    speed: float,
-    down_to: float,
-    longest: float = 30e-3,
+    pressure: Quantity,
+    speed: Quantity,
+    down_to: Quantity,
+    longest: Quantity = 30e-3,
     roughness: Roughness | None = None,
     seed: int = 0,
     on_contact: OnContact | None = None,

@@ -28,7 +28,8 @@ _T = TypeVar("_T")
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
     """Return `value` as a float, zero or from `LEAST` to `MOST` in size; else raise `InputError`.
 
-    With a unit, a text such as "3 bar" is a number of that unit. NaN is refused, infinity is accepted only with `infinite`.
+    With a unit, a text such as "3 bar" is a number of that unit. NaN is refused, infinity is
+    accepted only with `infinite`.
     """
     expected = f"{name} must be a finite number{_in(unit)}"
     value = si_value(name, value, unit)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from base64 import b64encode
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import Field, fields, is_dataclass
 from html import escape
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,13 +20,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WIDTH = 100
-_MOST_ROWS = 14
-"""Rows below the name of an object."""
+_FEW = 5
+"""Numbers of an array that are listed."""
+_MOST_LINES = 14
+"""Lines below the name of an object."""
+_LENGTHS = "wavelength amplitude smallest_wavelength thickness footprint distance indentation lag"
 _UNITS = {
-    **dict.fromkeys(("wavelength", "amplitude", "smallest_wavelength", "thickness", "x"), "m"),
-    **dict.fromkeys(("pressure", "nominal_pressure", "nominal", "modulus"), "Pa"),
-    **dict.fromkeys(("speed",), "m/s"),
-    **dict.fromkeys(("time", "duration"), "s"),
+    **dict.fromkeys(f"{_LENGTHS} down_to cut_off lag_range".split(), "m"),
+    **dict.fromkeys(("pressure", "pressure_received", "nominal_pressure"), "Pa"),
+    **dict.fromkeys(("time", "duration", "load_time"), "s"),
+    "speed": "m/s",
 }
 """SI units of fields that state none, by name."""
 
@@ -53,6 +56,8 @@ def _shown_array(values: np.ndarray[Any, Any], unit: str) -> str:
     size = " x ".join(map(str, values.shape))
     if values.dtype.kind not in "fiu" or not np.isfinite(values).any():
         return f"{size} values"
+    if values.ndim == 1 and values.size <= _FEW:
+        return ", ".join(readable(float(value), unit) for value in values)
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     return f"{size} values from {readable(low, unit)} to {readable(high, unit)}"
 
@@ -62,24 +67,27 @@ class Described:
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield what the object shows of itself: names and texts; by default its fields."""
-        for item in fields(self) if is_dataclass(self) else ():
-            check = item.metadata.get("check")
-            unit = getattr(check, "keywords", {}).get("unit", "")
-            value = getattr(self, item.name)
+        items: tuple[Field[Any], ...] = fields(self) if is_dataclass(self) else ()
+        for item in items:
+            check, value = item.metadata.get("check"), getattr(self, item.name)
+            unit = getattr(check, "keywords", {}).get("unit", "") or _UNITS.get(item.name, "")
             empty = value is None or (isinstance(value, str | tuple | list | dict) and not value)
-            if item.repr and not empty:
-                yield item.name, shown_value(value, unit or _UNITS.get(item.name, ""))
+            if (item.repr or isinstance(value, np.ndarray)) and not empty:
+                yield item.name, shown_value(value, unit)
 
     def __repr__(self) -> str:
         name, rows = type(self).__name__, list(self.shown_rows())
         line = f"{name}({', '.join(f'{key}={text}' for key, text in rows)})"
         if len(line) <= _WIDTH:
             return line
-        width = max(len(key) for key, _ in rows)
-        lines = [f"  {key.ljust(width)}  {text}" for key, text in rows]
-        if len(lines) > _MOST_ROWS:
-            lines[_MOST_ROWS - 1 :] = [f"  ... {len(lines) - _MOST_ROWS + 1} more"]
-        return "\n".join([name, *(shortened(line, _WIDTH) for line in lines)])
+        width = max(len(key) for key, _ in rows) + 2
+        lines = []
+        for key, text in rows:
+            first, *rest = wrap(text, _WIDTH - width - 2) or [""]
+            lines += [f"  {key:{width}}{first}", *(" " * (width + 2) + line for line in rest)]
+        if len(lines) > _MOST_LINES:
+            lines[_MOST_LINES - 1 :] = ["  ..."]
+        return "\n".join([name, *lines])
 
 
 class Pictured(Described):

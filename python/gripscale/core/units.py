@@ -190,13 +190,16 @@ def si_value(name: str, value: Any, unit: str, kind: str = "") -> Any:
         raise InputError(f"{name} = {short_repr(value)}: {error}") from error
 
 
+_READABLE = ("m", "mm", "um", "nm", "GPa", "MPa", "kPa", "Pa", "s", "ms", "us", "MHz", "kHz", "Hz")
+"""SI units with prefixes in steps of a thousand."""
+
+
 def readable(value: float, unit: str) -> str:
     """Return a value in the SI `unit` as text in the unit of its size, such as 0.1 mm."""
     sizes = UNITS.get(_KINDS.get(unit, ""), {})
-    units = [u for u in sizes if u.endswith(unit) and u not in ("min", "cm", "h", "mm/s", "km/h")]
-    if unit in ("m", "Pa", "s") and 0.0 < abs(value) < math.inf:
-        fits = [u for u in units if abs(value) >= 0.9999 * sizes[u]]
-        unit = max(fits or units, key=lambda u: sizes[u] if fits else -sizes[u])
+    fits = [u for u in _READABLE if u in sizes and abs(value) >= 0.9999 * sizes[u]]
+    if fits and math.isfinite(value):
+        unit = max(fits, key=lambda u: sizes[u])
         value /= sizes[unit]
     return f"{plain(value, 4)} {unit}".removesuffix(" 1").rstrip()
 

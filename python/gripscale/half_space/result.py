@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
 from functools import cached_property
@@ -35,8 +35,10 @@ from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.described import Pictured
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
@@ -154,8 +156,8 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     return xr.Dataset(data, {"slope": ends})
 
 
-@dataclass(frozen=True)
-class RoughContact:
+@dataclass(frozen=True, repr=False)
+class RoughContact(Pictured):
     """Contact and friction of a whole surface (m, Pa, m/s); arrays have the shape of the grid."""
 
     rubber: Rubber = field(repr=False)
@@ -209,6 +211,27 @@ class RoughContact:
     """Of the rubber on a rigid base [m]; None: a half-space, or `layers`."""
     layers: Layers | None = None
     """The stack, that in contact first and also `rubber`; None: one rubber."""
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield status, contact, friction, load and grid."""
+        yield "status", str(self.status)
+        for name in ("contact_fraction", "friction"):
+            error = getattr(self, f"{name}_error")
+            grid = "" if math.isnan(error) else f" ± {error:.2g}"
+            yield name, f"{getattr(self, name):.4g}{grid}"
+        yield "friction_from_dissipation", f"{self.friction_from_dissipation:.4g}"
+        if self.conditions is not None:
+            yield "total_friction", f"{self.total_friction:.4g}"
+        yield "nominal_pressure", readable(self.nominal_pressure, "Pa")
+        yield "speed", readable(self.speed, "m/s")
+        yield "smallest_wavelength", readable(self.smallest_wavelength, "m")
+        spacing = " and ".join(readable(step, "m") for step in self.grid.spacing)
+        yield "grid", f"{' x '.join(map(str, self.grid.shape))} points, step {spacing}"
+        yield "rubber", self.rubber.name if self.layers is None else repr(self.layers)
+        if self.thickness is not None:
+            yield "thickness", readable(self.thickness, "m")
+        for note in self.notes[:2]:
+            yield "note", note
 
     @property
     def adhesive_friction(self) -> float:

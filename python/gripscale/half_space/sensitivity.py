@@ -54,7 +54,7 @@ import xarray as xr
 
 from gripscale.conditions.conditions import state_by_scale
 from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.arrays import Array, ComplexArray, Quantity
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.labels import labelled
 from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
@@ -384,7 +384,7 @@ def contact_sensitivity(
     *,
     bands_per_decade: int = 2,
     contact_fraction: bool = False,
-    reference_temperature: float | None = None,
+    reference_temperature: Quantity | None = None,
     layer: int = 0,
 ) -> xr.Dataset:
     """Return the derivatives of the friction of a direct contact by all of its inputs.

@@ -18,6 +18,7 @@ import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import checks
+from gripscale.core.arrays import Quantity
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import worker_count
 from gripscale.core.status import Status
@@ -67,11 +68,11 @@ def solve_rough_contact(
     rubber: Rubber | Layers,
     surface: Profile | HeightMap,
     *,
-    pressure: float,
-    speed: float,
-    smallest_wavelength: float | None = None,
+    pressure: Quantity,
+    speed: Quantity,
+    smallest_wavelength: Quantity | None = None,
     periodic: bool = False,
-    thickness: float | None = None,
+    thickness: Quantity | None = None,
     steepest: float = STEEPEST,
     tolerance: float | None = 0.02,
     workers: int | None = None,
@@ -81,7 +82,7 @@ def solve_rough_contact(
     on_grid: Callable[[GridRecord], None] | None = None,
     on_iteration: OnIteration | None = None,
     conditions: Conditions | None = None,
-    footprint: float | None = None,
+    footprint: Quantity | None = None,
     extrapolate: str = "warn",
     start: RoughContact | None = None,
 ) -> RoughContact:

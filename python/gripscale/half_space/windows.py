@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import InputError
 from gripscale.half_space.grid import joined, surface_axes
 from gripscale.half_space.result import RoughContact
@@ -162,7 +162,7 @@ def solve_windows(
     )
 
 
-def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
+def surface_of_sines(stack: SineStack, length: Quantity, seed: int) -> Profile:
     """Return a periodic line of superposed sine waves, each with a random phase.
 
     Raises `InputError` if an argument is out of its range, or there would be more than ten million

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import gripscale
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
+from gripscale.core.arrays import Array, Quantity, Vector
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import FileError
+from gripscale.core.units import celsius
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
@@ -19,8 +23,11 @@ from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import APART, THREE, FileLayout
 from gripscale.rubber.shift import Shift, shift_at
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-class MasterCurve(Checked, eq=False):
+
+class MasterCurve(Checked, Pictured, eq=False):
     """Storage and loss modulus in uniaxial deformation, sorted by ascending frequency.
 
     Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
@@ -50,6 +57,23 @@ class MasterCurve(Checked, eq=False):
 
     def __len__(self) -> int:
         return len(self.frequency)
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield name, ranges of frequency, moduli and loss factor, and temperature."""
+        yield "name", self.name or "unnamed"
+        yield "frequency", f"{shown_value(self.frequency, 'Hz')}, {self.decades:.1f} decades"
+        yield "E'", shown_value(self.storage, "Pa")
+        yield "E''", shown_value(self.loss, "Pa")
+        yield "tan delta", shown_value(self.loss_factor)
+        kelvin = self.reference_temperature
+        yield "temperature", "not stated" if kelvin is None else celsius(kelvin)
+        yield "shift", "none" if self.shift is None else repr(self.shift).partition("\n")[0]
+        if self.source:
+            yield "source", self.source
+
+    def plot(self) -> Figure:
+        """Draw both moduli and the loss factor by frequency as measured."""
+        return gripscale.questions.measured_moduli_figure(self)
 
     @property
     def angular_frequency(self) -> Array:
@@ -90,7 +114,7 @@ _ONE_TEMPERATURE = 2.0
 def read_master_curve(
     path: str | Path,
     *,
-    reference_temperature: float | None = None,
+    reference_temperature: Quantity | None = None,
     name: str | None = None,
     source: str = "",
     **options: Any,

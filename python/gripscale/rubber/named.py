@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
-from gripscale.core.arrays import ComplexArray
+from gripscale.core.arrays import ComplexArray, Quantity
 from gripscale.core.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
@@ -47,7 +47,7 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
 
 
 def styrene_butadiene(
-    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: float = BULK_MODULUS
+    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: Quantity = BULK_MODULUS
 ) -> Rubber:
     """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
 

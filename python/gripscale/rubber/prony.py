@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import InputError
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber import prony_report as report
@@ -104,7 +104,7 @@ def _furthest(
     inside, outside, lowest = 0.0, _FIRST_STEP, problem.squares(best)
     matrix = np.vstack([problem.matrix, _HEAVY * (row / start)])
 
-    def at(step: float) -> tuple[Array, bool]:
+    def at(step: Quantity) -> tuple[Array, bool]:
         value = max(start * math.exp(direction * step) - offset, 0.0)
         right = np.append(problem.right, _HEAVY * (value / start))
         solution = maxwell_fit.non_negative(matrix, right)
@@ -155,7 +155,7 @@ def fit_prony_report(
     master: MasterCurve,
     *,
     terms: int | None = None,
-    bulk_modulus: float = BULK_MODULUS,
+    bulk_modulus: Quantity = BULK_MODULUS,
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = DECADES_BEYOND,
     smoothing: float = _SMOOTHING,

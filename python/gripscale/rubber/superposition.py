@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber.joint_shift import SHIFTED_MODULI, Rows, align, sweep_rows
@@ -231,7 +231,7 @@ _NOMINAL = 0.5
 """How far beyond the first or the last sweep a reference temperature still is that sweep's [K]."""
 
 
-def superpose(sweeps: Sweeps, *, reference_temperature: float, **options: Any) -> MasterCurve:
+def superpose(sweeps: Sweeps, *, reference_temperature: Quantity, **options: Any) -> MasterCurve:
     """Return the master curve of sweeps; options and errors are those of `superpose_report`."""
     master, _ = superpose_report(sweeps, reference_temperature=reference_temperature, **options)
     return master
@@ -240,7 +240,7 @@ def superpose(sweeps: Sweeps, *, reference_temperature: float, **options: Any) -
 def superpose_report(
     sweeps: Sweeps,
     *,
-    reference_temperature: float,
+    reference_temperature: Quantity,
     vertical: bool = False,
     shift: Shift | None = None,
     moduli: str = "both",

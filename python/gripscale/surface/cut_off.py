@@ -362,8 +362,7 @@ def find_cut_off(
         length, words = rule.wavelength, str(rule)
     elif isinstance(rule, RmsSlope):
         length, words = _length_of_slope(slopes, rule), str(rule)
-    elif isinstance(rule, str):
-        checks.one_of("rule", rule, [_INSTRUMENT])
+    elif rule == _INSTRUMENT:
         length, words = limit, "the shortest wavelength that the measurement carries"
     else:
         length, words = checks.positive("rule", rule, unit="m"), "a stated length"

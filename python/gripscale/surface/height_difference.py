@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import gripscale
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array, Mask, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.low_pass import STEEPEST, followed_lines
@@ -115,7 +115,7 @@ def height_difference(
     profile: Profile | Sequence[Profile] | HeightMap,
     *,
     top_height_fraction: float = 1.0,
-    max_lag: float | None = None,
+    max_lag: Quantity | None = None,
     lags_per_decade: int = 20,
     band_blocks: int = 16,
     steepest: float = STEEPEST,

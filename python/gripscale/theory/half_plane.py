@@ -40,7 +40,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
@@ -307,11 +307,11 @@ class HalfPlane(Checked):
 def solve_half_plane(
     rubber: Rubber,
     *,
-    wavelength: float,
-    amplitude: float,
-    pressure: float,
-    speed: float,
-    load_time: float = float("inf"),
+    wavelength: Quantity,
+    amplitude: Quantity,
+    pressure: Quantity,
+    speed: Quantity,
+    load_time: Quantity = float("inf"),
     points: int = HalfPlane.points,
     poisson_ratio: float | None = None,
     most_iterations: int = HalfPlane.most_iterations,

@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.model import Load, Model, OnProgress
@@ -86,12 +86,12 @@ def klueppel_heinrich(
     rubber: Rubber,
     surface: SelfAffineFit | HeightDifference | Profile | Sequence[Profile],
     *,
-    pressure: float,
-    speed: float,
+    pressure: Quantity,
+    speed: Quantity,
     layer_ratio: float,
-    penetration_depth: float,
-    smallest_wavelength: float,
-    footprint: float | None = None,
+    penetration_depth: Quantity,
+    smallest_wavelength: Quantity,
+    footprint: Quantity | None = None,
 ) -> KlueppelHeinrichResult:
     """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
 

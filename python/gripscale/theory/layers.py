@@ -39,7 +39,9 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
+from gripscale.core.units import readable
 from gripscale.rubber import Rubber
 
 _ROWS = 2**14
@@ -48,7 +50,7 @@ _TERMS = 8
 """Of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum."""
 
 
-class Layers:
+class Layers(Described):
     """Layers of rubber on a rigid base, bonded to one another.
 
     Parameters
@@ -102,9 +104,10 @@ class Layers:
     def __iter__(self) -> Iterator[tuple[Rubber, float]]:
         return iter(self._layers)
 
-    def __repr__(self) -> str:
-        parts = ", ".join(f"({rubber.name or 'rubber'}, {d:g})" for rubber, d in self)
-        return f"Layers([{parts}])"
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield thickness and rubber of each layer, that in contact first."""
+        for number, (rubber, thickness) in enumerate(self, start=1):
+            yield f"layer {number}", f"{readable(thickness, 'm')} of {rubber.name or 'rubber'}"
 
     @property
     def rubbers(self) -> list[Rubber]:

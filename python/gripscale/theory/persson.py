@@ -35,7 +35,7 @@ import numpy as np
 
 from gripscale import model
 from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
@@ -214,12 +214,12 @@ def persson(
     rubber: Rubber,
     spectrum: ArealSpectrum | ProfileSpectrum,
     *,
-    pressure: float,
-    speed: float,
-    smallest_wavelength: float | None = None,
+    pressure: Quantity,
+    speed: Quantity,
+    smallest_wavelength: Quantity | None = None,
     gamma: float = 0.5,
-    footprint: float | None = None,
-    thickness: float | None = None,
+    footprint: Quantity | None = None,
+    thickness: Quantity | None = None,
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
 

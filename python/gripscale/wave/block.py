@@ -20,6 +20,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
@@ -175,11 +176,11 @@ class FiniteStrainBlock(Checked):
 def solve_scale(
     rubber: Rubber,
     *,
-    wavelength: float,
-    amplitude: float,
-    pressure: float,
-    speed: float,
-    load_time: float = math.inf,
+    wavelength: Quantity,
+    amplitude: Quantity,
+    pressure: Quantity,
+    speed: Quantity,
+    load_time: Quantity = math.inf,
     depth: float = Mesh.depth,
     columns: int = Mesh.columns,
     rows: int = Mesh.rows,
@@ -268,10 +269,10 @@ def solve_profile(
     rubber: Rubber,
     profile: Profile,
     *,
-    pressure: float,
-    speed: float,
-    load_time: float = math.inf,
-    smallest_wavelength: float | None = None,
+    pressure: Quantity,
+    speed: Quantity,
+    load_time: Quantity = math.inf,
+    smallest_wavelength: Quantity | None = None,
     periodic: bool = False,
     depth: float = Mesh.depth,
     columns: int | None = None,
@@ -331,7 +332,9 @@ def solve_profile(
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
     checks.flag("periodic", periodic)
-    if smallest_wavelength is None and not periodic:
+    if smallest_wavelength is not None:
+        smallest_wavelength = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+    elif not periodic:
         smallest_wavelength = min(RESOLVED_STEPS * profile.step, len(profile) * profile.step)
     heights = _heights(profile, smallest_wavelength, periodic)
     smallest = smallest_wavelength or heights.wavelength / heights.waves

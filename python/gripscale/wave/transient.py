@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.rubber import Rubber
@@ -39,8 +40,8 @@ class Stage(Checked):
     """Mean pressure [Pa]."""
 
 
-@dataclass(frozen=True, eq=False)
-class TransientResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class TransientResult(Described):
     """Friction and contact against time; arrays of shape (moments,).
 
     `status` is `converged`, or the reason why the run ended early; its moments are valid.
@@ -102,8 +103,8 @@ class TransientResult:
 def solve_transient(
     rubber: Rubber,
     *,
-    wavelength: float,
-    amplitude: float,
+    wavelength: Quantity,
+    amplitude: Quantity,
     stages: Sequence[Stage],
     start: ScaleResult | None = None,
     depth: float = 1.5,
@@ -153,8 +154,8 @@ def solve_transient(
         pressure=run.pressure,
         friction=run.friction,
         contact_fraction=run.contact_fraction,
-        indentation=run.approach * wavelength,
+        indentation=run.approach * profile.wavelength,
         status=Status(run.status),
         newton_iterations=run.newton_iterations,
-        wavelength=float(wavelength),
+        wavelength=profile.wavelength,
     )

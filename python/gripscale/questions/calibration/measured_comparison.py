@@ -67,7 +67,7 @@ class Predicted(Checked, eq=False):
     friction: Vector = checked(checks.vector, missing=True, repr=False)
     contact_fraction: Vector = checked(checks.vector, missing=True, repr=False)
     pressure: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
-    temperature: Vector = checked(checks.vector, missing=True, repr=False)
+    temperature: Vector = checked(checks.vector, unit="K", missing=True, repr=False)
     outside_band: Vector = checked(checks.vector, missing=True, default=None, repr=False)
     status: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
     status_word: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
 CELSIUS = PlotAxis("temperature [°C]")
 KILO = 1e3
+_TWO_TO_ONE: dict[str, Any] = {"sharex": True, "height_ratios": [2.0, 1.0]}
 _MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
 
 
@@ -82,8 +83,7 @@ def master_curve_sheet(
     omega = np.asarray(excitation, dtype=float)
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = _moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
-    layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
-    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
+    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=_TWO_TO_ONE)
 
 
 def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]:
@@ -211,6 +211,25 @@ def _rows(
     if out.any():
         yield Series(omega[out], values[out], colour, "left out of the fit", "",
                      marker="x", listed=listed)  # fmt: skip
+
+
+def measured_moduli_figure(master: MasterCurve) -> Figure:
+    """Draw both moduli [MPa] and the loss factor of a master curve as measured."""
+    omega = master.angular_frequency
+    marks: dict[str, Any] = {"dash": "", "marker": ".", "size": 3.5}
+    moduli: list[Mark] = [
+        Series(omega, getattr(master, part) / MEGA, colour, name, **marks)
+        for part, name, colour in _MODULI
+    ]
+    panels = [
+        Panel(OMEGA, PlotAxis("modulus $E'$, $E''$ [MPa]", log=True), moduli),
+        Panel(
+            OMEGA,
+            PlotAxis("loss factor $E''/E'$ [-]", low=0.0),
+            [Series(omega, master.loss_factor, GREEN, **marks)],
+        ),
+    ]
+    return Sheet(panels, 1, NARROW, 4.9, gap=0.02, layout=_TWO_TO_ONE).on_paper()
 
 
 def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:

@@ -16,6 +16,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Quantity
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.units import display_unit_of
@@ -261,7 +262,7 @@ def sensitivity(
     *,
     bands_per_decade: int | None = ...,
     contact_fraction: bool = ...,
-    reference_temperature: float | None = ...,
+    reference_temperature: Quantity | None = ...,
 ) -> xr.Dataset: ...
 
 
@@ -286,7 +287,7 @@ def sensitivity(
     bands_per_decade: int | None = None,
     contact_fraction: bool = False,
     with_feedback: bool = False,
-    reference_temperature: float | None = None,
+    reference_temperature: Quantity | None = None,
     folder: str | Path | None = None,
     workers: int | None = None,
     on_task: OnTask | None = None,
