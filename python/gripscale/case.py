@@ -114,6 +114,9 @@ class BelowMeasurement:
 class Case(Described):
     """A surface, a rubber, a load and conditions: all that a question needs.
 
+    Raises `InputError` if a value cannot be used, no waves fit the surface, or the rubber has no
+    shift to the temperature of the conditions.
+
     Parameters
     ----------
     surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
@@ -154,12 +157,6 @@ class Case(Described):
         Options of questions that the case states, by question.
     origin : Origin, optional
         Where the case was read from.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, no waves fit the surface, or the rubber has no shift to the
-        temperature of the conditions.
     """
 
     def __init__(
@@ -269,6 +266,9 @@ class Case(Described):
         answers. A case that was read from a file keeps its text and gets copies of its files; any
         other is written in SI units, profiles, maps and moduli as text files.
 
+        Raises `InputError` for what a case file cannot state, such as a solver of your own. Raises
+        `FileError` if a file cannot be written, or one of the case has changed since it was read.
+
         Parameters
         ----------
         path : path-like
@@ -278,13 +278,6 @@ class Case(Described):
         -------
         Path
             The case file.
-
-        Raises
-        ------
-        InputError
-            For what a case file cannot state, such as a solver of your own.
-        FileError
-            If a file cannot be written, or one of the case has changed since it was read.
         """
         written: Path = face(CASE_WRITER)(self, Path(path))
         return written

@@ -107,6 +107,8 @@ def propose(
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
+    Raises `InputError` or `FileError` if the files hold no surface or no moduli, or cannot be read.
+
     Parameters
     ----------
     files : sequence of path-like
@@ -125,11 +127,6 @@ def propose(
         What the file of the rubber does not state: keys of [rubber], such as columns.
     thickness : str, optional
         Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
-
-    Raises
-    ------
-    InputError, FileError
-        If the files hold no surface or no moduli, or cannot be read.
     """
     kelvin = None if temperature is None else temperature_in_kelvin(temperature)
     layout = layout or {}

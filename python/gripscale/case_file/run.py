@@ -27,6 +27,8 @@ def run_case(
 ) -> ChainRun:
     """Solve the chain of waves of a case file.
 
+    Raises `FileError` or `InputError` for what cannot be read, used or written.
+
     Parameters
     ----------
     file : path or CaseFile
@@ -48,11 +50,6 @@ def run_case(
     -------
     ChainRun
         A wave that did not converge ends its prediction, which is named in `failures`.
-
-    Raises
-    ------
-    FileError, InputError
-        For what cannot be read, used or written.
     """
     file = file if isinstance(file, CaseFile) else read_case_file(file)
     emit = on_event or (lambda event: None)

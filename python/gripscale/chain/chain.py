@@ -89,6 +89,12 @@ def solve_chain(
 ) -> ChainResult:
     """Predict contact and friction by the chain over the waves of `sines`, largest first.
 
+    Raises `ExtrapolationError`: an `InputError`: the rubber would be extrapolated and `extrapolate`
+    is "refuse". Raises `InputError`: A value that cannot be used; the pressure is more than ten
+    times the relaxed modulus of the rubber after the load time of the first wave. Raises
+    `ChainError`: A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so
+    far.
+
     Parameters
     ----------
     rubber
@@ -140,16 +146,6 @@ def solve_chain(
     -------
     ChainResult
         One `ScaleResult` per wave, with running area and friction.
-
-    Raises
-    ------
-    ExtrapolationError
-        An `InputError`: the rubber would be extrapolated and `extrapolate` is "refuse".
-    InputError
-        A value that cannot be used; the pressure is more than ten times the relaxed modulus of the
-        rubber after the load time of the first wave.
-    ChainError
-        A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
     """
     chain = Chain(
         solver=wave_solver(solver, options),

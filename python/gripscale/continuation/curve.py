@@ -291,6 +291,10 @@ def contact_by_cut_off(
     Cut-offs are an octave apart. Above the shortest wavelength that the lines resolve, the waves
     are measured; below, they are continued and the numbers have a `band`, but for a `refusal`.
 
+    Raises `InputError` if an argument is out of its range, a finer measurement does not reach
+    `down_to` or is rougher or smoother than the faces by more than a factor of three where both are
+    measured; and as `solve_rough_contact` does.
+
     Parameters
     ----------
     rubber : Rubber
@@ -313,13 +317,6 @@ def contact_by_cut_off(
         Called with each contact of the result as it is solved.
     options
         Further arguments of `solve_rough_contact`: conditions, footprint, extrapolate.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, a finer measurement does not reach `down_to` or is
-        rougher or smoother than the faces by more than a factor of three where both are measured;
-        and as `solve_rough_contact` does.
     """
     profiles = [lines] if isinstance(lines, Profile) else checks.instances("lines", lines, Profile)
     source = OwnFaces() if roughness is None else as_roughness("roughness", roughness)

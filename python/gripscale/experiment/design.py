@@ -164,6 +164,8 @@ def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
 def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:
     """Return the answers of a design over its dimensions.
 
+    Raises `InputError` or `FileError` as `Bench.solve`.
+
     Parameters
     ----------
     design : Design
@@ -178,11 +180,6 @@ def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> 
     -------
     xarray.Dataset
         As `Design.dataset`.
-
-    Raises
-    ------
-    InputError, FileError
-        As `Bench.solve`.
     """
     return design.dataset(bench.solve(design.tasks, pick))
 

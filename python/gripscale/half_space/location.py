@@ -70,6 +70,8 @@ def contact_trace(
 ) -> xr.Dataset:
     """Return a contact along a line as charts draw it, in pieces.
 
+    Raises `InputError` if the stretch is not positive.
+
     Parameters
     ----------
     contact : RoughContact
@@ -96,11 +98,6 @@ def contact_trace(
         `stretch_load`, its parts of them. Of a map also `section` [m], the y of the line, and over
         `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of contact, at `field_x`
         and `field_y` [m].
-
-    Raises
-    ------
-    InputError
-        If the stretch is not positive.
     """
     x, step = contact.x, contact.grid.spacing[0]
     length = stretch_length(contact) if stretch is None else checks.positive("stretch", stretch)

@@ -393,6 +393,9 @@ def contact_sensitivity(
     energy lost. Under conditions the rubber of each scale keeps its strain and its temperature
     rise: the effect of an input on them is left out (`settled` in the attributes).
 
+    Raises `InputError` if the contact is at rest, has no friction or not this layer, or is
+    something else; if the rubber has no shift to the reference temperature.
+
     Parameters
     ----------
     contact : RoughContact
@@ -420,12 +423,6 @@ def contact_sensitivity(
         [1/K], NaN without a shift. Over `term`: `d_ln_friction_d_ln_modulus` [-], of the moduli of
         the Prony series with `relaxation_time` [s], infinite for the equilibrium modulus. Over `x`
         [m], and `y` of a map: `d_friction_d_height` [1/m], of the height of one point of the grid.
-
-    Raises
-    ------
-    InputError
-        If the contact is at rest, has no friction or not this layer, or is something else; if the
-        rubber has no shift to the reference temperature.
     """
     checks.instance("contact", contact, RoughContact)
     checks.whole("layer", layer, least=0, most=len(contact.body.rubbers) - 1)

@@ -90,6 +90,12 @@ def solve_rough_contact(
 
     A `status` other than "converged" says why not to trust the numbers.
 
+    Raises `ExtrapolationError`: an `InputError`: the rubber would be extrapolated and `extrapolate`
+    is "refuse". Raises `ConvergenceError` if the time limit ends before any grid is solved. Raises
+    `InputError` if an argument is out of its range, the first full grid has more than
+    `most_points`, a size is beyond what single precision can hold, or the rubber at rest is a melt:
+    the pressure is more than ten times the equilibrium modulus.
+
     Parameters
     ----------
     rubber : Rubber or Layers
@@ -149,17 +155,6 @@ def solve_rough_contact(
         Contact of the same surface and cut-off with another rubber, pressure or speed. Its grid is
         the first and, without a tolerance, the only one, so that the result has no cut-off
         exponents. Conditions that are iterated start anew.
-
-    Raises
-    ------
-    ExtrapolationError
-        An `InputError`: the rubber would be extrapolated and `extrapolate` is "refuse".
-    ConvergenceError
-        If the time limit ends before any grid is solved.
-    InputError
-        If an argument is out of its range, the first full grid has more than `most_points`, a size
-        is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
-        more than ten times the equilibrium modulus.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions

@@ -53,15 +53,13 @@ _TERMS = 8
 class Layers(Described):
     """Layers of rubber on a rigid base, bonded to one another.
 
+    Raises `InputError` unless there is at least one layer, each a `Rubber` and a thickness above
+    zero.
+
     Parameters
     ----------
     layers : sequence of (Rubber, float)
         Rubber and thickness [m] of each layer, that in contact first.
-
-    Raises
-    ------
-    InputError
-        Unless there is at least one layer, each a `Rubber` and a thickness above zero.
     """
 
     __slots__ = ("_layers",)

@@ -122,6 +122,9 @@ class Answer(NumbersWithIntervals):
 def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     """Return friction and contact area of a case, with their 90 % intervals.
 
+    Raises `InputError` if the direct contact cannot use the rubber or a profile, or the roughness
+    below the measurement has no result.
+
     Parameters
     ----------
     case : Case
@@ -134,12 +137,6 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     -------
     Answer
         `print` shows what `gripscale run` prints.
-
-    Raises
-    ------
-    InputError
-        If the direct contact cannot use the rubber or a profile, or the roughness below the
-        measurement has no result.
     """
     inputs = record.inputs(case, further=friction_doubts(case.friction, case.load.speed))
     samples = direct_contact.solve_direct_contact(case)

@@ -300,6 +300,9 @@ def fit_area_term(
     Weighted with the spread of the measurement; without any, all points weigh the same and the
     scatter of the residuals is taken for it.
 
+    Raises `InputError` if a value cannot be used, points are too few for the law, or the hysteresis
+    alone exceeds what was measured at more than half of the points.
+
     Parameters
     ----------
     measured : MeasuredFriction
@@ -314,12 +317,6 @@ def fit_area_term(
     hold_out : str, optional
         "temperature" or "speed": predict each temperature, or each decade of speed, from the
         others.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, points are too few for the law, or the hysteresis alone exceeds
-        what was measured at more than half of the points.
     """
     checks.instance("measured", measured, MeasuredFriction)
     checks.instance("predicted", predicted, Predicted)

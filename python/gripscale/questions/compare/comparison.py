@@ -248,6 +248,8 @@ def at_measured(
 ) -> xr.Dataset | None:
     """Return what the rungs that predict say at each measured speed, temperature and pressure.
 
+    Raises `InputError` or `FileError` as `predictions_at`.
+
     Parameters
     ----------
     ladder : SolvedLadder
@@ -263,11 +265,6 @@ def at_measured(
         As `gripscale.questions.residuals`, with the area term of the case's conditions; None where
         no friction was measured or no rung predicts. Of several samples of a rung the means; beside
         the direct contact the `answer` of the case, which has its factors on friction and area.
-
-    Raises
-    ------
-    InputError, FileError
-        As `predictions_at`.
     """
     measured, setup = ladder.measured, ladder.setups[0]
     if measured is None:

@@ -134,6 +134,10 @@ def compare(
 ) -> Comparison:
     """Put the models side by side over the inputs of a case.
 
+    Raises `InputError` or `FileError` if an input cannot be used by a model, a result cannot be
+    written, the case refuses extrapolation and a wave excites the rubber beyond the measured band,
+    or other than one input of numbers is varied.
+
     Parameters
     ----------
     case : Case
@@ -165,13 +169,6 @@ def compare(
     Comparison
         Over `rung`, and what is varied. Without a measured profile only the chain and its own waves
         at once. A sample that did not converge counts in no mean, and its rung says so.
-
-    Raises
-    ------
-    InputError, FileError
-        If an input cannot be used by a model, a result cannot be written, the case refuses
-        extrapolation and a wave excites the rubber beyond the measured band, or other than one
-        input of numbers is varied.
     """
     doubtful: list[Finding] = []
     if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:

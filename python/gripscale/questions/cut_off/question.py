@@ -214,6 +214,8 @@ def cut_off(
 ) -> CutOff:
     """Return contact and friction of a case against the cut-off.
 
+    Raises `InputError` or `FileError` for what cannot be used; if nothing was measured.
+
     Parameters
     ----------
     case : Case
@@ -234,11 +236,6 @@ def cut_off(
         `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
         The totals are those of the last cut-off; not numbers where the faces foretell no octave
         below the measurement, at which the curves then end (`findings`).
-
-    Raises
-    ------
-    InputError, FileError
-        For what cannot be used; if nothing was measured.
     """
     end = None if down_to is None else in_si("down_to", down_to, "length")
     with bench_in(folder, workers, None, on_task) as bench:

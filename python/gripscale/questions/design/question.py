@@ -95,6 +95,10 @@ def design(
     Small strain, direct contact, hysteresis alone: of the conditions of the case only the
     temperature counts.
 
+    Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal or a limit cannot be
+    used, a temperature needs a shift that the rubber does not have, or today's compound has no
+    friction.
+
     Parameters
     ----------
     case : Case
@@ -125,12 +129,6 @@ def design(
         Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %), friction,
         moduli and master curve; over `compound` the other compounds; today's values without
         either.
-
-    Raises
-    ------
-    InputError, FileError, ConvergenceError
-        If the case, a goal or a limit cannot be used, a temperature needs a shift that the rubber
-        does not have, or today's compound has no friction.
     """
     target = None if folder is None else Path(folder)
     if target is not None:

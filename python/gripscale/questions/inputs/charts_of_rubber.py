@@ -258,17 +258,14 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     """Draw the sweeps as measured and shifted: moduli [MPa] and loss factor by frequency [Hz].
 
+    Raises `InputError` if the master curve has no shift.
+
     Parameters
     ----------
     sweeps
         The sweeps.
     master
         Their master curve, with its shift.
-
-    Raises
-    ------
-    InputError
-        If the master curve has no shift.
     """
     return superposition_sheet(sweeps, master).on_paper()
 
@@ -435,15 +432,12 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
     """Draw nominal stress [kPa] against stretch, one panel for each test.
 
+    Raises `InputError` if there is no fit, or the fits are of different tests.
+
     Parameters
     ----------
     fits
         Label of each fit in the legend -> fit; all of the same tests.
-
-    Raises
-    ------
-    InputError
-        If there is no fit, or the fits are of different tests.
     """
     first = next(iter(fits.values()), None)
     if first is None or any(fit.tests != first.tests for fit in fits.values()):

@@ -294,6 +294,9 @@ def sensitivity(
 ) -> Sensitivity | xr.Dataset:
     """Return the derivatives of the friction of a case, or of one direct contact.
 
+    Raises `InputError` or `FileError` for what cannot be used; if the case is at rest, or has no
+    measured surface.
+
     Parameters
     ----------
     subject : Case or RoughContact
@@ -329,11 +332,6 @@ def sensitivity(
         the traces of the profiles (`gripscale.half_space.location.traces_of`).
     xarray.Dataset
         Of a contact, see `gripscale.half_space.contact_sensitivity`.
-
-    Raises
-    ------
-    InputError, FileError
-        For what cannot be used; if the case is at rest, or has no measured surface.
     """
     if not isinstance(subject, Case):
         return contact_sensitivity(

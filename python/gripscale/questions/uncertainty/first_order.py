@@ -176,6 +176,8 @@ def first_order(
 ) -> xr.Dataset:
     """Return the errors of friction and contact area of a case by each source.
 
+    Raises `InputError` as `Tangent.of`.
+
     Parameters
     ----------
     case : Case
@@ -193,11 +195,6 @@ def first_order(
         Over `source`: `friction_error` and `contact_fraction_error`, the relative standard errors
         by first order [-]; NaN for the stretch of road where pieces of the profiles are too few.
         The grid has none.
-
-    Raises
-    ------
-    InputError
-        As `Tangent.of`.
     """
     measurement = Measurement.of(case)
     asked = uncertainty or Uncertainty.of_case(stated_options(case))

@@ -48,11 +48,8 @@ _KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, STATUS, STATUS_WORD, "predic
 def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:
     """Return what has to be solved, by the effects that count: "all", "no heat", ..., "none".
 
-    Raises
-    ------
-    InputError
-        If the model has no conditions, its conditions do nothing to the rubber, or the rubber has
-        no shift to the temperature they state.
+    Raises `InputError` if the model has no conditions, its conditions do nothing to the rubber, or
+    the rubber has no shift to the temperature they state.
     """
     asked = inputs.effects_asked(model)
     if not asked:
@@ -81,6 +78,9 @@ def effects(
 ) -> xr.Dataset:
     """Return what each effect of the conditions of a model is worth.
 
+    Raises `InputError` as `effect_tasks`, and for an input that cannot be used. Raises `FileError`
+    if a result cannot be written.
+
     Parameters
     ----------
     model : Model
@@ -99,13 +99,6 @@ def effects(
         Over `effect`: "all", "no" each effect that was asked for, "none": the totals of the model,
         friction with the area term if there is one, `prediction_status`, and the changes by what
         was left out [-], which are NaN for "all" and where one of both did not converge.
-
-    Raises
-    ------
-    InputError
-        As `effect_tasks`, and for an input that cannot be used.
-    FileError
-        If a result cannot be written.
     """
     tasks = effect_tasks(model, rubber, surface, load)
     points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
@@ -160,6 +153,8 @@ def case_effects(
 ) -> xr.Dataset | None:
     """Return what each effect is worth in a sliding case, and write it into `folder`.
 
+    Raises `FileError` if a result cannot be written.
+
     Parameters
     ----------
     case : Case
@@ -179,11 +174,6 @@ def case_effects(
     -------
     xarray.Dataset or None
         As `effects`; None of a case at rest, or whose conditions do nothing to the rubber.
-
-    Raises
-    ------
-    FileError
-        If a result cannot be written.
     """
     asked, load = inputs.effects_asked(model), case.load
     if not asked or load.speed == 0.0:

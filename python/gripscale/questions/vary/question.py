@@ -86,6 +86,9 @@ def vary(
 ) -> Variation:
     """Return friction and contact area of a case over one or two of its inputs.
 
+    Raises `InputError` or `FileError`: an input that cannot be used, a result that cannot be
+    written.
+
     Parameters
     ----------
     case : Case
@@ -105,11 +108,6 @@ def vary(
     Variation
         Per wave and in total, over the varied axes; at rest with the prefix `static_`. A prediction
         that did not converge has NaN totals and says why in `prediction_status`.
-
-    Raises
-    ------
-    InputError, FileError
-        An input that cannot be used, a result that cannot be written.
     """
     study = Study(case, axes, static=static, model=model, tolerance=tolerance)
     data = study.run(folder, workers=workers, client=client, on_task=on_task)

@@ -56,6 +56,8 @@ def at_one_temperature(
     Without a `temperature` it is that of the rubbers which cannot be shifted, or else of the first
     that states one. A rubber whose temperature is not known stays as it is, which is said.
 
+    Raises `InputError` if a rubber would have to be shifted and has no shift.
+
     Parameters
     ----------
     rubbers
@@ -68,11 +70,6 @@ def at_one_temperature(
     tuple
         The rubbers, and a sentence for each that was shifted and for what is doubtful (see
         `gripscale.rubber.temperature_doubts`).
-
-    Raises
-    ------
-    InputError
-        If a rubber would have to be shifted and has no shift.
     """
     temperatures = {
         name: rubber.reference_temperature
@@ -227,6 +224,9 @@ def compare_compounds(
 ) -> Compounds:
     """Predict area and friction of several compounds on the road of a case, and compare them.
 
+    Raises `InputError` or `FileError` if there are fewer than two or more than six compounds, one
+    cannot be read, or they cannot be brought to one temperature.
+
     Parameters
     ----------
     case
@@ -254,12 +254,6 @@ def compare_compounds(
         to the first and so on, with its `_low` and `_high`; by wave `friction_running`, from the
         largest wave down, and `friction_difference`; by decade of relaxation time
         `friction_by_decade_difference`.
-
-    Raises
-    ------
-    InputError, FileError
-        If there are fewer than two or more than six compounds, one cannot be read, or they cannot
-        be brought to one temperature.
     """
     require_some("rubbers", rubbers, "compounds")
     measured = {name: measured_rubber_of(value, case) for name, value in rubbers.items()}

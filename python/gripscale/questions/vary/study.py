@@ -119,6 +119,8 @@ STUDY_FILE = "study.nc"
 class Study:
     """A case with one or two of its inputs varied.
 
+    Raises `InputError` or `FileError`: A value or a file that cannot be used.
+
     Parameters
     ----------
     case
@@ -140,11 +142,6 @@ class Study:
         is varied, else the chain.
     tolerance
         Estimated relative error of a direct contact that is chosen by name or by default.
-
-    Raises
-    ------
-    InputError, FileError
-        A value or a file that cannot be used.
     """
 
     def __init__(
@@ -252,6 +249,9 @@ class Study:
     ) -> xr.Dataset:
         """Solve what `folder` does not have yet, and write and return the Dataset.
 
+        Raises `InputError` or `FileError`: an input that cannot be used, a result that cannot be
+        written.
+
         Parameters
         ----------
         folder : path, optional
@@ -265,11 +265,6 @@ class Study:
         xarray.Dataset
             Per wave and in total, over the varied axes; at rest with the prefix `static_`.
             A prediction that did not converge has NaN totals and says why in `prediction_status`.
-
-        Raises
-        ------
-        InputError, FileError
-            An input that cannot be used, a result that cannot be written.
         """
         with bench_in(folder, workers, client, on_task) as bench:
             data = None if folder is None else self.stored(folder)

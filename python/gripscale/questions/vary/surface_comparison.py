@@ -247,6 +247,9 @@ def compare_surfaces(
 ) -> Roads:
     """Predict area and friction of a case's rubber on several roads, and compare them.
 
+    Raises `InputError` or `FileError` if there are fewer than two or more than six roads, or one
+    cannot be read.
+
     Parameters
     ----------
     case
@@ -271,11 +274,6 @@ def compare_surfaces(
         with its `_low` and `_high`; over `octave` of wavelength `friction_running`, from
         the longest wave down, and `friction_difference`; over `surface` the texture
         (`gripscale.surface.texture`); `correlation` over `lag` and `spectrum` over `wavenumber`.
-
-    Raises
-    ------
-    InputError, FileError
-        If there are fewer than two or more than six roads, or one cannot be read.
     """
     rubber_comparison.require_some("surfaces", surfaces, "roads")
     if samples is not None:
