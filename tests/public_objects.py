@@ -51,7 +51,7 @@ def public_objects() -> dict[str, Any]:
     """Return the names that examples use, with what they stand for."""
     rubber = tread()
     road, other_road = (
-        self_affine_profile(0.8, 4e-3, 1e-4, length=0.1, step=1e-4, seed=seed) for seed in (1, 2)
+        self_affine_profile(0.8, 3e-3, 4e-4, length=0.2, step=1e-4, seed=seed) for seed in (1, 2)
     )
     x = np.arange(64) * 2e-4
     waves = np.cos(2.0 * np.pi * x / 6.4e-3)
@@ -66,6 +66,7 @@ def public_objects() -> dict[str, Any]:
         "sweeps": sweeps_of(rubber),
         "road": road,
         "other_road": other_road,
+        "sampled": gs.Profile(x, 1e-4 * waves, name="sine"),
         "height_map": gs.HeightMap(x, x, 1e-4 * np.outer(waves, waves), name="texture"),
         "sines": gs.SineStack(["8 mm", "2 mm"], ["0.5 mm", "0.1 mm"]),
         "case": case,
@@ -85,7 +86,8 @@ def public_objects() -> dict[str, Any]:
 
 
 def write_files(folder: Path, objects: dict[str, Any]) -> None:
-    """Write the files that examples read: road.txt, dma.txt, sweeps.csv, friction.csv, case.toml."""
+    """Write the files that examples read: surfaces, moduli, measured friction and a case."""
+    np.savetxt(folder / "map.txt", objects["height_map"].z.T * 1e3, "%.6f")
     write_road(folder / "road.txt", objects["road"])
     write_master_curve(folder / "dma.txt", objects["master"])
     sweeps = objects["sweeps"]

@@ -21,13 +21,13 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
-from gripscale.core import checks
+from gripscale.core.arrays import Quantity
 from gripscale.core.described import Described
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import COMMAND
-from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, parse_quantity
+from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, si_value
 from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
@@ -117,6 +117,9 @@ class Case(Described):
     Raises `InputError` if a value cannot be used, no waves fit the surface, or the rubber has no
     shift to the temperature of the conditions.
 
+        >>> gs.Case(road, rubber, pressure="3 bar", speed="3 km/h").load.pressure
+        300000.0
+
     Parameters
     ----------
     surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
@@ -164,11 +167,11 @@ class Case(Described):
         surface: SurfaceLike,
         rubber: RubberLike,
         *,
-        pressure: float | str,
-        speed: float | str,
-        footprint: float | str = 0.1,
-        thickness: float | str | None = None,
-        smallest_wavelength: float | str | None = None,
+        pressure: Quantity,
+        speed: Quantity,
+        footprint: Quantity = 0.1,
+        thickness: Quantity | None = None,
+        smallest_wavelength: Quantity | None = None,
         waves: int = _WAVES,
         conditions: Conditions | None = None,
         load_time: LoadTime = "passage",
@@ -182,13 +185,7 @@ class Case(Described):
         origin: Origin | None = None,
     ) -> None:
         self.origin = origin or Origin()
-        self.load = Load(
-            in_si("pressure", pressure, "pressure"),
-            in_si("speed", speed, "speed"),
-            in_si("footprint", footprint, "length"),
-            load_time,
-            None if thickness is None else in_si("thickness", thickness, "length"),
-        )
+        self.load = Load(pressure, speed, footprint, load_time, thickness)
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
         if isinstance(rubber, Rubber):
@@ -197,9 +194,7 @@ class Case(Described):
             fitted, fit = fit_prony_report(rubber)
             rubber = MeasuredRubber(fitted, rubber.source, rubber, fit)
         self.measured_rubber = rubber
-        end = None
-        if smallest_wavelength is not None:
-            end = in_si("smallest_wavelength", smallest_wavelength, "length")
+        end = si_value("smallest_wavelength", smallest_wavelength, "m")
         self.cleaning = {} if cleaning is None else _CLEANED_AS_USUAL | dict(cleaning)
         self.surface = _surface(surface, end, waves, self.cleaning)
         self.below_measurement = below_measurement or BelowMeasurement()
@@ -260,7 +255,7 @@ class Case(Described):
         return hashlib.sha256(content.encode()).hexdigest()
 
     def save(self, path: str | Path) -> Path:
-        """Write the case as a case file, with its measurements in the folder `inputs` beside it.
+        """Write the case as a case file, its measurements in the folder `inputs`; return its path.
 
         The case that `gripscale.read_case` reads from it, there or wherever both go, has the same
         answers. A case that was read from a file keeps its text and gets copies of its files; any
@@ -273,11 +268,6 @@ class Case(Described):
         ----------
         path : path-like
             The case file (TOML), such as "folder/case.toml". An earlier one is replaced.
-
-        Returns
-        -------
-        Path
-            The case file.
         """
         written: Path = face(CASE_WRITER)(self, Path(path))
         return written
@@ -376,16 +366,6 @@ class Case(Described):
             for text in temperature_doubts(rubbers):
                 sentence = f"{text[0].upper()}{text[1:]}."
                 yield Finding(Severity.WARNING, sentence, topic=Topic.RUBBER)
-
-
-def in_si(name: str, value: float | str, kind: str) -> float:
-    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar"."""
-    if not isinstance(value, str):
-        return checks.number(name, value)
-    try:
-        return parse_quantity(value, kind)
-    except ValueError as error:
-        raise InputError(f" = {value!r}: {error}", key=name) from error
 
 
 def described_surface(

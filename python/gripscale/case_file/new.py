@@ -33,7 +33,7 @@ from gripscale.case_file.read import read_case_file
 from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.finding import Finding, ranked
-from gripscale.core.units import temperature_in_kelvin
+from gripscale.core.units import si_value
 from gripscale.io.folders import make_folder, write_text
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
@@ -128,7 +128,7 @@ def propose(
     thickness : str, optional
         Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
     """
-    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
+    kelvin = si_value("temperature", temperature, "K")
     layout = layout or {}
     surfaces, rubbers, shifts, skipped = _sorted(files, step, layout)
     names: dict[Path, str] = {}

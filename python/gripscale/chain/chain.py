@@ -89,11 +89,14 @@ def solve_chain(
 ) -> ChainResult:
     """Predict contact and friction by the chain over the waves of `sines`, largest first.
 
-    Raises `ExtrapolationError`: an `InputError`: the rubber would be extrapolated and `extrapolate`
-    is "refuse". Raises `InputError`: A value that cannot be used; the pressure is more than ten
-    times the relaxed modulus of the rubber after the load time of the first wave. Raises
-    `ChainError`: A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so
-    far.
+    Raises `ExtrapolationError` if the rubber would be extrapolated and `extrapolate` is "refuse",
+    `InputError` if a value cannot be used or the pressure is more than ten times the relaxed
+    modulus after the load time of the first wave, and `ChainError` if a wave does not converge: its
+    `partial` is the prediction so far.
+
+        >>> chain = gs.solve_chain(rubber, sines, pressure="3 bar", speed=1.0, footprint="0.1 m")
+        >>> f"{chain.friction:.2f}"
+        '0.10'
 
     Parameters
     ----------
@@ -141,11 +144,6 @@ def solve_chain(
         warns of them. "refuse": raise an error if a wave does, at its fundamental frequency.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
-
-    Returns
-    -------
-    ChainResult
-        One `ScaleResult` per wave, with running area and friction.
     """
     chain = Chain(
         solver=wave_solver(solver, options),

@@ -210,14 +210,6 @@ def unit_of(value: object, kind: str) -> str:
     return "" if match is None else spelled(match[2], kind) or ""
 
 
-def temperature_in_kelvin(text: str) -> float:
-    """Return a temperature [K] such as "40 C"; raise `InputError` for what is none."""
-    try:
-        return parse_quantity(text, "temperature")
-    except ValueError as error:
-        raise InputError(f"temperature = {text!r}: {error}") from error
-
-
 def number_and_unit(value: object, kind: str) -> tuple[str, str] | None:
     """Return the number of a quantity such as "3 bar" as written and its usual unit, or None."""
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None

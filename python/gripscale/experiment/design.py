@@ -175,11 +175,6 @@ def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> 
     pick : callable
         Reduces an answer, with its task, to a Dataset of what is stacked, with
         `prediction_status`; by default the numbers of the whole surface.
-
-    Returns
-    -------
-    xarray.Dataset
-        As `Design.dataset`.
     """
     return design.dataset(bench.solve(design.tasks, pick))
 

@@ -220,18 +220,11 @@ class RoughContact(Pictured):
             grid = "" if math.isnan(error) else f" ± {error:.2g}"
             yield name, f"{getattr(self, name):.4g}{grid}"
         yield "friction_from_dissipation", f"{self.friction_from_dissipation:.4g}"
-        if self.conditions is not None:
-            yield "total_friction", f"{self.total_friction:.4g}"
-        yield "nominal_pressure", readable(self.nominal_pressure, "Pa")
-        yield "speed", readable(self.speed, "m/s")
-        yield "smallest_wavelength", readable(self.smallest_wavelength, "m")
+        yield "load", f"{readable(self.nominal_pressure, 'Pa')}, {readable(self.speed, 'm/s')}"
         spacing = " and ".join(readable(step, "m") for step in self.grid.spacing)
         yield "grid", f"{' x '.join(map(str, self.grid.shape))} points, step {spacing}"
-        yield "rubber", self.rubber.name if self.layers is None else repr(self.layers)
-        if self.thickness is not None:
-            yield "thickness", readable(self.thickness, "m")
-        for note in self.notes[:2]:
-            yield "note", note
+        yield "smallest_wavelength", readable(self.smallest_wavelength, "m")
+        yield from (("note", note) for note in self.notes[:2])
 
     @property
     def adhesive_friction(self) -> float:

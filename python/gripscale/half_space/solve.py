@@ -90,11 +90,15 @@ def solve_rough_contact(
 
     A `status` other than "converged" says why not to trust the numbers.
 
-    Raises `ExtrapolationError`: an `InputError`: the rubber would be extrapolated and `extrapolate`
-    is "refuse". Raises `ConvergenceError` if the time limit ends before any grid is solved. Raises
-    `InputError` if an argument is out of its range, the first full grid has more than
-    `most_points`, a size is beyond what single precision can hold, or the rubber at rest is a melt:
-    the pressure is more than ten times the equilibrium modulus.
+    Raises `ExtrapolationError` if the rubber would be extrapolated and `extrapolate` is "refuse",
+    `ConvergenceError` if the time limit ends before any grid is solved, and `InputError` if an
+    argument is out of its range, the first full grid has more than `most_points`, a size is beyond
+    what single precision can hold, or the rubber at rest is a melt: the pressure is more than ten
+    times the equilibrium modulus.
+
+        >>> contact = gs.solve_rough_contact(rubber, road, pressure="3 bar", speed="1 km/h")
+        >>> f"{contact.contact_fraction:.2f}"
+        '0.14'
 
     Parameters
     ----------

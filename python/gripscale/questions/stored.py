@@ -21,6 +21,9 @@ def load(path: str | Path) -> Any:
 
     Raises `FileError` if it does not exist, is damaged, or is no result of a question.
 
+        >>> gs.load("answer.nc").kind
+        'answer'
+
     Parameters
     ----------
     path : path

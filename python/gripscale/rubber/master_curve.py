@@ -15,13 +15,12 @@ from gripscale.core.arrays import Array, Quantity, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import FileError
-from gripscale.core.units import celsius
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import APART, THREE, FileLayout
-from gripscale.rubber.shift import Shift, shift_at
+from gripscale.rubber.shift import Shift, shift_at, shown_state
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,6 +31,9 @@ class MasterCurve(Checked, Pictured, eq=False):
 
     Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
     lengths differ or there are fewer than 2 rows.
+
+        >>> gs.MasterCurve(["1 Hz", "10 Hz"], ["5 MPa", "8 MPa"], ["1 MPa", "2 MPa"]).loss_factor
+        array([0.2 , 0.25])
     """
 
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
@@ -65,11 +67,7 @@ class MasterCurve(Checked, Pictured, eq=False):
         yield "E'", shown_value(self.storage, "Pa")
         yield "E''", shown_value(self.loss, "Pa")
         yield "tan delta", shown_value(self.loss_factor)
-        kelvin = self.reference_temperature
-        yield "temperature", "not stated" if kelvin is None else celsius(kelvin)
-        yield "shift", "none" if self.shift is None else repr(self.shift).partition("\n")[0]
-        if self.source:
-            yield "source", self.source
+        yield from shown_state(self)
 
     def plot(self) -> Figure:
         """Draw both moduli and the loss factor by frequency as measured."""
@@ -127,6 +125,9 @@ def read_master_curve(
     cannot be read or holds something else, such as sweeps at several temperatures; the message
     names path and line. Raises `InputError` if a unit, the kind of modulus or the columns are
     neither stated nor given, or storage and loss are exchanged.
+
+        >>> gs.read_master_curve("dma.txt", reference_temperature="20 C").decades
+        10.0
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS, celsius, readable
-from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
+from gripscale.rubber.shift import Shift, shift_at, shift_from_dict, shown_state
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 
 if TYPE_CHECKING:
@@ -209,6 +209,9 @@ class Rubber(Checked, Pictured, eq=False):
     lengths differ, or `admissible` belongs to other moduli or times. Warns once
     (`RubberWarning`) if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any
     frequency without one; of a rubber with `admissible` the report on its fit says so.
+
+        >>> gs.Rubber("5 MPa", ["20 MPa"], ["1 ms"]).complex_modulus(1e3)
+        array(15000000.+10000000.j)
     """
 
     equilibrium_modulus: float = checked(check_modulus)
@@ -307,11 +310,7 @@ class Rubber(Checked, Pictured, eq=False):
         yield "strain_energy", repr(self.strain_energy)
         if self.valid_band is not None:
             yield "valid_band", " to ".join(readable(end, "rad/s") for end in self.valid_band)
-        kelvin, shift = self.reference_temperature, self.shift
-        yield "temperature", "not stated" if kelvin is None else celsius(kelvin)
-        yield "shift", "none" if shift is None else repr(shift).partition("\n")[0]
-        if self.source:
-            yield "source", self.source
+        yield from shown_state(self)
 
     @property
     def glassy_modulus(self) -> float:

@@ -146,7 +146,11 @@ _STIFFEST = 4.4
 
 
 def fit_prony(master: MasterCurve, **options: Any) -> Rubber:
-    """Return the Prony series of a master curve; options and errors as of `fit_prony_report`."""
+    """Return the Prony series of a master curve; options and errors as of `fit_prony_report`.
+
+    >>> f"{gs.fit_prony(master).glassy_modulus:.1e}"
+    '1.6e+09'
+    """
     rubber, _ = fit_prony_report(master, **options)
     return rubber
 

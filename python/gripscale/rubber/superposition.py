@@ -232,7 +232,11 @@ _NOMINAL = 0.5
 
 
 def superpose(sweeps: Sweeps, *, reference_temperature: Quantity, **options: Any) -> MasterCurve:
-    """Return the master curve of sweeps; options and errors are those of `superpose_report`."""
+    """Return the master curve of sweeps; options and errors are those of `superpose_report`.
+
+    >>> gs.superpose(sweeps, reference_temperature="20 C").shift.temperature
+    array([263.15, 278.15, 293.15, 308.15])
+    """
     master, _ = superpose_report(sweeps, reference_temperature=reference_temperature, **options)
     return master
 

@@ -298,6 +298,9 @@ def read_sweeps(
     read or a value in it cannot be; the message names path and line. Raises `InputError` if a unit,
     the kind of modulus, a column or a temperature is neither stated nor given.
 
+        >>> gs.read_sweeps("sweeps.csv").temperatures
+        array([263.15, 278.15, 293.15, 308.15])
+
     Parameters
     ----------
     path : str, Path or sequence of them

@@ -104,6 +104,9 @@ def clean(
     Returns the cleaned profile and the effect of each step. Raises `InputError` if an argument is
     wrong, or a step leaves too few points or heights.
 
+        >>> round(gs.clean(road, crop=(0.05, 0.15))[0].length, 4)
+        0.1
+
     Parameters
     ----------
     profile : Profile
@@ -264,6 +267,9 @@ def clean_map(
 
     Returns the cleaned map and the effect of each step. Raises `InputError` if an argument is
     wrong, or a step leaves too few points or heights.
+
+        >>> gs.clean_map(height_map)[0].missing
+        0
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.core.units import in_mm, parse_quantity
+from gripscale.core.units import in_mm, parse_quantity, unit_of
 from gripscale.surface.low_pass import STEEPEST, followed
 from gripscale.surface.profile import RESOLVED_STEPS, HeightMap, Profile
 from gripscale.surface.spectrum import (
@@ -362,7 +362,8 @@ def find_cut_off(
         length, words = rule.wavelength, str(rule)
     elif isinstance(rule, RmsSlope):
         length, words = _length_of_slope(slopes, rule), str(rule)
-    elif rule == _INSTRUMENT:
+    elif isinstance(rule, str) and not unit_of(rule, "length"):
+        checks.one_of("rule", rule, [_INSTRUMENT])
         length, words = limit, "the shortest wavelength that the measurement carries"
     else:
         length, words = checks.positive("rule", rule, unit="m"), "a stated length"

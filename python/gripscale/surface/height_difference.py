@@ -140,6 +140,9 @@ def height_difference(
     `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag`
     is below one step or beyond a profile, or no lag has pairs.
 
+        >>> gs.height_difference([road, other_road], max_lag="10 mm").lag[-1].item()
+        0.01
+
     Parameters
     ----------
     profile : Profile, sequence of Profile or HeightMap
@@ -385,6 +388,9 @@ def fit_self_affine(
 
     Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or does not rise before
     it.
+
+        >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
+        '0.74'
 
     Parameters
     ----------

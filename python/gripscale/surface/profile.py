@@ -153,6 +153,9 @@ class Profile(Checked, Pictured, eq=False):
     all heights are missing, `reliable` is not above zero, or name, source or a note is no text, or
     a doubt is no finding.
 
+        >>> gs.Profile(np.arange(100) * 1e-4, np.sin(np.arange(100))).length
+        0.0099
+
     Parameters
     ----------
     x : array_like, shape (points,)
@@ -297,6 +300,9 @@ class HeightMap(Checked, Pictured, eq=False):
     Raises `InputError` if x, y or z are not such numbers, their shapes differ, there are fewer than
     16 points a way, all heights are missing, or name or source is no text, or a doubt
     is no finding.
+
+        >>> gs.HeightMap(height_map.x, height_map.y, 2.0 * height_map.z).step
+        (0.0002, 0.0002)
 
     Parameters
     ----------

@@ -111,6 +111,9 @@ def fit_sines(
     Raises `InputError` if an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are
     all missing, or the curve has too few positive values in the range of lags.
 
+        >>> gs.fit_sines(gs.height_difference(road), scales=4).wavelength.size
+        4
+
     Parameters
     ----------
     hdc : HeightDifference

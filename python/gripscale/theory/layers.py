@@ -56,6 +56,9 @@ class Layers(Described):
     Raises `InputError` unless there is at least one layer, each a `Rubber` and a thickness above
     zero.
 
+        >>> gs.Layers([(rubber, "4 mm"), (rubber, "6 mm")]).thicknesses
+        [0.004, 0.006]
+
     Parameters
     ----------
     layers : sequence of (Rubber, float)

@@ -204,6 +204,10 @@ def solve_scale(
     `InputError` if a value is not a number or out of its range, or the pressure is more than ten
     times the modulus of the rubber: the equilibrium modulus at rest, else E(0).
 
+        >>> load = {"pressure": "3 bar", "speed": "0.3 m/s"}
+        >>> f"{gs.solve_scale(rubber, wavelength='8 mm', amplitude='0.5 mm', **load).friction:.3f}"
+        '0.044'
+
     Parameters
     ----------
     rubber : Rubber
@@ -291,6 +295,10 @@ def solve_profile(
     Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
     columns, or the pressure is more than ten times the modulus of the rubber: at rest the
     equilibrium modulus, which a melt does not have, else that at the highest frequencies.
+
+        >>> period = gs.solve_profile(rubber, sampled, pressure="3 bar", speed=0.3, periodic=True)
+        >>> period.status == "converged"
+        True
 
     Parameters
     ----------

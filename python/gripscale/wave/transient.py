@@ -30,7 +30,11 @@ DEFAULT_ROWS = 14
 
 
 class Stage(Checked):
-    """A period of constant speed and pressure."""
+    """A period of constant speed and pressure.
+
+    >>> gs.Stage(duration="10 ms", speed="0.1 m/s", pressure="3 bar")
+    Stage(duration=10 ms, speed=0.1 m/s, pressure=300 kPa)
+    """
 
     duration: float = checked(checks.positive, unit="s")
     """Duration [s]; a sliding stage is rounded to whole columns of the mesh."""
@@ -119,6 +123,10 @@ def solve_transient(
     block's mean shear), which makes a dwell one of constant mean shear.
 
     Raises `InputError` if a value is not a number or out of its range, or there are no stages.
+
+        >>> stages = [gs.Stage("5 ms", 0.1, "3 bar")]
+        >>> gs.solve_transient(rubber, wavelength="2 mm", amplitude=1e-4, stages=stages).converged
+        True
 
     Parameters
     ----------

@@ -130,6 +130,9 @@ def calibrate(
     measured friction; if it refuses extrapolation and a point excites the rubber beyond its
     measured frequencies.
 
+        >>> gs.calibrate(case, "friction.csv", law="constant").lines[-1]
+        '  Friction with it misses the measured friction by 0.32 (rms), without it by 0.68.'
+
     Parameters
     ----------
     case : Case

@@ -134,9 +134,14 @@ def compare(
 ) -> Comparison:
     """Put the models side by side over the inputs of a case.
 
-    Raises `InputError` or `FileError` if an input cannot be used by a model, a result cannot be
+    The result is over `rung`, and what is varied; without a measured profile it has only the chain
+    and its own waves at once. A sample that did not converge counts in no mean, and its rung says
+    so. Raises `InputError` or `FileError` if an input cannot be used by a model, a result cannot be
     written, the case refuses extrapolation and a wave excites the rubber beyond the measured band,
     or other than one input of numbers is varied.
+
+        >>> gs.compare(case, rungs=["theory"]).to_dataset().rung.values.tolist()
+        ['persson']
 
     Parameters
     ----------
@@ -163,12 +168,6 @@ def compare(
         As for `gripscale.experiment.Bench`.
     on_stage : callable, optional
         Called with the `SolvedLadder` as it stands, while more samples are solved.
-
-    Returns
-    -------
-    Comparison
-        Over `rung`, and what is varied. Without a measured profile only the chain and its own waves
-        at once. A sample that did not converge counts in no mean, and its rung says so.
     """
     doubtful: list[Finding] = []
     if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from gripscale import terminal
+from gripscale.core.units import si_value
 from gripscale.terminal import CasePath, OwnFolder, Workers, command, option
 
 
@@ -30,10 +31,9 @@ def cut_off_command(
     workers: Workers = None,
 ) -> None:
     """Contact and friction against the cut-off, down below what the profiles resolve."""
-    from gripscale.case import in_si
     from gripscale.questions.cut_off.question import cut_off
 
-    end = None if down_to is None else in_si("--down-to", down_to, "length")
+    end = si_value("--down-to", down_to, "m")
     work = terminal.CaseCommand(case)
     opening = f"Contact and friction of {work.file.path} against the cut-off"
     work.open_results(output, "cut_off", opening)

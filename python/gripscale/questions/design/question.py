@@ -95,9 +95,14 @@ def design(
     Small strain, direct contact, hysteresis alone: of the conditions of the case only the
     temperature counts.
 
-    Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal or a limit cannot be
-    used, a temperature needs a shift that the rubber does not have, or today's compound has no
-    friction.
+    The result is over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %),
+    friction, moduli and master curve; over `compound` the other compounds; today's values without
+    either. Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal or a limit
+    cannot be used, a temperature needs a shift that the rubber does not have, or today's compound
+    has no friction.
+
+        >>> gs.design(case, levels=[1.0]).lines[0]
+        'Answer: friction +57 % at the same rolling resistance; the limits decide'
 
     Parameters
     ----------
@@ -122,13 +127,6 @@ def design(
         Threads; one per core by default.
     on_point : callable, optional
         Called with the Dataset of each point as it is solved or read.
-
-    Returns
-    -------
-    CompoundDesign
-        Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %), friction,
-        moduli and master curve; over `compound` the other compounds; today's values without
-        either.
     """
     target = None if folder is None else Path(folder)
     if target is not None:

@@ -297,6 +297,9 @@ def sensitivity(
     Raises `InputError` or `FileError` for what cannot be used; if the case is at rest, or has no
     measured surface.
 
+        >>> f"{gs.sensitivity(contact).d_ln_friction_d_ln_loss.values.sum():.2f}"
+        '0.91'
+
     Parameters
     ----------
     subject : Case or RoughContact

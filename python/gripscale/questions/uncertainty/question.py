@@ -96,6 +96,9 @@ def uncertainty(
     Raises `InputError` or `FileError` if an argument or a file cannot be used, or a result cannot
     be written.
 
+        >>> gs.uncertainty(case, samples=10, without=["profile"]).to_dataset().sizes["sample"]
+        10
+
     Parameters
     ----------
     case : Case

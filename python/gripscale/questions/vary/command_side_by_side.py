@@ -94,11 +94,11 @@ def compare_rubbers(
 ) -> None:
     """Compare compounds on the same road: friction, area, and what makes the difference."""
     from gripscale.case_file.named_inputs import names_of, read_rubber
-    from gripscale.core.units import temperature_in_kelvin
+    from gripscale.core.units import si_value
     from gripscale.questions.vary.rubber_comparison import compare_compounds
 
     chosen = case_of(rubbers, case, "the road and the load")
-    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
+    kelvin = si_value("temperature", temperature, "K")
     work = terminal.CaseCommand(chosen)
     opening = (
         "Each compound is predicted first; then the range that the error of its measured moduli "

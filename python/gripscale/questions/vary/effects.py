@@ -78,8 +78,11 @@ def effects(
 ) -> xr.Dataset:
     """Return what each effect of the conditions of a model is worth.
 
-    Raises `InputError` as `effect_tasks`, and for an input that cannot be used. Raises `FileError`
-    if a result cannot be written.
+    The result is over `effect`: "all", "no" each effect that was asked for, "none": the totals of
+    the model, friction with the area term if there is one, `prediction_status`, and the changes by
+    what was left out [-], which are NaN for "all" and where one of both did not converge. Raises
+    `InputError` as `effect_tasks`, and for an input that cannot be used. Raises `FileError` if a
+    result cannot be written.
 
     Parameters
     ----------
@@ -92,13 +95,6 @@ def effects(
         solved by a study or a comparison that shares the folder is not solved again.
     workers, client, on_task
         As for `gripscale.experiment.solve_all`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `effect`: "all", "no" each effect that was asked for, "none": the totals of the model,
-        friction with the area term if there is one, `prediction_status`, and the changes by what
-        was left out [-], which are NaN for "all" and where one of both did not converge.
     """
     tasks = effect_tasks(model, rubber, surface, load)
     points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
@@ -153,7 +149,8 @@ def case_effects(
 ) -> xr.Dataset | None:
     """Return what each effect is worth in a sliding case, and write it into `folder`.
 
-    Raises `FileError` if a result cannot be written.
+    The result is that of `effects`; None of a case at rest, or whose conditions do nothing to the
+    rubber. Raises `FileError` if a result cannot be written.
 
     Parameters
     ----------
@@ -169,11 +166,6 @@ def case_effects(
         The chain of the sliding case, where it is solved already.
     workers, client, on_task
         As for `gripscale.experiment.solve_all`.
-
-    Returns
-    -------
-    xarray.Dataset or None
-        As `effects`; None of a case at rest, or whose conditions do nothing to the rubber.
     """
     asked, load = inputs.effects_asked(model), case.load
     if not asked or load.speed == 0.0:

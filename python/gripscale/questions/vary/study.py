@@ -119,7 +119,7 @@ STUDY_FILE = "study.nc"
 class Study:
     """A case with one or two of its inputs varied.
 
-    Raises `InputError` or `FileError`: A value or a file that cannot be used.
+    Raises `InputError` or `FileError` for a value or a file that cannot be used.
 
     Parameters
     ----------
@@ -249,8 +249,8 @@ class Study:
     ) -> xr.Dataset:
         """Solve what `folder` does not have yet, and write and return the Dataset.
 
-        Raises `InputError` or `FileError`: an input that cannot be used, a result that cannot be
-        written.
+        Raises `InputError` or `FileError` for an input that cannot be used, or a result that cannot
+        be written.
 
         Parameters
         ----------
@@ -259,12 +259,6 @@ class Study:
             folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
             As for `solve_all`.
-
-        Returns
-        -------
-        xarray.Dataset
-            Per wave and in total, over the varied axes; at rest with the prefix `static_`.
-            A prediction that did not converge has NaN totals and says why in `prediction_status`.
         """
         with bench_in(folder, workers, client, on_task) as bench:
             data = None if folder is None else self.stored(folder)
