@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.described import Described
 from gripscale.core.errors import FileError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.folders import nearest_existing, write_bytes
@@ -56,8 +57,8 @@ def sweeps_text() -> str:
 _CASE = "case.toml"
 
 
-@dataclass(frozen=True)
-class Example:
+@dataclass(frozen=True, repr=False)
+class Example(Described):
     """A case with the files it names."""
 
     about: str

@@ -53,6 +53,7 @@ from gripscale.continuation.roughness import (
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask, Quantity
 from gripscale.core.checks import checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
@@ -144,8 +145,8 @@ class CutOffContact:
         ]
 
 
-@dataclass(frozen=True, eq=False)
-class ContactByCutOff:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactByCutOff(Described):
     """Contact and friction of lines against the cut-off."""
 
     steps: tuple[CutOffContact, ...]

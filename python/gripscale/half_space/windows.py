@@ -17,6 +17,7 @@ import scipy
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Quantity
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.half_space.grid import joined, surface_axes
 from gripscale.half_space.result import RoughContact
@@ -36,8 +37,8 @@ _MOST_POINTS = 10_000_000
 _Measurement = TypeVar("_Measurement", Profile, HeightMap)
 
 
-@dataclass(frozen=True)
-class WindowContacts:
+@dataclass(frozen=True, repr=False)
+class WindowContacts(Described):
     """Contacts of the windows of one surface; statistics use those that converged.
 
     A `name` is that of a number of `RoughContact`, in its unit: `contact_fraction`, `friction`,

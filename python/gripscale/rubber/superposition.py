@@ -23,6 +23,7 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Quantity
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber.joint_shift import SHIFTED_MODULI, Rows, align, sweep_rows
@@ -43,8 +44,8 @@ _Points = tuple[Array, Array]
 """x of shape (rows,) rising, y of shape (moduli, rows)."""
 
 
-@dataclass(frozen=True)
-class Overlap:
+@dataclass(frozen=True, repr=False)
+class Overlap(Described):
     """How two neighbouring sweeps meet, once shifted."""
 
     colder: float
@@ -127,8 +128,8 @@ _MISFIT = 0.04
 """Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades]."""
 
 
-@dataclass(frozen=True)
-class Superposition:
+@dataclass(frozen=True, repr=False)
+class Superposition(Described):
     """How the sweeps of a master curve meet, and what is doubtful about it."""
 
     temperatures: Array = field(repr=False)

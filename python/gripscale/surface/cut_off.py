@@ -39,6 +39,7 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm, parse_quantity, unit_of
 from gripscale.surface.low_pass import STEEPEST, followed
@@ -87,8 +88,8 @@ class PowerLaw:
         return reached ** (1.0 / power) if reached > 0.0 else math.inf
 
 
-@dataclass(frozen=True, eq=False)
-class SlopeByWavelength:
+@dataclass(frozen=True, eq=False, repr=False)
+class SlopeByWavelength(Described):
     """Rms slope of a measured surface down to any wavelength, see `slope_by_wavelength`."""
 
     line: ProfileSpectrum = field(repr=False)
@@ -300,8 +301,8 @@ CutOffRule = float | Literal["instrument"] | RmsSlope | ContactSlope
 """A length [m], "instrument", an `RmsSlope` or a `ContactSlope`."""
 
 
-@dataclass(frozen=True)
-class SurfaceCutOff:
+@dataclass(frozen=True, repr=False)
+class SurfaceCutOff(Described):
     """The cut-off of a measured surface, its rule and the slopes down to it."""
 
     wavelength: float

@@ -62,7 +62,7 @@ _COARSEST, _FINEST = 4, 1024
 """Intervals between them, doubled from the first to the last."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class KlueppelHeinrichResult(TheoryResult):
     """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
 

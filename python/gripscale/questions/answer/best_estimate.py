@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from gripscale.core.described import Described
 from gripscale.experiment.design import Index, stack, variable_attributes
 from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
@@ -42,8 +43,8 @@ UNKNOWN_VALUE = LogNormalValue(math.nan)
 """Of a factor nobody has computed."""
 
 
-@dataclass(frozen=True)
-class Factor:
+@dataclass(frozen=True, repr=False)
+class Factor(Described):
     """A factor on contact fraction and friction, known from elsewhere."""
 
     name: str
@@ -249,18 +250,15 @@ BEST_ESTIMATES = POINT_ESTIMATES - {"factor_label"} | {
 def with_best_estimate(data: xr.Dataset) -> xr.Dataset:
     """Return predictions of the direct contact with the best estimate of each.
 
+    The result has `best_contact_fraction` and `best_friction` over the axes of the study, the ends
+    `_low` and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of
+    rubber at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
+    result, or the surface is too short for an interval.
+
     Parameters
     ----------
     data : xarray.Dataset
         A study (`gripscale.questions.Study`); one of another model is returned as it is.
-
-    Returns
-    -------
-    xarray.Dataset
-        With `best_contact_fraction` and `best_friction` over the axes of the study, the ends `_low`
-        and `_high` of their 90 % intervals and the further numbers of `OF_A_POINT`, and of rubber
-        at rest `static_best_contact_fraction` and so on. NaN where the direct contact has no
-        result, or the surface is too short for an interval.
     """
     if UPPER_HEIGHT not in data:  # no direct contact
         return data

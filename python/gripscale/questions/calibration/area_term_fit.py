@@ -19,6 +19,7 @@ import xarray as xr
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
+from gripscale.core.described import Described
 from gripscale.core.labels import labelled
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.model import STATUS, STATUS_WORD
@@ -74,8 +75,8 @@ class Estimate:
         return math.isfinite(self.low) and math.isfinite(self.high)
 
 
-@dataclass(frozen=True, eq=False)
-class AreaTermFit:
+@dataclass(frozen=True, eq=False, repr=False)
+class AreaTermFit(Described):
     """A law of the area term fitted to measured friction beside a predicted hysteresis."""
 
     measured: MeasuredFriction

@@ -311,8 +311,12 @@ def residuals(
 ) -> xr.Dataset:
     """Return predicted friction beside measured friction, over `model` and `measurement`.
 
-    Raises `InputError` if a prediction has another number of points or other pressures than the
-    measurement, there is none, or the law needs a temperature that is not known.
+    The result has `hysteresis`, `area_term` where there is a law, `friction` (their sum),
+    `difference` (predicted less measured) and `difference_in_spread` (NaN where no spread is known)
+    over `model` and `measurement`; `rms_difference` and `rms_difference_in_spread` over `model`, of
+    the points that have an answer; and what was measured. Raises `InputError` if a prediction has
+    another number of points or other pressures than the measurement, there is none, or the law
+    needs a temperature that is not known.
 
     Parameters
     ----------
@@ -322,14 +326,6 @@ def residuals(
         What each model says at its points, in their order, by the model's name.
     shear_stress : InterfacialShearStress, optional
         Law of an area term that the total friction has beside the hysteresis.
-
-    Returns
-    -------
-    xarray.Dataset
-        `hysteresis`, `area_term` where there is a law, `friction` (their sum), `difference`
-        (predicted less measured) and `difference_in_spread` (NaN where no spread is known) over
-        `model` and `measurement`; `rms_difference` and `rms_difference_in_spread` over `model`,
-        of the points that have an answer; and what was measured.
     """
     checks.instance("measured", measured, MeasuredFriction)
     if not isinstance(predicted, Mapping) or not predicted:

@@ -16,6 +16,7 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
@@ -40,8 +41,8 @@ _WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), s
 """The two numbers that are compared."""
 
 
-@dataclass(frozen=True, eq=False)
-class SolvedLadder:
+@dataclass(frozen=True, eq=False, repr=False)
+class SolvedLadder(Described):
     """The rungs of one case with their samples, under one load or over a varied input."""
 
     case: Case
@@ -248,7 +249,10 @@ def at_measured(
 ) -> xr.Dataset | None:
     """Return what the rungs that predict say at each measured speed, temperature and pressure.
 
-    Raises `InputError` or `FileError` as `predictions_at`.
+    The result is that of `gripscale.questions.residuals`, with the area term of the case's
+    conditions; None where no friction was measured or no rung predicts. Of several samples of a
+    rung the means; beside the direct contact the `answer` of the case, which has its factors on
+    friction and area. Raises `InputError` or `FileError` as `predictions_at`.
 
     Parameters
     ----------
@@ -258,13 +262,6 @@ def at_measured(
         Folder of the finished predictions.
     workers, client, on_task
         As for `gripscale.experiment.Bench`.
-
-    Returns
-    -------
-    xarray.Dataset or None
-        As `gripscale.questions.residuals`, with the area term of the case's conditions; None where
-        no friction was measured or no rung predicts. Of several samples of a rung the means; beside
-        the direct contact the `answer` of the case, which has its factors on friction and area.
     """
     measured, setup = ladder.measured, ladder.setups[0]
     if measured is None:

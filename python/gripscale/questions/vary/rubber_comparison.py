@@ -56,7 +56,9 @@ def at_one_temperature(
     Without a `temperature` it is that of the rubbers which cannot be shifted, or else of the first
     that states one. A rubber whose temperature is not known stays as it is, which is said.
 
-    Raises `InputError` if a rubber would have to be shifted and has no shift.
+    Returns the rubbers, and a sentence for each that was shifted and for what is doubtful (see
+    `gripscale.rubber.temperature_doubts`). Raises `InputError` if a rubber would have to be shifted
+    and has no shift.
 
     Parameters
     ----------
@@ -64,12 +66,6 @@ def at_one_temperature(
         The rubbers by what they are called.
     temperature : float, optional
         Where they are wanted [K].
-
-    Returns
-    -------
-    tuple
-        The rubbers, and a sentence for each that was shifted and for what is doubtful (see
-        `gripscale.rubber.temperature_doubts`).
     """
     temperatures = {
         name: rubber.reference_temperature
