@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from base64 import b64encode
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, fields, is_dataclass
@@ -24,7 +25,7 @@ _FEW = 5
 """Numbers of an array that are listed."""
 _MOST_LINES = 14
 """Lines below the name of an object."""
-_LENGTHS = "wavelength amplitude smallest_wavelength thickness footprint distance indentation lag"
+_LENGTHS = "wavelength amplitude smallest_wavelength thickness footprint distance indentation lag x"
 _UNITS = {
     **dict.fromkeys(f"{_LENGTHS} down_to cut_off lag_range".split(), "m"),
     **dict.fromkeys(("pressure", "pressure_received", "nominal_pressure"), "Pa"),
@@ -72,6 +73,7 @@ class Described:
             check, value = item.metadata.get("check"), getattr(self, item.name)
             unit = getattr(check, "keywords", {}).get("unit", "") or _UNITS.get(item.name, "")
             empty = value is None or (isinstance(value, str | tuple | list | dict) and not value)
+            empty |= isinstance(value, float) and math.isnan(value)
             if (item.repr or isinstance(value, np.ndarray)) and not empty:
                 yield item.name, shown_value(value, unit)
 
@@ -99,7 +101,7 @@ class Pictured(Described):
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f'<tr><th style="text-align:left">{escape(key)}</th>'
+            f'<tr><th style="text-align:left;padding-right:1em">{escape(key)}</th>'
             f'<td style="text-align:left">{escape(text)}</td></tr>'
             for key, text in self.shown_rows()
         )

@@ -12,7 +12,7 @@ from gripscale.core.arrays import ComplexArray, Quantity
 from gripscale.core.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
-from gripscale.rubber.prony import fit_prony
+from gripscale.rubber.prony import fit_prony_report
 
 _ORIGIN = (
     "springpot parameters published for an unfilled SBR at 20 C; the publication is not stated in "
@@ -77,4 +77,6 @@ def _styrene_butadiene(low: float, high: float, bulk_modulus: float) -> Rubber:
     name = "unfilled styrene-butadiene rubber, 20 C"
     master = MasterCurve(hertz, modulus.real, modulus.imag, 293.15, name, _ORIGIN)
     terms, keep_all = round(2 * decades) + 1, float("inf")
-    return fit_prony(master, terms=terms, bulk_modulus=bulk_modulus, outlier_threshold=keep_all)
+    return fit_prony_report(
+        master, terms=terms, bulk_modulus=bulk_modulus, outlier_threshold=keep_all
+    )[0]

@@ -20,6 +20,7 @@ Poisson's ratio positive.
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -27,7 +28,7 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber import prony_report as report
 from gripscale.rubber.master_curve import MasterCurve
@@ -148,10 +149,18 @@ _STIFFEST = 4.4
 def fit_prony(master: MasterCurve, **options: Any) -> Rubber:
     """Return the Prony series of a master curve; options and errors as of `fit_prony_report`.
 
-    >>> f"{gs.fit_prony(master).glassy_modulus:.1e}"
-    '1.6e+09'
+    Warns (`RubberWarning`) of what the report says against the moduli or the fit, and of moduli
+    without a temperature.
+
+        >>> f"{gs.fit_prony(master).glassy_modulus:.1e}"
+        '1.6e+09'
     """
-    rubber, _ = fit_prony_report(master, **options)
+    rubber, fit = fit_prony_report(master, **options)
+    sentences = [*map(str, fit.doubts), *fit.findings]
+    if rubber.reference_temperature is None:
+        sentences.append("the temperature of the moduli is not known; give reference_temperature")
+    for sentence in sentences:
+        warnings.warn(f"Prony fit of {rubber.name}: {sentence}", RubberWarning, stacklevel=2)
     return rubber
 
 
