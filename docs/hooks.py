@@ -1,4 +1,4 @@
-"""Hooks of the site: links out of the docs become names, keys of a case tables, LaTeX MathML.
+"""Hooks of the site: names for links out of the docs, tables of keys, MathML, pages of notebooks.
 
 The pages are read in the source tree, too, where links to its files lead somewhere.
 """
@@ -9,6 +9,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import notebooks
 
 if TYPE_CHECKING:
     from gripscale.case_file.keys import KeySection
@@ -23,6 +25,8 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(((?:\.\./)+[^)#\s]+)(?:#[^)]*)?\)")
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
     """Return the page with links that leave the docs as text, its tables and its equations."""
+    if page.file.abs_src_path is None:  # a notebook
+        return markdown
     folder = Path(page.file.abs_src_path).parent
 
     def replaced(link: re.Match[str]) -> str:
@@ -32,6 +36,15 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
 
     told = EQUATION.sub(lambda found: equation(found[1]), LINK.sub(replaced, markdown))
     return told.replace(KEYS, key_tables()) if KEYS in told else told
+
+
+def on_files(files: Any, *, config: Any, **_: Any) -> None:
+    """Add the notebooks as pages."""
+    from mkdocs.structure.files import File
+
+    for name in notebooks.TITLES:
+        page = f"notebooks/{name}.md"
+        files.append(File.generated(config, page, content=notebooks.page(name)))
 
 
 def equation(latex: str) -> str:

@@ -73,7 +73,6 @@ def page(name: str) -> str:
     for kind, text, output in outputs(name) if run else ((*cell, "") for cell in cells(name)):
         parts.append(f"```python\n{text}\n```" if kind == "code" else text)
         if output:
-            lines = [line for line in output.splitlines() if line.strip()]
-            parts.append("<div class='output'>" + "&#10;".join(lines) + "</div>")
+            parts.append(f'<div class="output">\n{output}\n</div>')
     source = f"The notebook is `examples/notebooks/{name}.ipynb`."
     return "\n\n".join([*parts, source, ""])
