@@ -112,4 +112,7 @@ def test_a_readable_number_keeps_its_size() -> None:
     texts = [readable(value, "m") for value in (0.0, 1e-4, -2.5e-2, 3.0, 1e-12)]
     assert texts == ["0 m", "100 um", "-25 mm", "3 m", "1e-12 m"]
     assert readable(0.25, "") == "0.25"
+    assert readable(2e13, "rad/s") == "2e+13 rad/s"
+    assert readable(5e6, "Hz") == "5 MHz"
+    assert readable(1e13, "Hz") == "1e+13 Hz"
     assert readable(3e5, "Pa") == "300 kPa"

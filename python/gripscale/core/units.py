@@ -196,9 +196,9 @@ _READABLE = ("m", "mm", "um", "nm", "GPa", "MPa", "kPa", "Pa", "s", "ms", "us", 
 
 def readable(value: float, unit: str) -> str:
     """Return a value in the SI `unit` as text in the unit of its size, such as 0.1 mm."""
-    sizes = UNITS.get(_KINDS.get(unit, ""), {})
-    fits = [u for u in _READABLE if u in sizes and abs(value) >= 0.9999 * sizes[u]]
-    if fits and math.isfinite(value):
+    sizes = UNITS[_KINDS[unit]] if unit in _READABLE else {}
+    fits = [u for u in _READABLE if u in sizes and 0.9999 <= abs(value) / sizes[u] < 1e5]
+    if fits:
         unit = max(fits, key=lambda u: sizes[u])
         value /= sizes[unit]
     return f"{plain(value, 4)} {unit}".removesuffix(" 1").rstrip()

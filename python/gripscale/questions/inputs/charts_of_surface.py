@@ -164,7 +164,8 @@ def surface_figure(surface: HeightMap | Profile) -> Figure:
     """Draw the heights of a map from above, or of a profile."""
     raw = surface if isinstance(surface, HeightMap) else [surface]
     panel = replace(_raw_panel(raw), title=surface.name)
-    return Sheet([panel], 1, NARROW, 3.4 if isinstance(surface, HeightMap) else 2.2).on_paper()
+    height = 3.4 if isinstance(surface, HeightMap) else 2.2
+    return Sheet([panel], 1, NARROW, height, legend="").on_paper()
 
 
 def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None = None) -> Chart:

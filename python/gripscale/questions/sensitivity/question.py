@@ -161,8 +161,7 @@ class Sensitivity(Result):
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
         if self.data.attrs["iterated"] and not self._has_feedback:
             notes.append(
-                "Strain and temperature of the rubber are kept; --with-feedback also lets them "
-                "follow."
+                "Strain and temperature of the rubber are kept; with feedback they follow."
             )
         return Table("sums", columns, "What the friction depends on", notes, keys=1)
 
