@@ -1,4 +1,4 @@
-"""Hooks of the site: names for links out of the docs, tables of keys, MathML, pages of notebooks.
+"""Hooks of the site: links out of the docs become names, keys of a case tables, LaTeX MathML.
 
 The pages are read in the source tree, too, where links to its files lead somewhere.
 """
@@ -9,8 +9,6 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import notebooks
 
 if TYPE_CHECKING:
     from gripscale.case_file.keys import KeySection
@@ -36,15 +34,6 @@ def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
 
     told = EQUATION.sub(lambda found: equation(found[1]), LINK.sub(replaced, markdown))
     return told.replace(KEYS, key_tables()) if KEYS in told else told
-
-
-def on_files(files: Any, *, config: Any, **_: Any) -> None:
-    """Add the notebooks as pages."""
-    from mkdocs.structure.files import File
-
-    for name in notebooks.TITLES:
-        page = f"notebooks/{name}.md"
-        files.append(File.generated(config, page, content=notebooks.page(name)))
 
 
 def equation(latex: str) -> str:

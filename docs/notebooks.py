@@ -1,4 +1,4 @@
-"""Runs the notebooks of `examples/notebooks` and writes them as Markdown with their outputs.
+"""Hook of the site: runs the notebooks of `examples/notebooks` and makes pages of them.
 
 The cells are plain Python: no kernel is needed, and the site and the tests run the same function.
 """
@@ -22,6 +22,14 @@ TITLES = ("answer", "own_files", "compounds", "design", "wave_in_time")
 """Notebooks in the order of the gallery."""
 RUN = "GRIPSCALE_NOTEBOOKS"
 """Environment variable that makes the site run them: `make docs` sets it."""
+
+
+def on_files(files: Any, *, config: Any, **_: Any) -> None:
+    """Add the notebooks to the pages of the site."""
+    from mkdocs.structure.files import File
+
+    for name in TITLES:
+        files.append(File.generated(config, f"notebooks/{name}.md", content=page(name)))
 
 
 def cells(name: str) -> Iterator[tuple[str, str]]:

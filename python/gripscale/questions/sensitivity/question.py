@@ -160,9 +160,7 @@ class Sensitivity(Result):
         columns = [self._points_column(), *moduli, *self._scalar_columns("")]
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
         if self.data.attrs["iterated"] and not self._has_feedback:
-            notes.append(
-                "Strain and temperature of the rubber are kept; with feedback they follow."
-            )
+            notes.append("Strain and temperature of the rubber stay; with feedback they follow.")
         return Table("sums", columns, "What the friction depends on", notes, keys=1)
 
     def decades_table(self) -> Table:
