@@ -32,7 +32,7 @@ def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> 
     accepted only with `infinite`.
     """
     expected = f"{name} must be a finite number{_in(unit)}"
-    value = si_value(name, value, unit)
+    value = si_value(name, value, unit, strict=False)
     numeric = isinstance(value, int | float) or hasattr(value, "dtype")
     if not numeric or not _may_be_real(value) or np.ndim(value) > 0:
         raise InputError(f"{expected}; got {short_repr(value)}")
@@ -114,7 +114,7 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
 
 def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> Array:
     expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
-    result = array(si_value(name, value, unit), expected)
+    result = array(si_value(name, value, unit, strict=False), expected)
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
     bad = np.isinf(result) if missing else ~np.isfinite(result)
@@ -236,7 +236,7 @@ def instances(name: str, values: Any, kind: type[_T]) -> list[_T]:
 def real(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value`, of any shape, as a float array of entries of at most `MOST`."""
     expected = f"{name} must be finite numbers of at most {MOST:g}{_in(unit)}"
-    result = array(si_value(name, value, unit), expected)
+    result = array(si_value(name, value, unit, strict=False), expected)
     bad = ~(np.abs(result) <= MOST)
     if bad.any():
         raise InputError(f"{expected}; got {result[bad][0]:g}")
@@ -358,7 +358,7 @@ class Checked(Described):
             value, check = getattr(self, item.name), item.metadata.get("check")
             if check is not None and not (value is None and item.default is None):
                 if kind := item.metadata.get("quantity"):
-                    value = si_value(item.name, value, "", kind)
+                    value = si_value(item.name, value, "", kind, strict=False)
                 self._set(**{item.name: check(item.name, value)})
 
     def _set(self, **values: Any) -> None:

@@ -173,16 +173,19 @@ _KINDS = {next(iter(sizes)): kind for kind, sizes in reversed(UNITS.items())} | 
 """Kind of quantity by its SI unit: of pressure and modulus the former, whose units are more."""
 
 
-def si_value(name: str, value: Any, unit: str, kind: str = "") -> Any:
+def si_value(name: str, value: Any, unit: str, kind: str = "", *, strict: bool = True) -> Any:
     """Return `value` in the SI `unit` if it is a text such as "3 bar", or a list with such texts.
 
     `kind` is the kind of quantity where the unit does not say it. Raises `InputError` for a number
-    with another unit or none; any other value is returned as it is.
+    with another unit or none, and where it is `strict` for other texts; any other value is returned
+    as it is.
     """
     kind = kind or _KINDS.get(unit, "")
     if isinstance(value, list | tuple) and any(isinstance(item, str) for item in value):
-        return [si_value(f"each of {name}", item, unit, kind) for item in value]
-    if not kind or not isinstance(value, str) or not _QUANTITY.fullmatch(value):
+        return [si_value(f"each of {name}", item, unit, kind, strict=strict) for item in value]
+    if not kind or not isinstance(value, str):
+        return value
+    if not strict and kind not in _UNIT_NEEDED and not _QUANTITY.fullmatch(value):
         return value
     try:
         return parse_quantity(value, kind) / UNITS[kind].get(unit, 1.0)
