@@ -42,8 +42,9 @@ quick: build
 verify: build
 	$(BIN)/python -m pytest -q -m verification
 
+# The notebooks run for a minute or two; without GRIPSCALE_NOTEBOOKS their pages have no outputs.
 docs: build
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
+	GRIPSCALE_NOTEBOOKS=1 NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 bench: build
 	$(BIN)/python -m benchmarks

@@ -23,6 +23,8 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(((?:\.\./)+[^)#\s]+)(?:#[^)]*)?\)")
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
     """Return the page with links that leave the docs as text, its tables and its equations."""
+    if page.file.abs_src_path is None:  # a notebook
+        return markdown
     folder = Path(page.file.abs_src_path).parent
 
     def replaced(link: re.Match[str]) -> str:

@@ -48,7 +48,8 @@ def main(folder: str = "results/examples") -> None:
 
     believed = sweeps.between(0.1, HIGHEST)
     curve = gs.superpose(believed, reference_temperature=REFERENCE, shift=master.shift)
-    rubber = gs.fit_prony(curve, bulk_modulus=10e9)
+    rubber, fit = gs.rubber.fit_prony_report(curve, bulk_modulus=10e9)
+    print(fit.summary())
     warm = rubber.at(313.15)
     for one in (rubber, warm):
         modulus = one.complex_modulus(6.283)

@@ -21,12 +21,13 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
-from gripscale.core import checks
+from gripscale.core.arrays import Quantity
+from gripscale.core.described import Described
 from gripscale.core.errors import GripscaleError, InputError
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND
-from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, parse_quantity
+from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, si_value
 from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
@@ -110,8 +111,14 @@ class BelowMeasurement:
     seed: int = 0
 
 
-class Case:
+class Case(Described):
     """A surface, a rubber, a load and conditions: all that a question needs.
+
+    Raises `InputError` if a value cannot be used, no waves fit the surface, or the rubber has no
+    shift to the temperature of the conditions.
+
+        >>> gs.Case(road, rubber, pressure="3 bar", speed="3 km/h").load.pressure
+        300000.0
 
     Parameters
     ----------
@@ -153,12 +160,6 @@ class Case:
         Options of questions that the case states, by question.
     origin : Origin, optional
         Where the case was read from.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, no waves fit the surface, or the rubber has no shift to the
-        temperature of the conditions.
     """
 
     def __init__(
@@ -166,11 +167,11 @@ class Case:
         surface: SurfaceLike,
         rubber: RubberLike,
         *,
-        pressure: float | str,
-        speed: float | str,
-        footprint: float | str = 0.1,
-        thickness: float | str | None = None,
-        smallest_wavelength: float | str | None = None,
+        pressure: Quantity,
+        speed: Quantity,
+        footprint: Quantity = 0.1,
+        thickness: Quantity | None = None,
+        smallest_wavelength: Quantity | None = None,
         waves: int = _WAVES,
         conditions: Conditions | None = None,
         load_time: LoadTime = "passage",
@@ -184,13 +185,7 @@ class Case:
         origin: Origin | None = None,
     ) -> None:
         self.origin = origin or Origin()
-        self.load = Load(
-            in_si("pressure", pressure, "pressure"),
-            in_si("speed", speed, "speed"),
-            in_si("footprint", footprint, "length"),
-            load_time,
-            None if thickness is None else in_si("thickness", thickness, "length"),
-        )
+        self.load = Load(pressure, speed, footprint, load_time, thickness)
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
         if isinstance(rubber, Rubber):
@@ -199,9 +194,7 @@ class Case:
             fitted, fit = fit_prony_report(rubber)
             rubber = MeasuredRubber(fitted, rubber.source, rubber, fit)
         self.measured_rubber = rubber
-        end = None
-        if smallest_wavelength is not None:
-            end = in_si("smallest_wavelength", smallest_wavelength, "length")
+        end = si_value("smallest_wavelength", smallest_wavelength, "m")
         self.cleaning = {} if cleaning is None else _CLEANED_AS_USUAL | dict(cleaning)
         self.surface = _surface(surface, end, waves, self.cleaning)
         self.below_measurement = below_measurement or BelowMeasurement()
@@ -210,11 +203,17 @@ class Case:
         self.options = dict(options or {})
         _ = self.rubber_before  # refuses a temperature without a shift
 
-    def __repr__(self) -> str:
-        unit = self.display_unit
-        load = ", ".join(unit(key).text(getattr(self.load, key)) for key in ("pressure", "speed"))
-        name = self.rubber.name or "rubber"
-        return f"Case({self.surface.source or 'surface'}; {name}; {load})"
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield surface, rubber, load and conditions."""
+        yield "surface", self.surface.source or "unnamed"
+        yield "rubber", self.rubber.name or "unnamed"
+        for key in ("pressure", "speed", "footprint", "thickness"):
+            if getattr(self.load, key) is not None:
+                yield key, self.display_unit(key).text(getattr(self.load, key), 4)
+        waves = self.surface.sines.wavelength
+        yield "waves", f"{waves.size} from {in_mm(waves[0], 4)} to {in_mm(waves[-1], 4)}"
+        if self.conditions is not None:
+            yield "conditions", ", ".join(f"{k}={v}" for k, v in self.conditions.shown_rows())
 
     @property
     def rubber(self) -> Rubber:
@@ -268,28 +267,19 @@ class Case:
         return hashlib.sha256(content.encode()).hexdigest()
 
     def save(self, path: str | Path) -> Path:
-        """Write the case as a case file, with its measurements in the folder `inputs` beside it.
+        """Write the case as a case file, its measurements in the folder `inputs`; return its path.
 
         The case that `gripscale.read_case` reads from it, there or wherever both go, has the same
         answers. A case that was read from a file keeps its text and gets copies of its files; any
         other is written in SI units, profiles, maps and moduli as text files.
 
+        Raises `InputError` for what a case file cannot state, such as a solver of your own. Raises
+        `FileError` if a file cannot be written, or one of the case has changed since it was read.
+
         Parameters
         ----------
         path : path-like
             The case file (TOML), such as "folder/case.toml". An earlier one is replaced.
-
-        Returns
-        -------
-        Path
-            The case file.
-
-        Raises
-        ------
-        InputError
-            For what a case file cannot state, such as a solver of your own.
-        FileError
-            If a file cannot be written, or one of the case has changed since it was read.
         """
         written: Path = face(CASE_WRITER)(self, Path(path))
         return written
@@ -389,16 +379,6 @@ class Case:
             for text in temperature_doubts(rubbers):
                 sentence = f"{text[0].upper()}{text[1:]}."
                 yield Finding(Severity.WARNING, sentence, topic=Topic.RUBBER)
-
-
-def in_si(name: str, value: float | str, kind: str) -> float:
-    """Return a number in SI units, or the quantity of a text with its unit such as "3 bar"."""
-    if not isinstance(value, str):
-        return checks.number(name, value)
-    try:
-        return parse_quantity(value, kind)
-    except ValueError as error:
-        raise InputError(f" = {value!r}: {error}", key=name) from error
 
 
 def described_surface(

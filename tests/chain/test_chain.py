@@ -201,7 +201,7 @@ def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
     [
         ({"pressure": 0.0}, "pressure must be greater than zero [Pa]; got 0"),
         ({"pressure": math.nan}, "pressure must be a finite number [Pa]; got nan"),
-        ({"pressure": "3 bar"}, "pressure must be a finite number [Pa]; got '3 bar'"),
+        ({"pressure": "3 barrels"}, "pressure = '3 barrels': unknown unit"),
         ({"speed": -1.0}, "speed must not be negative [m/s]; got -1"),
         ({"speed": math.inf}, "speed must be a finite number [m/s]; got inf"),
         ({"footprint": -0.1}, "footprint must be greater than zero [m]; got -0.1"),

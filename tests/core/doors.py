@@ -260,7 +260,7 @@ def _wave() -> Iterator[Door]:
     steady = {"rubber": SOLID, **WAVE, **PRESSED, "load_time": 1.0, **MESH, **limits, **small}
     yield Door(gs.solve_scale, steady, slow=True)
     line = {"rubber": SOLID, "profile": LINE, **PRESSED, "load_time": 1.0, **limits, **small}
-    cut = {"smallest_wavelength": 8e-3, "periodic": False, "columns": 32, "rows": 4}
+    cut = {"smallest_wavelength": 8e-3, "periodic": False, "columns": 64, "rows": 4}
     yield Door(gs.solve_profile, {**line, **cut, "depth": 1.5, "element_order": 1}, slow=True)
     stages = {"stages": [gs.Stage(duration=1e-4, **PRESSED)], **MESH, "start": None}
     yield Door(gs.solve_transient, {"rubber": SOLID, **WAVE, **stages})

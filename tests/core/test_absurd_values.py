@@ -19,7 +19,7 @@ from tests.core.doors import Door, doors
 FOLLOWS = ("omega", "wavelength", "amplitude", "load_time", "profile", "heights")
 """What else a sentence may name: it follows from the arguments."""
 
-NEVER = ["3 bar", b"1", object(), {}, 1 + 1j, float("nan"), -float("inf"), 10**5000, -(10**400)]
+NEVER = ["3 barrels", b"1", object(), {}, 1 + 1j, float("nan"), -float("inf"), 10**5000, -(10**400)]
 """What no argument takes."""
 
 WORDS = [

@@ -28,9 +28,10 @@ NUMBER = re.compile(r"^[^\w]*\d")
 
 
 def parts() -> dict[str, list[str]]:
-    """Return the pages of each part of the site, as paths in `docs`."""
+    """Return the pages of each part of the site, as paths in `docs`, where no notebook is."""
     nav = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))["nav"]
-    return {title: list(_pages(entries)) for part in nav for title, entries in part.items()}
+    titled = [item for part in nav for item in part.items()]
+    return {title: list(_pages(entries)) for title, entries in titled if title != "Notebooks"}
 
 
 def _pages(entries: object) -> Iterator[str]:

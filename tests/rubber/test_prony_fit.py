@@ -1,11 +1,13 @@
 """The Prony fit on series known beforehand, with noise and planted outliers, and on real data."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gripscale.core.errors import InputError
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report, read_master_curve
 from tests.samples import MEASURED_DMA as TREAD
 
@@ -201,3 +203,16 @@ def test_ripple_of_log_spaced_elements(per_decade):
     )
     ripple = np.ptp(loss) / (2 * loss.mean())
     assert ripple == pytest.approx(2 / np.cosh(np.pi**2 / spacing), rel=1e-3)
+
+
+@pytest.mark.filterwarnings("always::gripscale.RubberWarning")
+def test_a_fit_in_python_warns_of_what_the_terminal_prints() -> None:
+    soft = MasterCurve([0.1, 1.0, 10.0, 100.0], [2.0, 2.5, 3.0, 3.5], [0.2, 0.3, 0.3, 0.4])
+    with pytest.warns(RubberWarning) as caught:
+        fit_prony(soft)
+    sentences = " ".join(str(warning.message) for warning in caught)
+    _, report = fit_prony_report(soft)
+    assert "The largest E', 3.5e-06 MPa, is that of no rubber" in sentences
+    assert "the temperature of the moduli is not known" in sentences
+    assert len(caught) == len(report.doubts) + len(report.findings) + 1
+    assert {Path(warning.filename).name for warning in caught} == {"test_prony_fit.py"}

@@ -17,9 +17,13 @@ def test_a_map_knows_its_steps_and_gaps():
     assert surface.step == pytest.approx((1e-4, 2e-4))
     assert surface.length == pytest.approx((19e-4, 58e-4))
     assert surface.missing == 1
-    assert repr(surface) == (
-        "HeightMap(slab: 20 x 30 points, steps 0.0001 m and 0.0002 m, 1 missing)"
-    )
+    assert repr(surface).splitlines() == [
+        "HeightMap",
+        "  name  slab",
+        "  x     20 points, step 100 um, length 1.9 mm",
+        "  y     30 points, step 200 um, length 5.8 mm",
+        "  z     20 x 30 values from -1 m to 1 m, rms 486.5 mm, 1 missing",
+    ]
 
 
 def test_a_map_does_not_change():

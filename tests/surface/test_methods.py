@@ -41,7 +41,7 @@ def test_a_map_is_cleaned_and_drawn():
     assert np.array_equal(cleaned.z, expected_map.z, equal_nan=True)
     expected = map_spectrum(MAP.z, x_step=MAP.step[0], y_step=MAP.step[1], taper="none")
     assert np.array_equal(MAP.spectrum(taper="none").density, expected.density)
-    assert MAP.plot().axes[0].get_title().endswith("line 10 along x")
+    assert MAP.plot().axes[0].get_ylabel() == "distance across $y$ [mm]"
 
 
 def test_fits_of_a_curve_and_their_figure():

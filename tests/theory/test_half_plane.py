@@ -214,7 +214,7 @@ def test_frequencies_beyond_the_rubber_are_flagged():
     ("change", "message"),
     [
         ({"wavelength": 0.0}, "wavelength must be greater than zero"),
-        ({"wavelength": "1"}, "wavelength must be a finite number"),
+        ({"wavelength": "1"}, "wavelength = '1': the unit is missing"),
         ({"amplitude": -1e-5}, "amplitude must be greater than zero"),
         ({"pressure": np.nan}, "pressure must be a finite number"),
         ({"speed": -1.0}, "speed must not be negative"),

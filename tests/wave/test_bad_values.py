@@ -17,7 +17,7 @@ GOOD = {"wavelength": 1e-3, "amplitude": 1e-4, "pressure": 1e5, "speed": 0.1}
         ({"amplitude": -1e-4}, r"amplitude must be greater than zero \[m\]; got -0.0001"),
         ({"pressure": 0}, r"pressure must be greater than zero \[Pa\]; got 0"),
         ({"pressure": math.inf}, r"pressure must be a finite number \[Pa\]; got inf"),
-        ({"pressure": "3 bar"}, r"pressure must be a finite number \[Pa\]; got '3 bar'"),
+        ({"pressure": "3 barrels"}, r"pressure = '3 barrels': unknown unit 'barrels'"),
         ({"speed": -1.0}, r"speed must not be negative \[m/s\]; got -1"),
         ({"load_time": -1.0}, r"load_time must not be negative \[s\]; got -1"),
         ({"load_time": math.nan}, r"load_time must be a finite number \[s\]; got nan"),

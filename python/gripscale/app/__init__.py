@@ -19,6 +19,10 @@ def serve_app(
 ) -> None:
     """Serve the page on this machine, for this machine only, until it is interrupted.
 
+    Raises `FileError` if the folder cannot be written or the case cannot be read. Raises
+    `InputError` if the port is none or taken, the case is unusable, or the libraries of
+    `gripscale[app]` are not installed.
+
     Parameters
     ----------
     folder
@@ -30,14 +34,6 @@ def serve_app(
         Port of 127.0.0.1; 0 takes a free one.
     browser
         Open the page in a browser.
-
-    Raises
-    ------
-    FileError
-        If the folder cannot be written or the case cannot be read.
-    InputError
-        If the port is none or taken, the case is unusable, or the libraries of `gripscale[app]`
-        are not installed.
     """
     libraries = ("bokeh", "jinja2", "markupsafe", "panel", "param", "tomlkit")
     with using_extra("app", "the page", *libraries):

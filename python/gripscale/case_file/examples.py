@@ -15,6 +15,7 @@ import numpy as np
 
 from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
 from gripscale.core import checks
+from gripscale.core.described import Described
 from gripscale.core.errors import FileError
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.folders import nearest_existing, write_bytes
@@ -57,8 +58,8 @@ def sweeps_text() -> str:
 _CASE = "case.toml"
 
 
-@dataclass(frozen=True)
-class Example:
+@dataclass(frozen=True, repr=False)
+class Example(Described):
     """A case with the files it names."""
 
     about: str

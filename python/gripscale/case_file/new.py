@@ -35,7 +35,7 @@ from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
 from gripscale.core.finding import Finding, ranked
-from gripscale.core.units import temperature_in_kelvin
+from gripscale.core.units import si_value
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io.folders import make_folder, path_between, write_text
 from gripscale.rubber import read_shift_table
@@ -116,6 +116,8 @@ def propose(
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
+    Raises `InputError` or `FileError` if the files hold no surface or no moduli, or cannot be read.
+
     Parameters
     ----------
     files : sequence of path-like
@@ -135,13 +137,8 @@ def propose(
         What the file of the rubber does not state: keys of [rubber], such as columns.
     thickness : str, optional
         Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
-
-    Raises
-    ------
-    InputError, FileError
-        If the files hold no surface or no moduli, or cannot be read.
     """
-    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
+    kelvin = si_value("temperature", temperature, "K")
     layout = layout or {}
     named = [str(name) for name in files if str(name) in NAMED_RUBBERS and not Path(name).exists()]
     paths = [Path(file) for file in files if str(file) not in named]

@@ -416,20 +416,16 @@ def named_files(file: CaseFile) -> list[NamedFile]:
 def read_case(path: CaseFile | str | Path) -> Case:
     """Read the case file at a path with everything it names, and fit what it asks for.
 
+    The case keeps its text, the units it states and the checksums of its files. Raises `FileError`
+    or `InputError` for what cannot be read or used.
+
+        >>> gs.read_case("case.toml").rubber.name
+        'tread'
+
     Parameters
     ----------
     path : path or CaseFile
         A case file (TOML), see `gripscale keys`.
-
-    Returns
-    -------
-    Case
-        It keeps its text, the units it states and the checksums of its files.
-
-    Raises
-    ------
-    FileError, InputError
-        For what cannot be read or used.
     """
     file = path if isinstance(path, CaseFile) else read_case_file(path)
     if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:

@@ -13,14 +13,15 @@ from pydantic import BaseModel, ValidationError
 
 from gripscale.case_file.schema import first_complaint, sentence
 from gripscale.case_file.tables import CaseTables
+from gripscale.core.described import Described
 from gripscale.core.errors import FileError, InputError, about_keys
 from gripscale.core.units import stated_units
 
 M = TypeVar("M", bound=BaseModel)
 
 
-@dataclass(frozen=True)
-class CaseFile:
+@dataclass(frozen=True, repr=False)
+class CaseFile(Described):
     """A case with the file it came from: `text` is kept word for word for the results folder."""
 
     case: CaseTables

@@ -27,6 +27,9 @@ def run_case(
 ) -> ChainRun:
     """Solve the chain of waves of a case file.
 
+    A wave that did not converge ends its prediction, which is named in `failures`. Raises
+    `FileError` or `InputError` for what cannot be read, used or written.
+
     Parameters
     ----------
     file : path or CaseFile
@@ -43,16 +46,6 @@ def run_case(
         Take nothing up.
     run : ChainRun, optional
         The run of the case in this folder, where the case is read already.
-
-    Returns
-    -------
-    ChainRun
-        A wave that did not converge ends its prediction, which is named in `failures`.
-
-    Raises
-    ------
-    FileError, InputError
-        For what cannot be read, used or written.
     """
     file = file if isinstance(file, CaseFile) else read_case_file(file)
     emit = on_event or (lambda event: None)

@@ -23,6 +23,7 @@ from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
 from gripscale.chain.prediction import ChainError, ChainResult, ChainSolve, RubberAt
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.model import MOST_CLASSES, Load, LoadTime, OnProgress
@@ -70,15 +71,15 @@ def solve_chain(
     rubber: Rubber,
     sines: SineStack,
     *,
-    pressure: float,
-    speed: float,
-    footprint: float,
+    pressure: Quantity,
+    speed: Quantity,
+    footprint: Quantity,
     solver: WaveSolverLike = "finite_strain",
-    smallest_wavelength: float | None = None,
+    smallest_wavelength: Quantity | None = None,
     max_scales: int | None = None,
     pressure_classes: int = 1,
     load_time: LoadTime = "passage",
-    thickness: float | None = None,
+    thickness: Quantity | None = None,
     on_scale: Callable[[ChainResult], None] | None = None,
     start: ChainResult | None = None,
     rubber_at: RubberAt | None = None,
@@ -87,6 +88,15 @@ def solve_chain(
     **options: Any,
 ) -> ChainResult:
     """Predict contact and friction by the chain over the waves of `sines`, largest first.
+
+    Raises `ExtrapolationError` if the rubber would be extrapolated and `extrapolate` is "refuse",
+    `InputError` if a value cannot be used or the pressure is more than ten times the relaxed
+    modulus after the load time of the first wave, and `ChainError` if a wave does not converge: its
+    `partial` is the prediction so far.
+
+        >>> chain = gs.solve_chain(rubber, sines, pressure="3 bar", speed=1.0, footprint="0.1 m")
+        >>> f"{chain.friction:.2f}"
+        '0.10'
 
     Parameters
     ----------
@@ -134,21 +144,6 @@ def solve_chain(
         warns of them. "refuse": raise an error if a wave does, at its fundamental frequency.
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
-
-    Returns
-    -------
-    ChainResult
-        One `ScaleResult` per wave, with running area and friction.
-
-    Raises
-    ------
-    ExtrapolationError
-        An `InputError`: the rubber would be extrapolated and `extrapolate` is "refuse".
-    InputError
-        A value that cannot be used; the pressure is more than ten times the relaxed modulus of the
-        rubber after the load time of the first wave.
-    ChainError
-        A wave did not converge; a `ConvergenceError` whose `partial` is the prediction so far.
     """
     chain = Chain(
         solver=wave_solver(solver, options),

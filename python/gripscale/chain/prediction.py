@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -36,9 +36,11 @@ from gripscale import model
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
+from gripscale.core.described import Pictured
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
 from gripscale.io import netcdf
 from gripscale.model import Load
@@ -148,8 +150,8 @@ def _contact_of(wave: ScaleResult) -> tuple[Array, Array]:
     return share, pressure * (wave.pressure_received / (share @ pressure))
 
 
-@dataclass(frozen=True)
-class ChainResult:
+@dataclass(frozen=True, repr=False)
+class ChainResult(Pictured):
     """Contact and friction of a stack of waves (m, Pa, m/s).
 
     A wave that did not converge is kept, last, with its status: the totals are then NaN.
@@ -164,6 +166,19 @@ class ChainResult:
     """Number of waves to solve."""
     conditions: Conditions | None = None
     """Conditions of the rubber, and the area term."""
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield status, contact, friction, load and the waves."""
+        yield "status", str(self.status)
+        for name in ("contact_fraction", "friction", "friction_from_dissipation"):
+            yield name, f"{getattr(self, name):.4g}"
+        yield "waves", f"{len(self.scales)} of {self.planned} solved"
+        load = self.load
+        yield "load", f"{readable(load.pressure, 'Pa')}, {readable(load.speed, 'm/s')}"
+        yield "rubber", self.rubber.name or "unnamed"
+        for scale in self.scales[:7]:
+            length, pressure = readable(scale.wavelength, "m"), scale.pressure_received
+            yield length, f"{readable(pressure, 'Pa')}, friction {scale.friction:.3g}"
 
     @property
     def status(self) -> Status:

@@ -53,13 +53,13 @@ def rubber(
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
-    from gripscale.core.units import parse_quantity, temperature_in_kelvin
+    from gripscale.core.units import parse_quantity
     from gripscale.export import write_rubber
     from gripscale.export.reduction import reduced
 
     rubber = _rubber_of(source, modulus)
     if temperature is not None:
-        rubber = rubber.at(temperature_in_kelvin(temperature))
+        rubber = rubber.at(temperature)
     console = screen()
     ends = None
     if band is not None:

@@ -51,8 +51,9 @@ from gripscale.continuation.roughness import (
     slope_on_faces,
 )
 from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array, Mask, Quantity
 from gripscale.core.checks import checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
@@ -144,8 +145,8 @@ class CutOffContact:
         ]
 
 
-@dataclass(frozen=True, eq=False)
-class ContactByCutOff:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactByCutOff(Described):
     """Contact and friction of lines against the cut-off."""
 
     steps: tuple[CutOffContact, ...]
@@ -277,10 +278,10 @@ def contact_by_cut_off(
     rubber: Rubber,
     lines: Profile | Sequence[Profile],
     *,
-    pressure: float,
-    speed: float,
-    down_to: float,
-    longest: float = 30e-3,
+    pressure: Quantity,
+    speed: Quantity,
+    down_to: Quantity,
+    longest: Quantity = 30e-3,
     roughness: Roughness | None = None,
     seed: int = 0,
     on_contact: OnContact | None = None,
@@ -290,6 +291,10 @@ def contact_by_cut_off(
 
     Cut-offs are an octave apart. Above the shortest wavelength that the lines resolve, the waves
     are measured; below, they are continued and the numbers have a `band`, but for a `refusal`.
+
+    Raises `InputError` if an argument is out of its range, a finer measurement does not reach
+    `down_to` or is rougher or smoother than the faces by more than a factor of three where both are
+    measured; and as `solve_rough_contact` does.
 
     Parameters
     ----------
@@ -313,13 +318,6 @@ def contact_by_cut_off(
         Called with each contact of the result as it is solved.
     options
         Further arguments of `solve_rough_contact`: conditions, footprint, extrapolate.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, a finer measurement does not reach `down_to` or is
-        rougher or smoother than the faces by more than a factor of three where both are measured;
-        and as `solve_rough_contact` does.
     """
     profiles = [lines] if isinstance(lines, Profile) else checks.instances("lines", lines, Profile)
     source = OwnFaces() if roughness is None else as_roughness("roughness", roughness)

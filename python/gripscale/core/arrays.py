@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,11 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
+LEAST, MOST = 1e-100, 1e100
+"""Quantities beyond these are mistakes; within them no square or product of two overflows."""
+
 if TYPE_CHECKING:
+    Quantity = float | Any
 
     class Vector:
         """Type of a checked field that is given as anything array-like and read as an array."""
@@ -19,4 +23,6 @@ if TYPE_CHECKING:
         def __get__(self, instance: object, owner: type) -> Array: ...
         def __set__(self, instance: object, value: ArrayLike | None) -> None: ...
 else:
+    Quantity = float | str
+    """A number in the SI unit, or a text with its unit such as "3 bar"."""
     Vector = Array

@@ -13,21 +13,26 @@ from typing import Any, ClassVar, TypeVar, dataclass_transform
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gripscale.core.arrays import LEAST as LEAST
+from gripscale.core.arrays import MOST as MOST
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
+from gripscale.core.units import si_value
+from gripscale.core.wording import short_repr as short_repr
+from gripscale.core.wording import shortened as shortened
 
 _T = TypeVar("_T")
-
-LEAST, MOST = 1e-100, 1e100
-"""Quantities beyond these are mistakes; within them no square or product of two overflows."""
 
 
 def number(name: str, value: Any, *, unit: str = "", infinite: bool = False) -> float:
     """Return `value` as a float, zero or from `LEAST` to `MOST` in size; else raise `InputError`.
 
-    NaN is refused, infinity is accepted only with `infinite`.
+    With a unit, a text such as "3 bar" is a number of that unit. NaN is refused, infinity is
+    accepted only with `infinite`.
     """
     expected = f"{name} must be a finite number{_in(unit)}"
+    value = si_value(name, value, unit, strict=False)
     numeric = isinstance(value, int | float) or hasattr(value, "dtype")
     if not numeric or not _may_be_real(value) or np.ndim(value) > 0:
         raise InputError(f"{expected}; got {short_repr(value)}")
@@ -109,7 +114,7 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
 
 def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> Array:
     expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
-    result = array(value, expected)
+    result = array(si_value(name, value, unit, strict=False), expected)
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
     bad = np.isinf(result) if missing else ~np.isfinite(result)
@@ -231,7 +236,7 @@ def instances(name: str, values: Any, kind: type[_T]) -> list[_T]:
 def real(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value`, of any shape, as a float array of entries of at most `MOST`."""
     expected = f"{name} must be finite numbers of at most {MOST:g}{_in(unit)}"
-    result = array(value, expected)
+    result = array(si_value(name, value, unit, strict=False), expected)
     bad = ~(np.abs(result) <= MOST)
     if bad.any():
         raise InputError(f"{expected}; got {result[bad][0]:g}")
@@ -269,24 +274,6 @@ def allowed_names(kind: str, names: Iterable[str], allowed: Iterable[str]) -> No
             near = difflib.get_close_matches(name, choices, n=1)
             hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(choices)}"
             raise InputError(f"unknown {kind} {name}; {hint}")
-
-
-def short_repr(value: Any) -> str:
-    """Return a value as a message shows it: on one line of at most 80 characters."""
-    if isinstance(value, int) and abs(value) >= 10**80:
-        return "a whole number of more than 80 digits"
-    if isinstance(value, np.ndarray) and value.ndim > 0:
-        return f"an array of shape {value.shape}"
-    try:
-        return shortened(" ".join(repr(value).split()), 80)
-    except ValueError:
-        return "whole numbers too long to print"
-
-
-def shortened(text: str, most: int = 120) -> str:
-    """Return text of a file as a message quotes it: printable, at most `most` characters."""
-    plain = "".join(letter if letter.isprintable() else "?" for letter in text)
-    return plain if len(plain) <= most else f"{plain[: most - 3]}..."
 
 
 def _may_be_real(value: Any) -> bool:
@@ -345,7 +332,7 @@ def checked(
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(checked, field))
-class Checked:
+class Checked(Described):
     """Base of frozen dataclasses whose fields declare their checks once, with `checked`.
 
         class Sphere(Checked):
@@ -364,12 +351,14 @@ class Checked:
         super().__init_subclass__()
         # A subclass without fields of its own keeps the constructor that it inherits.
         if options or not is_dataclass(cls) or inspect.get_annotations(cls):
-            dataclass(frozen=True, **options)(cls)
+            dataclass(frozen=True, repr=False, **options)(cls)
 
     def __post_init__(self) -> None:
         for item in fields(self):
             value, check = getattr(self, item.name), item.metadata.get("check")
             if check is not None and not (value is None and item.default is None):
+                if kind := item.metadata.get("quantity"):
+                    value = si_value(item.name, value, "", kind, strict=False)
                 self._set(**{item.name: check(item.name, value)})
 
     def _set(self, **values: Any) -> None:

@@ -46,7 +46,7 @@ class ConvergenceError(GripscaleError):
 
 
 class RubberWarning(UserWarning):
-    """A rubber made by hand with values that no rubber has."""
+    """A rubber with values that no rubber has, or a fit that leaves them open."""
 
 
 @contextmanager

@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import Any
 
 CASE_WRITER = "write a case file"
+FIGURE_PNG = "save a figure as PNG"
 
 _functions: dict[str, str] = {}
 

@@ -17,8 +17,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core.checks import MOST, short_repr
+from gripscale.core.arrays import MOST
 from gripscale.core.errors import InputError
+from gripscale.core.wording import short_repr
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
@@ -88,9 +89,11 @@ _SPELLINGS = {word: unit for unit, words in _OTHER_SPELLINGS.items() for word in
 _EXAMPLES = {
     "length": "100 mm",
     "pressure": "3 bar",
+    "modulus": "5 MPa",
+    "frequency": "10 Hz",
+    "angle": "45 deg",
     "speed": "0.3 m/s",
     "time": "0.1 s",
-    "frequency": "10 Hz",
     "temperature": "20 C",
     "temperature difference": "100 K",
     "strain": "2 %",
@@ -174,18 +177,50 @@ def parse_quantity(value: Any, kind: str) -> float:
     return _finite(quantity_in_si(float(number), unit, kind), kind)
 
 
+_KINDS = {next(iter(sizes)): kind for kind, sizes in reversed(UNITS.items())} | {
+    "rad/s": "frequency"
+}
+"""Kind of quantity by its SI unit: of pressure and modulus the former, whose units are more."""
+
+
+def si_value(name: str, value: Any, unit: str, kind: str = "", *, strict: bool = True) -> Any:
+    """Return `value` in the SI `unit` if it is a text such as "3 bar", or a list with such texts.
+
+    `kind` is the kind of quantity where the unit does not say it. Raises `InputError` for a number
+    with another unit or none, and where it is `strict` for other texts; any other value is returned
+    as it is.
+    """
+    kind = kind or _KINDS.get(unit, "")
+    if isinstance(value, list | tuple) and any(isinstance(item, str) for item in value):
+        return [si_value(f"each of {name}", item, unit, kind, strict=strict) for item in value]
+    if not kind or not isinstance(value, str):
+        return value
+    if not strict and kind not in _UNIT_NEEDED and not _QUANTITY.fullmatch(value):
+        return value
+    try:
+        return parse_quantity(value, kind) / UNITS[kind].get(unit, 1.0)
+    except ValueError as error:
+        raise InputError(f"{name} = {short_repr(value)}: {error}") from error
+
+
+_READABLE = ("m", "mm", "um", "nm", "GPa", "MPa", "kPa", "Pa", "s", "ms", "us", "MHz", "kHz", "Hz")
+"""SI units with prefixes in steps of a thousand."""
+
+
+def readable(value: float, unit: str) -> str:
+    """Return a value in the SI `unit` as text in the unit of its size, such as 0.1 mm."""
+    sizes = UNITS[_KINDS[unit]] if unit in _READABLE else {}
+    fits = [u for u in _READABLE if u in sizes and 0.9999 <= abs(value) / sizes[u] < 1e5]
+    if fits:
+        unit = max(fits, key=lambda u: sizes[u])
+        value /= sizes[unit]
+    return f"{plain(value, 4)} {unit}".removesuffix(" 1").rstrip()
+
+
 def unit_of(value: object, kind: str) -> str:
     """Return the usual spelling of the unit of a quantity such as "3 bar"; empty without a unit."""
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     return "" if match is None else spelled(match[2], kind) or ""
-
-
-def temperature_in_kelvin(text: str) -> float:
-    """Return a temperature [K] such as "40 C"; raise `InputError` for what is none."""
-    try:
-        return parse_quantity(text, "temperature")
-    except ValueError as error:
-        raise InputError(f"temperature = {text!r}: {error}") from error
 
 
 def number_and_unit(value: object, kind: str) -> tuple[str, str] | None:

@@ -48,3 +48,21 @@ class Words(str):
     def with_keys(self, word: Callable[[CaseKey], str]) -> str:
         """Return the text with `word` of each key in place of its name."""
         return "".join(word(part) if isinstance(part, CaseKey) else part for part in self.parts)
+
+
+def short_repr(value: Any) -> str:
+    """Return a value as a message shows it: on one line of at most 80 characters."""
+    if isinstance(value, int) and abs(value) >= 10**80:
+        return "a whole number of more than 80 digits"
+    if getattr(value, "shape", ()):
+        return f"an array of shape {value.shape}"
+    try:
+        return shortened(" ".join(repr(value).split()), 80)
+    except ValueError:
+        return "whole numbers too long to print"
+
+
+def shortened(text: str, most: int = 120) -> str:
+    """Return text of a file as a message quotes it: printable, at most `most` characters."""
+    plain = "".join(letter if letter.isprintable() else "?" for letter in text)
+    return plain if len(plain) <= most else f"{plain[: most - 3]}..."

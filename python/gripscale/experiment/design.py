@@ -164,6 +164,8 @@ def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
 def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:
     """Return the answers of a design over its dimensions.
 
+    Raises `InputError` or `FileError` as `Bench.solve`.
+
     Parameters
     ----------
     design : Design
@@ -173,16 +175,6 @@ def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> 
     pick : callable
         Reduces an answer, with its task, to a Dataset of what is stacked, with
         `prediction_status`; by default the numbers of the whole surface.
-
-    Returns
-    -------
-    xarray.Dataset
-        As `Design.dataset`.
-
-    Raises
-    ------
-    InputError, FileError
-        As `Bench.solve`.
     """
     return design.dataset(bench.solve(design.tasks, pick))
 

@@ -87,6 +87,8 @@ class MeasuredFriction(Checked, eq=False):
 
     What is computed for the points, such as `gripscale.questions.Predicted`, has the same order.
 
+    Raises `InputError` if the lengths differ or a value is out of its range.
+
     Parameters
     ----------
     speed : array_like, shape (n,)
@@ -103,11 +105,6 @@ class MeasuredFriction(Checked, eq=False):
         Where they come from.
     assumed : str
         What was assumed of them because the source does not state it, in sentences.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ or a value is out of its range.
     """
 
     speed: Vector = checked(checks.positive_vector, unit="m/s", repr=False)
@@ -135,20 +132,15 @@ class MeasuredFriction(Checked, eq=False):
 def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
     """Read measured friction from a text, CSV or Excel file, in the order of its rows.
 
+    Raises `FileError` if the file is missing or unreadable, a column is missing or named twice, or
+    a unit or a value cannot be used. Raises `InputError` if `sheet` is missing or none of the file.
+
     Parameters
     ----------
     path : str or Path
         The file; Excel: .xlsx.
     sheet : str or int, optional
         Name of the Excel sheet or its number from 1, where several hold numbers.
-
-    Raises
-    ------
-    FileError
-        If the file is missing or unreadable, a column is missing or named twice, or a unit or a
-        value cannot be used.
-    InputError
-        If `sheet` is missing or none of the file.
     """
     path = file_path(path)
     table = read_table(

@@ -82,6 +82,9 @@ class Bench:
     def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
         """Return the answer of every task by its key; only what the store lacks is solved.
 
+        Raises `InputError` if an input cannot be used, or the cluster cannot be reached. Raises
+        `FileError` if an answer cannot be written.
+
         Parameters
         ----------
         tasks : mapping
@@ -89,13 +92,6 @@ class Bench:
         pick : callable, optional
             What is kept of an answer; all of it by default. The attributes `prediction_key` and
             `seconds` are always kept.
-
-        Raises
-        ------
-        InputError
-            If an input cannot be used, or the cluster cannot be reached.
-        FileError
-            If an answer cannot be written.
         """
         wanted: dict[str, tuple[str, Task]] = {}
         for label, task in tasks.items():

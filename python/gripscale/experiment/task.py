@@ -124,15 +124,12 @@ class Store:
     A file is written beside its place and renamed into it, so a file that is there is whole. One
     that cannot be read back all the same (a disk that was full, a power cut) counts as not there.
 
+    Raises `FileError` if the folder cannot be made.
+
     Parameters
     ----------
     folder
         Made if it is not there.
-
-    Raises
-    ------
-    FileError
-        If the folder cannot be made.
     """
 
     def __init__(self, folder: str | Path) -> None:

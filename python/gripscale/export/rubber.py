@@ -16,6 +16,7 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
@@ -28,8 +29,8 @@ _WIDTH = 76
 """Characters in a line of comment: Abaqus reads 256, people read fewer."""
 
 
-@dataclass(frozen=True)
-class ProgramFile:
+@dataclass(frozen=True, repr=False)
+class ProgramFile(Described):
     """A text for a finite element program."""
 
     text: str = field(repr=False)

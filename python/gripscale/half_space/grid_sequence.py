@@ -57,6 +57,7 @@ import numpy as np
 import scipy
 
 from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.core.described import Described
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, OnIteration, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
 from gripscale.half_space.response import HalfSpace, Response
@@ -171,8 +172,8 @@ class Level:
     cut_off: float
 
 
-@dataclass(frozen=True)
-class GridRecord:
+@dataclass(frozen=True, repr=False)
+class GridRecord(Described):
     """Numbers of one grid."""
 
     points: int

@@ -122,6 +122,8 @@ def line_under_load(
 ) -> LineUnderLoad:
     """Return how far lines reach up, and how hard they are pressed for their height.
 
+    Raises `InputError` if an argument is out of its range, or no piece has two different heights.
+
     Parameters
     ----------
     profile : Profile or sequence of Profile
@@ -134,11 +136,6 @@ def line_under_load(
         Longest wave of the roughness [m].
     pressure, speed : float
         Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
-
-    Raises
-    ------
-    InputError
-        If an argument is out of its range, or no piece has two different heights.
     """
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")

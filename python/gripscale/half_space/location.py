@@ -70,6 +70,16 @@ def contact_trace(
 ) -> xr.Dataset:
     """Return a contact along a line as charts draw it, in pieces.
 
+    The result is over `piece`: `x`, the middle [m]; `height_low` and `height_high`, `rubber_low`
+    and `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact;
+    `running_friction` and `running_load` from the beginning of the line to the end of the piece,
+    over those of the contact [-] (of a map, of its mean line), the friction NaN at rest;
+    `by_height`, if there is a derivative: that by the height of a piece, over its length [1/m^2].
+    `stretch_start` and `stretch_end` [m] of the stretch with most friction (at rest, load),
+    `stretch_friction` and `stretch_load`, its parts of them. Of a map also `section` [m], the y of
+    the line, and over `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of
+    contact, at `field_x` and `field_y` [m]. Raises `InputError` if the stretch is not positive.
+
     Parameters
     ----------
     contact : RoughContact
@@ -82,25 +92,6 @@ def contact_trace(
         stretches with most friction.
     derivative : array, optional
         d ln friction / d height [1/m] of each point, shape of the grid.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `piece`: `x`, the middle [m]; `height_low` and `height_high`, `rubber_low` and
-        `rubber_high` [m], `pressure_low` and `pressure_high` [Pa], zero out of contact;
-        `running_friction` and `running_load` from the beginning of the line to the end of the
-        piece, over those of the contact [-] (of a map, of its mean line), the friction NaN at rest;
-        `by_height`, if there is a derivative: that by the height of a piece, over its length
-        [1/m^2]. `stretch_start` and
-        `stretch_end` [m] of the stretch with most friction (at rest, load), `stretch_friction` and
-        `stretch_load`, its parts of them. Of a map also `section` [m], the y of the line, and over
-        `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of contact, at `field_x`
-        and `field_y` [m].
-
-    Raises
-    ------
-    InputError
-        If the stretch is not positive.
     """
     x, step = contact.x, contact.grid.spacing[0]
     length = stretch_length(contact) if stretch is None else checks.positive("stretch", stretch)

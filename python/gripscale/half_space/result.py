@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
 from functools import cached_property
@@ -35,8 +35,10 @@ from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.described import Pictured
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
+from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
@@ -128,17 +130,14 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     The friction from the contact traction, sum_i p_i h'_i / (N p_0), is a sum over the points of
     the grid, so that a class of slopes has a share in it as in the load and in the contact area.
 
+    The result has `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the
+    lower end of the classes 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1; the friction
+    is NaN where there is none.
+
     Parameters
     ----------
     contact : RoughContact
         The contact; the slope is dh/dx along the sliding direction, up or down.
-
-    Returns
-    -------
-    xarray.Dataset
-        `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the lower end
-        of the classes 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1; the friction is NaN
-        where there is none.
     """
     slope = contact.grid.slope(contact.height)
     index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
@@ -154,8 +153,8 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     return xr.Dataset(data, {"slope": ends})
 
 
-@dataclass(frozen=True)
-class RoughContact:
+@dataclass(frozen=True, repr=False)
+class RoughContact(Pictured):
     """Contact and friction of a whole surface (m, Pa, m/s); arrays have the shape of the grid."""
 
     rubber: Rubber = field(repr=False)
@@ -209,6 +208,20 @@ class RoughContact:
     """Of the rubber on a rigid base [m]; None: a half-space, or `layers`."""
     layers: Layers | None = None
     """The stack, that in contact first and also `rubber`; None: one rubber."""
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield status, contact, friction, load and grid."""
+        yield "status", str(self.status)
+        for name in ("contact_fraction", "friction"):
+            error = getattr(self, f"{name}_error")
+            grid = "" if math.isnan(error) else f" ± {error:.2g}"
+            yield name, f"{getattr(self, name):.4g}{grid}"
+        yield "friction_from_dissipation", f"{self.friction_from_dissipation:.4g}"
+        yield "load", f"{readable(self.nominal_pressure, 'Pa')}, {readable(self.speed, 'm/s')}"
+        spacing = " and ".join(readable(step, "m") for step in self.grid.spacing)
+        yield "grid", f"{' x '.join(map(str, self.grid.shape))} points, step {spacing}"
+        yield "smallest_wavelength", readable(self.smallest_wavelength, "m")
+        yield from (("note", note) for note in self.notes[:2])
 
     @property
     def adhesive_friction(self) -> float:

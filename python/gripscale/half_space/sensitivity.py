@@ -54,7 +54,7 @@ import xarray as xr
 
 from gripscale.conditions.conditions import state_by_scale
 from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.arrays import Array, ComplexArray, Quantity
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.labels import labelled
 from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
@@ -384,7 +384,7 @@ def contact_sensitivity(
     *,
     bands_per_decade: int = 2,
     contact_fraction: bool = False,
-    reference_temperature: float | None = None,
+    reference_temperature: Quantity | None = None,
     layer: int = 0,
 ) -> xr.Dataset:
     """Return the derivatives of the friction of a direct contact by all of its inputs.
@@ -392,6 +392,9 @@ def contact_sensitivity(
     One linear system is solved, whatever the number of inputs. The friction is that from the
     energy lost. Under conditions the rubber of each scale keeps its strain and its temperature
     rise: the effect of an input on them is left out (`settled` in the attributes).
+
+    Raises `InputError` if the contact is at rest, has no friction or not this layer, or is
+    something else; if the rubber has no shift to the reference temperature.
 
     Parameters
     ----------
@@ -420,12 +423,6 @@ def contact_sensitivity(
         [1/K], NaN without a shift. Over `term`: `d_ln_friction_d_ln_modulus` [-], of the moduli of
         the Prony series with `relaxation_time` [s], infinite for the equilibrium modulus. Over `x`
         [m], and `y` of a map: `d_friction_d_height` [1/m], of the height of one point of the grid.
-
-    Raises
-    ------
-    InputError
-        If the contact is at rest, has no friction or not this layer, or is something else; if the
-        rubber has no shift to the reference temperature.
     """
     checks.instance("contact", contact, RoughContact)
     checks.whole("layer", layer, least=0, most=len(contact.body.rubbers) - 1)

@@ -18,6 +18,7 @@ import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import checks
+from gripscale.core.arrays import Quantity
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import worker_count
 from gripscale.core.status import Status
@@ -67,11 +68,11 @@ def solve_rough_contact(
     rubber: Rubber | Layers,
     surface: Profile | HeightMap,
     *,
-    pressure: float,
-    speed: float,
-    smallest_wavelength: float | None = None,
+    pressure: Quantity,
+    speed: Quantity,
+    smallest_wavelength: Quantity | None = None,
     periodic: bool = False,
-    thickness: float | None = None,
+    thickness: Quantity | None = None,
     steepest: float = STEEPEST,
     tolerance: float | None = 0.02,
     workers: int | None = None,
@@ -81,13 +82,23 @@ def solve_rough_contact(
     on_grid: Callable[[GridRecord], None] | None = None,
     on_iteration: OnIteration | None = None,
     conditions: Conditions | None = None,
-    footprint: float | None = None,
+    footprint: Quantity | None = None,
     extrapolate: str = "warn",
     start: RoughContact | None = None,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
     A `status` other than "converged" says why not to trust the numbers.
+
+    Raises `ExtrapolationError` if the rubber would be extrapolated and `extrapolate` is "refuse",
+    `ConvergenceError` if the time limit ends before any grid is solved, and `InputError` if an
+    argument is out of its range, the first full grid has more than `most_points`, a size is beyond
+    what single precision can hold, or the rubber at rest is a melt: the pressure is more than ten
+    times the equilibrium modulus.
+
+        >>> contact = gs.solve_rough_contact(rubber, road, pressure="3 bar", speed="1 km/h")
+        >>> f"{contact.contact_fraction:.2f}"
+        '0.14'
 
     Parameters
     ----------
@@ -148,17 +159,6 @@ def solve_rough_contact(
         Contact of the same surface and cut-off with another rubber, pressure or speed. Its grid is
         the first and, without a tolerance, the only one, so that the result has no cut-off
         exponents. Conditions that are iterated start anew.
-
-    Raises
-    ------
-    ExtrapolationError
-        An `InputError`: the rubber would be extrapolated and `extrapolate` is "refuse".
-    ConvergenceError
-        If the time limit ends before any grid is solved.
-    InputError
-        If an argument is out of its range, the first full grid has more than `most_points`, a size
-        is beyond what single precision can hold, or the rubber at rest is a melt: the pressure is
-        more than ten times the equilibrium modulus.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions

@@ -16,7 +16,8 @@ import numpy as np
 import scipy
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.half_space.grid import joined, surface_axes
 from gripscale.half_space.result import RoughContact
@@ -36,8 +37,8 @@ _MOST_POINTS = 10_000_000
 _Measurement = TypeVar("_Measurement", Profile, HeightMap)
 
 
-@dataclass(frozen=True)
-class WindowContacts:
+@dataclass(frozen=True, repr=False)
+class WindowContacts(Described):
     """Contacts of the windows of one surface; statistics use those that converged.
 
     A `name` is that of a number of `RoughContact`, in its unit: `contact_fraction`, `friction`,
@@ -162,7 +163,7 @@ def solve_windows(
     )
 
 
-def surface_of_sines(stack: SineStack, length: float, seed: int) -> Profile:
+def surface_of_sines(stack: SineStack, length: Quantity, seed: int) -> Profile:
     """Return a periodic line of superposed sine waves, each with a random phase.
 
     Raises `InputError` if an argument is out of its range, or there would be more than ten million

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.io.netcdf import write_whole
 
@@ -95,8 +96,8 @@ def on_page(text: str) -> str:
     return NONE if text in ("-", "") else text.replace("-", "−")
 
 
-@dataclass(frozen=True)
-class Column:
+@dataclass(frozen=True, repr=False)
+class Column(Described):
     """One column of a table."""
 
     name: str
@@ -186,8 +187,8 @@ class Column:
         return None if math.isnan(value) else (value - self.zero) / self.size
 
 
-@dataclass(frozen=True)
-class Table:
+@dataclass(frozen=True, repr=False)
+class Table(Described):
     """A table whose first column names its rows."""
 
     name: str

@@ -32,11 +32,13 @@ from .design.goal_friction import CompoundGoal as CompoundGoal
 from .design.question import CompoundDesign as CompoundDesign
 from .inputs.charts_of_rubber import finite_strain_figure as finite_strain_figure
 from .inputs.charts_of_rubber import master_curve_figure as master_curve_figure
+from .inputs.charts_of_rubber import measured_moduli_figure as measured_moduli_figure
 from .inputs.charts_of_rubber import shift_figure as shift_figure
 from .inputs.charts_of_rubber import superposition_figure as superposition_figure
 from .inputs.charts_of_rubber import superposition_tests_figure as superposition_tests_figure
 from .inputs.charts_of_surface import correlation_figure as correlation_figure
 from .inputs.charts_of_surface import profile_figure as profile_figure
+from .inputs.charts_of_surface import surface_figure as surface_figure
 from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity

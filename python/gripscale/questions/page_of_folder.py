@@ -23,6 +23,9 @@ ReportSource = RunSource | Compared | Result
 def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     """Write the HTML report of `result` and return its path.
 
+    Raises `FileError` if the result is missing or unreadable, or the page cannot be written. Raises
+    `InputError` if the libraries of `gripscale[report]` are not installed.
+
     Parameters
     ----------
     result
@@ -30,13 +33,6 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
         compounds side by side; or one of their netCDF files.
     output
         The file to write; `report.html` in the results folder by default.
-
-    Raises
-    ------
-    FileError
-        If the result is missing or unreadable, or the page cannot be written.
-    InputError
-        If the libraries of `gripscale[report]` are not installed.
     """
     path = Path(result)
     folder = path if path.is_dir() else path.parent

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import xarray as xr
 
+from gripscale.core.described import Described, with_figure
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
@@ -40,7 +41,7 @@ _WIDTH = 100
 """Characters of a line of a printed result."""
 
 
-class Result(ABC):
+class Result(Described, ABC):
     """The result of a question about a case.
 
     Parameters
@@ -145,15 +146,17 @@ class Result(ABC):
     def __str__(self) -> str:
         return self.text()
 
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {next(iter(self.lines), 'empty')}>"
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield the lines of the answer."""
+        yield from (("", line.strip()) for line in self.lines)
 
     def _repr_html_(self) -> str:
         lead, *basis = [escape(line.strip()) for line in self.lines]
         rest = "".join(f"<li>{line}</li>" for line in basis)
         findings = "".join(f"<li>{escape(finding.sentence)}</li>" for finding in self.findings)
         folded = f"<details><summary>What may change it</summary><ul>{findings}</ul></details>"
-        return f"<p><b>{lead}</b></p><ul>{rest}</ul>{folded if findings else ''}"
+        text = f"<p><b>{lead}</b></p><ul>{rest}</ul>{folded if findings else ''}"
+        return with_figure(text, self)
 
 
 _MOST_OPEN = 3

@@ -19,15 +19,15 @@ from gripscale.questions.result import INPUT_GROUP, KIND
 def load(path: str | Path) -> Any:
     """Return a saved result as it was.
 
+    Raises `FileError` if it does not exist, is damaged, or is no result of a question.
+
+        >>> gs.load("answer.nc").kind
+        'answer'
+
     Parameters
     ----------
     path : path
         A file that `Result.save` or a command wrote.
-
-    Raises
-    ------
-    FileError
-        If it does not exist, is damaged, or is no result of a question.
     """
     result = result_of(netcdf.load_tree(path))
     if result is None:

@@ -71,12 +71,11 @@ _OPEN_FIGURES = 2
 
 @dataclass(frozen=True)
 class Section:
-    """A chapter of the page; one that only stands beside the answer is folded."""
+    """A chapter of the page."""
 
     name: str
     title: str
     elements: Sequence[Element]
-    folded: bool = False
 
     @property
     def figures(self) -> list[int]:
@@ -86,8 +85,6 @@ class Section:
     @property
     def opening(self) -> Sequence[Element]:
         """The elements before the first figure that a page does not open with."""
-        if self.folded:
-            return ()
         return self.elements[: next(iter(self.figures[_OPEN_FIGURES:]), None)]
 
 

@@ -2,29 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import gripscale
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
+from gripscale.core.arrays import Array, Quantity, Vector
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import FileError
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import APART, THREE, FileLayout
-from gripscale.rubber.shift import Shift, shift_at
+from gripscale.rubber.shift import Shift, shift_at, shown_state
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
-class MasterCurve(Checked, eq=False):
+class MasterCurve(Checked, Pictured, eq=False):
     """Storage and loss modulus in uniaxial deformation, sorted by ascending frequency.
 
     Raises `InputError` if a value is not finite, not positive or beyond 1e-100 to 1e100, the
     lengths differ or there are fewer than 2 rows.
+
+        >>> gs.MasterCurve(["1 Hz", "10 Hz"], ["5 MPa", "8 MPa"], ["1 MPa", "2 MPa"]).loss_factor
+        array([0.2 , 0.25])
     """
 
     frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
@@ -50,6 +59,19 @@ class MasterCurve(Checked, eq=False):
 
     def __len__(self) -> int:
         return len(self.frequency)
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield name, ranges of frequency, moduli and loss factor, and temperature."""
+        yield "name", self.name or "unnamed"
+        yield "frequency", f"{shown_value(self.frequency, 'Hz')}, {self.decades:.1f} decades"
+        yield "E'", shown_value(self.storage, "Pa")
+        yield "E''", shown_value(self.loss, "Pa")
+        yield "tan delta", shown_value(self.loss_factor)
+        yield from shown_state(self)
+
+    def plot(self) -> Figure:
+        """Draw both moduli and the loss factor by frequency as measured."""
+        return gripscale.questions.measured_moduli_figure(self)
 
     @property
     def angular_frequency(self) -> Array:
@@ -92,7 +114,7 @@ def read_master_curve(
     path: str | Path,
     *,
     modulus: str | None = None,
-    reference_temperature: float | None = None,
+    reference_temperature: Quantity | None = None,
     name: str | None = None,
     source: str = "",
     **options: Any,
@@ -106,6 +128,9 @@ def read_master_curve(
     something else, such as sweeps at several temperatures; the message names path and line. Raises
     `InputError` if a unit, the kind of modulus or the columns are neither stated nor given, or
     storage and loss are exchanged.
+
+        >>> gs.read_master_curve("dma.txt", reference_temperature="20 C").decades
+        10.0
 
     Parameters
     ----------

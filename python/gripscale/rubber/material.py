@@ -25,7 +25,7 @@ from __future__ import annotations
 import hashlib
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -35,11 +35,12 @@ from numpy.typing import ArrayLike
 
 import gripscale
 from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask, Vector
+from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity, Vector
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import InputError, RubberWarning
-from gripscale.core.units import ZERO_CELSIUS, celsius
-from gripscale.rubber.shift import Shift, shift_at, shift_from_dict
+from gripscale.core.units import ZERO_CELSIUS, celsius, readable
+from gripscale.rubber.shift import Shift, shift_at, shift_from_dict, shown_state
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 
 if TYPE_CHECKING:
@@ -201,13 +202,16 @@ def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
     raise InputError(f"{name} must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}")
 
 
-class Rubber(Checked, eq=False):
+class Rubber(Checked, Pictured, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
     Raises `InputError` if a value is missing, not finite, not positive, beyond 1e-100 to 1e100, the
     lengths differ, or `admissible` belongs to other moduli or times. Warns once
     (`RubberWarning`) if Poisson's ratio is below 0.3 at the fast end of `valid_band`, or at any
     frequency without one; of a rubber with `admissible` the report on its fit says so.
+
+        >>> gs.Rubber("5 MPa", ["20 MPa"], ["1 ms"]).complex_modulus(1e3)
+        array(15000000.+10000000.j)
     """
 
     equilibrium_modulus: float = checked(check_modulus)
@@ -295,6 +299,19 @@ class Rubber(Checked, eq=False):
         }
         return cls(**{**values, **parts})
 
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield name, moduli, relaxation times, band and temperature."""
+        yield "name", self.name or "unnamed"
+        yield "E relaxed", readable(self.equilibrium_modulus, "Pa")
+        yield "E at once", readable(self.glassy_modulus, "Pa")
+        if self.moduli.size:
+            yield "relaxation_times", shown_value(self.relaxation_times, "s")
+        yield "bulk_modulus", readable(self.bulk_modulus, "Pa")
+        yield "strain_energy", repr(self.strain_energy)
+        if self.valid_band is not None:
+            yield "valid_band", " to ".join(readable(end, "rad/s") for end in self.valid_band)
+        yield from shown_state(self)
+
     @property
     def glassy_modulus(self) -> float:
         """Modulus at once after a step, E_inf + sum E_i [Pa]; of the glass if the data reach it."""
@@ -360,7 +377,7 @@ class Rubber(Checked, eq=False):
         """Draw moduli and loss factor by frequency; see `master_curve_figure`."""
         return gripscale.questions.master_curve_figure(self)
 
-    def at(self, temperature: float) -> Rubber:
+    def at(self, temperature: Quantity) -> Rubber:
         """Return the same rubber at another temperature [K].
 
         E*(w, T) = E*(a_T w, T_ref)/b_T: relaxation times are multiplied by a_T, the frequencies of

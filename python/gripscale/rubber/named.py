@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
-from gripscale.core.arrays import ComplexArray
+from gripscale.core.arrays import ComplexArray, Quantity
 from gripscale.core.errors import InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
-from gripscale.rubber.prony import fit_prony
+from gripscale.rubber.prony import fit_prony_report
 
 _ORIGIN = (
     "springpot parameters published for an unfilled SBR at 20 C; the publication is not stated in "
@@ -47,7 +47,7 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
 
 
 def styrene_butadiene(
-    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: float = BULK_MODULUS
+    *, band: tuple[float, float] = (1e-2, 1e10), bulk_modulus: Quantity = BULK_MODULUS
 ) -> Rubber:
     """Return an unfilled styrene-butadiene rubber at 20 C as a Prony series.
 
@@ -77,4 +77,6 @@ def _styrene_butadiene(low: float, high: float, bulk_modulus: float) -> Rubber:
     name = "unfilled styrene-butadiene rubber, 20 C"
     master = MasterCurve(hertz, modulus.real, modulus.imag, 293.15, name, _ORIGIN)
     terms, keep_all = round(2 * decades) + 1, float("inf")
-    return fit_prony(master, terms=terms, bulk_modulus=bulk_modulus, outlier_threshold=keep_all)
+    return fit_prony_report(
+        master, terms=terms, bulk_modulus=bulk_modulus, outlier_threshold=keep_all
+    )[0]

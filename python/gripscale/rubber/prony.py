@@ -20,14 +20,15 @@ Poisson's ratio positive.
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core.arrays import Array, Quantity
+from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber import prony_report as report
 from gripscale.rubber.master_curve import MasterCurve
@@ -104,7 +105,7 @@ def _furthest(
     inside, outside, lowest = 0.0, _FIRST_STEP, problem.squares(best)
     matrix = np.vstack([problem.matrix, _HEAVY * (row / start)])
 
-    def at(step: float) -> tuple[Array, bool]:
+    def at(step: Quantity) -> tuple[Array, bool]:
         value = max(start * math.exp(direction * step) - offset, 0.0)
         right = np.append(problem.right, _HEAVY * (value / start))
         solution = maxwell_fit.non_negative(matrix, right)
@@ -146,8 +147,20 @@ _STIFFEST = 4.4
 
 
 def fit_prony(master: MasterCurve, **options: Any) -> Rubber:
-    """Return the Prony series of a master curve; options and errors as of `fit_prony_report`."""
-    rubber, _ = fit_prony_report(master, **options)
+    """Return the Prony series of a master curve; options and errors as of `fit_prony_report`.
+
+    Warns (`RubberWarning`) of what the report says against the moduli or the fit, and of moduli
+    without a temperature.
+
+        >>> f"{gs.fit_prony(master).glassy_modulus:.1e}"
+        '1.6e+09'
+    """
+    rubber, fit = fit_prony_report(master, **options)
+    sentences = [*map(str, fit.doubts), *fit.findings]
+    if rubber.reference_temperature is None:
+        sentences.append("the temperature of the moduli is not known; give reference_temperature")
+    for sentence in sentences:
+        warnings.warn(f"Prony fit of {rubber.name}: {sentence}", RubberWarning, stacklevel=2)
     return rubber
 
 
@@ -155,7 +168,7 @@ def fit_prony_report(
     master: MasterCurve,
     *,
     terms: int | None = None,
-    bulk_modulus: float = BULK_MODULUS,
+    bulk_modulus: Quantity = BULK_MODULUS,
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = DECADES_BEYOND,
     smoothing: float = _SMOOTHING,

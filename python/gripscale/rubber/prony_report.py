@@ -27,6 +27,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gripscale.core.arrays import Array
+from gripscale.core.described import Described
 from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.core.units import UNITS
 from gripscale.core.wording import CaseKey
@@ -41,8 +42,8 @@ _ALLOWED = 1.5
 END_ROWS = 5
 
 
-@dataclass(frozen=True)
-class Misfit:
+@dataclass(frozen=True, repr=False)
+class Misfit(Described):
     """A range of frequencies, and the largest local mean of fit over data less one in it."""
 
     low: float
@@ -258,8 +259,8 @@ def _span(rubber: Rubber, omega: float) -> str:
     return f"{low.real / 1e6:.4g} to {high.real / 1e6:.4g}"
 
 
-@dataclass(frozen=True)
-class PronyFit:
+@dataclass(frozen=True, repr=False)
+class PronyFit(Described):
     """How a Prony series came about and how well it fits the rows kept."""
 
     terms: int

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
 from typing import Any, ClassVar, Self
 
@@ -33,7 +33,7 @@ from gripscale.core import checks
 from gripscale.core.arrays import Array, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core.units import ZERO_CELSIUS, celsius
 
 _MOST = 100.0
 """Largest log10 a_T that is a factor and no mistake: WLF has a pole."""
@@ -370,3 +370,12 @@ def shift_at(shift: Shift | None, reference_temperature: float | None) -> Shift 
     bound = shift.bound(reference_temperature)
     bound.log_a(reference_temperature, reference_temperature)
     return bound
+
+
+def shown_state(measured: Any) -> Iterator[tuple[str, str]]:
+    """Yield temperature, shift and source of a rubber or a master curve, for `Described`."""
+    kelvin, shift = measured.reference_temperature, measured.shift
+    yield "temperature", "not stated" if kelvin is None else celsius(kelvin)
+    yield "shift", "none" if shift is None else repr(shift).partition("\n")[0]
+    if measured.source:
+        yield "source", measured.source

@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Vector
+from gripscale.core.arrays import Array, Mask, Quantity, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, InputError
 from gripscale.core.wording import CaseKey, Words
@@ -349,7 +349,7 @@ def read_strain_sweep(
     *,
     modulus: str | None = None,
     amplitude: str | None = None,
-    temperature: float | None = None,
+    temperature: Quantity | None = None,
     frequency: float | None = None,
     name: str | None = None,
     source: str = "",

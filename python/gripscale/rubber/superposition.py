@@ -22,7 +22,8 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.core.wording import CaseKey, Words
@@ -44,8 +45,8 @@ _Points = tuple[Array, Array]
 """x of shape (rows,) rising, y of shape (moduli, rows)."""
 
 
-@dataclass(frozen=True)
-class Overlap:
+@dataclass(frozen=True, repr=False)
+class Overlap(Described):
     """How two neighbouring sweeps meet, once shifted."""
 
     colder: float
@@ -128,8 +129,8 @@ _MISFIT = 0.04
 """Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades]."""
 
 
-@dataclass(frozen=True)
-class Superposition:
+@dataclass(frozen=True, repr=False)
+class Superposition(Described):
     """How the sweeps of a master curve meet, and what is doubtful about it."""
 
     temperatures: Array = field(repr=False)
@@ -232,8 +233,12 @@ _NOMINAL = 0.5
 """How far beyond the first or the last sweep a reference temperature still is that sweep's [K]."""
 
 
-def superpose(sweeps: Sweeps, *, reference_temperature: float, **options: Any) -> MasterCurve:
-    """Return the master curve of sweeps; options and errors are those of `superpose_report`."""
+def superpose(sweeps: Sweeps, *, reference_temperature: Quantity, **options: Any) -> MasterCurve:
+    """Return the master curve of sweeps; options and errors are those of `superpose_report`.
+
+    >>> gs.superpose(sweeps, reference_temperature="20 C").shift.temperature
+    array([263.15, 278.15, 293.15, 308.15])
+    """
     master, _ = superpose_report(sweeps, reference_temperature=reference_temperature, **options)
     return master
 
@@ -241,7 +246,7 @@ def superpose(sweeps: Sweeps, *, reference_temperature: float, **options: Any) -
 def superpose_report(
     sweeps: Sweeps,
     *,
-    reference_temperature: float,
+    reference_temperature: Quantity,
     vertical: bool = False,
     shift: Shift | None = None,
     moduli: str = "both",

@@ -18,10 +18,10 @@ from numpy.typing import ArrayLike, NDArray
 
 import gripscale
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Vector
+from gripscale.core.arrays import Array, Mask, Quantity, Vector
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
+from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
@@ -66,7 +66,12 @@ class Sweeps(Checked, eq=False):
     storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
-    tolerance: float = checked(checks.not_negative, unit="K", default=TEMPERATURE_TOLERANCE)
+    tolerance: float = checked(
+        checks.not_negative,
+        unit="K",
+        quantity="temperature difference",
+        default=TEMPERATURE_TOLERANCE,
+    )
     """Largest step between neighbouring temperatures of one sweep [K]."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
@@ -87,9 +92,9 @@ class Sweeps(Checked, eq=False):
                     "without a gap; a ramp needs nominal temperatures (temperature_step)"
                 )
 
-    def superpose(self, *, reference_temperature: float, **options: Any) -> gripscale.MasterCurve:
-        """Return their master curve; options as in `gripscale.superpose`."""
-        return gripscale.superpose(self, reference_temperature=reference_temperature, **options)
+    def superpose(self, **options: Any) -> gripscale.MasterCurve:
+        """Return their master curve; arguments as in `gripscale.superpose`."""
+        return gripscale.superpose(self, **options)
 
     def _rows(self) -> list[slice]:
         group = _groups(self.temperature, self.tolerance)
@@ -224,7 +229,7 @@ def sweeps_from_ramps(
     storage: ArrayLike,
     loss: ArrayLike,
     *,
-    step: float,
+    step: Quantity,
     name: str = "",
     source: str = "",
 ) -> Sweeps:
@@ -239,7 +244,7 @@ def sweeps_from_ramps(
     columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)
     rows = {name: checks.in_limits(name, values, unit=unit) for name, values, unit in columns}
     checks.same_length(1, **rows)
-    step = checks.positive("step", step, unit="K")
+    step = checks.positive("step", si_value("step", step, "K", "temperature difference"), unit="K")
     if step < _LEAST_STEP:
         raise InputError(f"step must be at least {_LEAST_STEP:g} K; got {step:g}")
     group = _groups(np.log(rows["frequency"]), _ONE_FREQUENCY)
@@ -295,6 +300,9 @@ def read_sweeps(
     if a file cannot be read or a value in it cannot be; the message names path and line. Raises
     `InputError` if a unit, the kind of modulus, a column or a temperature is neither stated nor
     given.
+
+        >>> gs.read_sweeps("sweeps.csv").temperatures
+        array([263.15, 278.15, 293.15, 308.15])
 
     Parameters
     ----------

@@ -25,6 +25,7 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.units import in_mm
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
@@ -44,8 +45,8 @@ Limits = tuple[float, float]
 _Heights = TypeVar("_Heights", Profile, HeightMap)
 
 
-@dataclass(frozen=True)
-class StepReport:
+@dataclass(frozen=True, repr=False)
+class StepReport(Described):
     """The effect of one cleaning step, in numbers of points."""
 
     step: str
@@ -62,8 +63,8 @@ class StepReport:
     """Details in words."""
 
 
-@dataclass(frozen=True)
-class CleaningReport:
+@dataclass(frozen=True, repr=False)
+class CleaningReport(Described):
     """The effect of each cleaning step, in order; `print` shows a table."""
 
     steps: tuple[StepReport, ...]
@@ -103,6 +104,9 @@ def clean(
 
     Returns the cleaned profile and the effect of each step. Raises `InputError` if an argument is
     wrong, or a step leaves too few points or heights.
+
+        >>> round(gs.clean(road, crop=(0.05, 0.15))[0].length, 4)
+        0.1
 
     Parameters
     ----------
@@ -264,6 +268,9 @@ def clean_map(
 
     Returns the cleaned map and the effect of each step. Raises `InputError` if an argument is
     wrong, or a step leaves too few points or heights.
+
+        >>> gs.clean_map(height_map)[0].missing
+        0
 
     Parameters
     ----------

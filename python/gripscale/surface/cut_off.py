@@ -39,8 +39,9 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
-from gripscale.core.units import in_mm, parse_quantity
+from gripscale.core.units import in_mm, parse_quantity, unit_of
 from gripscale.surface.low_pass import STEEPEST, followed
 from gripscale.surface.profile import RESOLVED_STEPS, HeightMap, Profile
 from gripscale.surface.spectrum import (
@@ -87,8 +88,8 @@ class PowerLaw:
         return reached ** (1.0 / power) if reached > 0.0 else math.inf
 
 
-@dataclass(frozen=True, eq=False)
-class SlopeByWavelength:
+@dataclass(frozen=True, eq=False, repr=False)
+class SlopeByWavelength(Described):
     """Rms slope of a measured surface down to any wavelength, see `slope_by_wavelength`."""
 
     line: ProfileSpectrum = field(repr=False)
@@ -300,8 +301,8 @@ CutOffRule = float | Literal["instrument"] | RmsSlope | ContactSlope
 """A length [m], "instrument", an `RmsSlope` or a `ContactSlope`."""
 
 
-@dataclass(frozen=True)
-class SurfaceCutOff:
+@dataclass(frozen=True, repr=False)
+class SurfaceCutOff(Described):
     """The cut-off of a measured surface, its rule and the slopes down to it."""
 
     wavelength: float
@@ -362,7 +363,7 @@ def find_cut_off(
         length, words = rule.wavelength, str(rule)
     elif isinstance(rule, RmsSlope):
         length, words = _length_of_slope(slopes, rule), str(rule)
-    elif isinstance(rule, str):
+    elif isinstance(rule, str) and not unit_of(rule, "length"):
         checks.one_of("rule", rule, [_INSTRUMENT])
         length, words = limit, "the shortest wavelength that the measurement carries"
     else:

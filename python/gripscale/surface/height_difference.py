@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import gripscale
 from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core.arrays import Array, Mask, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.low_pass import STEEPEST, followed_lines
@@ -115,7 +115,7 @@ def height_difference(
     profile: Profile | Sequence[Profile] | HeightMap,
     *,
     top_height_fraction: float = 1.0,
-    max_lag: float | None = None,
+    max_lag: Quantity | None = None,
     lags_per_decade: int = 20,
     band_blocks: int = 16,
     steepest: float = STEEPEST,
@@ -139,6 +139,9 @@ def height_difference(
     Lags have at least 16 pairs. The band is NaN where the blocks do not determine it. Raises
     `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag`
     is below one step or beyond a profile, or no lag has pairs.
+
+        >>> gs.height_difference([road, other_road], max_lag="10 mm").lag[-1].item()
+        0.01
 
     Parameters
     ----------
@@ -385,6 +388,9 @@ def fit_self_affine(
 
     Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or does not rise before
     it.
+
+        >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
+        '0.74'
 
     Parameters
     ----------

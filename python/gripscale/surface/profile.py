@@ -10,7 +10,7 @@ slope times that part. Points were left out where k_i increases by more than one
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +21,10 @@ import gripscale
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding
+from gripscale.core.units import readable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -143,13 +145,16 @@ def _findings(name: str, value: Any) -> tuple[Finding, ...]:
     return tuple(checks.instance(f"each of {name}", item, Finding) for item in value)
 
 
-class Profile(Checked, eq=False):
+class Profile(Checked, Pictured, eq=False):
     """Heights of a surface along a straight line, at equidistant points.
 
     Raises `InputError` if x or z is not a list of numbers, their lengths differ, there are fewer
     than 16 points, x does not go in equal steps (`gripscale.surface.resample` makes them equal),
     all heights are missing, `reliable` is not above zero, or name, source or a note is no text, or
     a doubt is no finding.
+
+        >>> gs.Profile(np.arange(100) * 1e-4, np.sin(np.arange(100))).length
+        0.0099
 
     Parameters
     ----------
@@ -244,17 +249,20 @@ class Profile(Checked, eq=False):
         return gripscale.surface.profile_spectrum(self, **options)
 
     def plot(self, cleaned: Profile | None = None) -> Figure:
-        """Draw the profile, with the `cleaned` one if it is there."""
-        return gripscale.questions.profile_figure([(self, self if cleaned is None else cleaned)])
+        """Draw the profile; with the `cleaned` one also what cleaning removed."""
+        if cleaned is None:
+            return gripscale.questions.surface_figure(self)
+        return gripscale.questions.profile_figure([(self, cleaned)])
 
     def __len__(self) -> int:
         return int(self.x.size)
 
-    def __repr__(self) -> str:
-        return (
-            f"Profile({self.name or 'unnamed'}: {len(self)} points, step {self.step:.4g} m, "
-            f"length {self.length:.4g} m, {self.missing} missing)"
-        )
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield name, points, heights and source."""
+        yield "name", self.name or "unnamed"
+        step, length = readable(self.step, "m"), readable(self.length, "m")
+        yield "x", f"{len(self)} points, step {step}, length {length}"
+        yield from _shown_heights(self)
 
 
 def _axis(name: str, value: ArrayLike) -> Array:
@@ -286,12 +294,15 @@ def _height_table(name: str, value: ArrayLike) -> Array:
     return z
 
 
-class HeightMap(Checked, eq=False):
+class HeightMap(Checked, Pictured, eq=False):
     """Heights of a surface over a rectangle, at equidistant points each way.
 
     Raises `InputError` if x, y or z are not such numbers, their shapes differ, there are fewer than
     16 points a way, all heights are missing, or name or source is no text, or a doubt
     is no finding.
+
+        >>> gs.HeightMap(height_map.x, height_map.y, 2.0 * height_map.z).step
+        (0.0002, 0.0002)
 
     Parameters
     ----------
@@ -381,16 +392,26 @@ class HeightMap(Checked, eq=False):
         return gripscale.surface.map_spectrum(self.z, x_step=dx, y_step=dy, **options)
 
     def plot(self) -> Figure:
-        """Draw the middle line of the map along the way of sliding."""
-        lines = self.lines()
-        return lines[len(lines) // 2].plot()
+        """Draw the heights from above; the rubber slides along x."""
+        return gripscale.questions.surface_figure(self)
 
-    def __repr__(self) -> str:
-        (dx, dy), (nx, ny) = self.step, self.z.shape
-        return (
-            f"HeightMap({self.name or 'unnamed'}: {nx} x {ny} points, steps {dx:.4g} m and "
-            f"{dy:.4g} m, {self.missing} missing)"
-        )
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield name, points, heights and source."""
+        yield "name", self.name or "unnamed"
+        sizes = zip(("x", "y"), self.z.shape, self.step, self.length, strict=True)
+        for axis, count, step, length in sizes:
+            words = readable(step, "m"), readable(length, "m")
+            yield axis, f"{count} points, step {words[0]}, length {words[1]}"
+        yield from _shown_heights(self)
+
+
+def _shown_heights(surface: Profile | HeightMap) -> Iterator[tuple[str, str]]:
+    spread = readable(float(np.nanstd(surface.z)), "m")
+    yield "z", f"{shown_value(surface.z, 'm')}, rms {spread}, {surface.missing} missing"
+    if surface.reliable is not None:
+        yield "reliable", readable(surface.reliable, "m")
+    if surface.source:
+        yield "source", surface.source
 
 
 def line_label(text: str, number: int, direction: str) -> str:

@@ -204,6 +204,9 @@ def read_profile(
     unreadable or not understood; the message names path and place. Raises `InputError` if an
     argument is wrong or contradicts the file.
 
+        >>> round(gs.read_profile("road.txt").length, 4)
+        0.2
+
     Parameters
     ----------
     path : path-like
@@ -327,6 +330,9 @@ def read_map(
     the map for the other way. Raises `FileError` if the file is missing, unreadable, not understood
     or not a map; the message names path and place. Raises `InputError` if an argument is wrong or
     contradicts the file.
+
+        >>> gs.read_map("map.txt", step=2e-4, z_unit="mm").z.shape
+        (64, 64)
 
     Parameters
     ----------

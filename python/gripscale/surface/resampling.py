@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import TextTable
 from gripscale.surface.profile import (
@@ -46,7 +46,7 @@ _LONGEST_BRIDGE = 2.0
 def resample(
     x: ArrayLike,
     z: ArrayLike,
-    step: float,
+    step: Quantity,
     *,
     bridge: float | None = None,
     name: str = "",

@@ -58,7 +58,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import HeightDifference, log_weights
 from gripscale.surface.sines import (
@@ -96,20 +96,23 @@ def fit_sines(
     hdc: HeightDifference,
     *,
     scales: int | None = None,
-    smallest_wavelength: float | None = None,
+    smallest_wavelength: Quantity | None = None,
     cut_off: float | None = None,
     s_wavelength: float | None = None,
     s_amplitude: float | None = None,
-    first_wavelength: float | None = None,
-    first_amplitude: float | None = None,
+    first_wavelength: Quantity | None = None,
+    first_amplitude: Quantity | None = None,
     single_factor: bool = False,
-    smallest_lag: float | None = None,
-    largest_lag: float | None = None,
+    smallest_lag: Quantity | None = None,
+    largest_lag: Quantity | None = None,
 ) -> SineStack:
     """Fit superposed sine waves to a height difference correlation.
 
     Raises `InputError` if an argument is wrong, `scales`, `smallest_wavelength` and `cut_off` are
     all missing, or the curve has too few positive values in the range of lags.
+
+        >>> gs.fit_sines(gs.height_difference(road), scales=4).wavelength.size
+        4
 
     Parameters
     ----------

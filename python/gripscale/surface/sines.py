@@ -44,6 +44,9 @@ class SineStack(Checked, eq=False):
     Raises `InputError` if lengths differ, an entry is not above zero, wavelengths do not decrease,
     a factor contradicts the waves, or `cut_off` is above the last wave.
 
+        >>> gs.SineStack(["8 mm", "2 mm"], ["0.5 mm", "0.1 mm"]).s_wavelength
+        4.0
+
     Parameters
     ----------
     wavelength : array_like, shape (waves,)

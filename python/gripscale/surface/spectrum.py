@@ -41,7 +41,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.low_pass import STEEPEST, followed_lines, upper_envelope
@@ -190,7 +190,7 @@ _WINDOWS = 4
 def profile_spectrum(
     profile: Profile | Sequence[Profile] | HeightMap,
     *,
-    window: float | None = None,
+    window: Quantity | None = None,
     taper: str = "hann",
     steepest: float = STEEPEST,
 ) -> ProfileSpectrum:
@@ -252,8 +252,8 @@ def profile_spectrum(
 def map_spectrum(
     z: ArrayLike,
     *,
-    x_step: float,
-    y_step: float,
+    x_step: Quantity,
+    y_step: Quantity,
     taper: str = "hann",
     per_decade: int = _PER_DECADE,
     steepest: float = STEEPEST,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.surface.cleaning import CleaningReport, clean
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclass(frozen=True)
-class Measured:
+@dataclass(frozen=True, repr=False)
+class Measured(Described):
     """Profiles as read and cleaned, the cleaning reports, and the fit to their correlation.
 
     For a map, `profiles` holds one line for figures; `map` and its lines are cleaned.
@@ -180,8 +181,8 @@ SurfacePart = Literal["waves", "measurement", "cut_off"]
 """A part of a surface that a model may need."""
 
 
-@dataclass(frozen=True)
-class Surface:
+@dataclass(frozen=True, repr=False)
+class Surface(Described):
     """Sine waves, a measurement, or both."""
 
     waves: SineStack | None

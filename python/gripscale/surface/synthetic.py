@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import InputError
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import FEWEST_POINTS, MOST_PROFILE_POINTS, Profile
@@ -19,7 +19,12 @@ from gripscale.surface.surface import Measured, Surface
 
 
 def self_affine_profile(
-    hurst: float, xi_parallel: float, xi_perpendicular: float, length: float, step: float, seed: int
+    hurst: float,
+    xi_parallel: Quantity,
+    xi_perpendicular: Quantity,
+    length: Quantity,
+    step: Quantity,
+    seed: int,
 ) -> Profile:
     """Return a Gaussian random profile that is self-affine below a cut-off.
 
@@ -51,6 +56,7 @@ def self_affine_profile(
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)
+    step = checks.positive("step", step, unit="m")
     # A period twice as long as needed, and ten cut-offs more, keeps the spectrum positive.
     if x.size + 10.0 * cut_off / step > MOST_PROFILE_POINTS:
         raise InputError(
@@ -66,7 +72,7 @@ def self_affine_profile(
     return Profile(x, drawn[: x.size], name=f"self-affine, H = {hurst:g}", source=f"seed {seed}")
 
 
-def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Profile:
+def sine_profile(stack: SineStack, length: Quantity, step: Quantity, seed: int) -> Profile:
     """Return a profile of superposed sine waves, each with a random phase.
 
     Raises `InputError` if an argument is out of range.

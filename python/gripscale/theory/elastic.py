@@ -78,12 +78,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.errors import InputError
 from gripscale.rubber import Rubber
 
 
-def crest_radius(*, wavelength: float, amplitude: float) -> float:
+def crest_radius(*, wavelength: Quantity, amplitude: Quantity) -> float:
     """Return the radius of a crest [m]; `InputError` unless both lengths [m] are above zero."""
     length = checks.positive("wavelength", wavelength, unit="m")
     height = checks.positive("amplitude", amplitude, unit="m")
@@ -91,7 +91,7 @@ def crest_radius(*, wavelength: float, amplitude: float) -> float:
 
 
 def contact_half_width(
-    *, load_per_length: float, radius: float, plane_strain_modulus: float
+    *, load_per_length: float, radius: Quantity, plane_strain_modulus: Quantity
 ) -> float:
     """Return the half width of the contact [m].
 
@@ -105,7 +105,7 @@ def contact_half_width(
 
 
 def largest_pressure(
-    *, load_per_length: float, radius: float, plane_strain_modulus: float
+    *, load_per_length: float, radius: Quantity, plane_strain_modulus: Quantity
 ) -> float:
     """Return the pressure in the middle of the contact [Pa], as `contact_half_width`."""
     half_width = contact_half_width(
@@ -140,7 +140,7 @@ def contact_fraction(pressure_ratio: ArrayLike) -> Array:
 
 
 def contact_pressure(
-    x: ArrayLike, *, wavelength: float, pressure: float, full_contact_pressure: float
+    x: ArrayLike, *, wavelength: Quantity, pressure: Quantity, full_contact_pressure: Quantity
 ) -> Array:
     """Return the contact pressure [Pa] at `x` [m], same shape; zero out of contact.
 
@@ -176,7 +176,7 @@ def poisson(value: float) -> float:
 
 
 def full_contact_pressure(
-    plane_strain_modulus: complex, *, wavelength: float, amplitude: float
+    plane_strain_modulus: complex, *, wavelength: Quantity, amplitude: Quantity
 ) -> float:
     """Return the least mean pressure that presses the valleys flat, k A |M| / 2 [Pa].
 
@@ -191,7 +191,7 @@ def full_contact_pressure(
 
 
 def full_contact_friction(
-    plane_strain_modulus: complex, *, wavelength: float, amplitude: float, pressure: float
+    plane_strain_modulus: complex, *, wavelength: Quantity, amplitude: Quantity, pressure: Quantity
 ) -> float:
     """Return the friction coefficient in full contact, k^2 A^2 Im(M) / (4 p) [-].
 
@@ -202,7 +202,8 @@ def full_contact_friction(
     load = checks.positive("pressure", pressure, unit="Pa")
     if load < least * (1.0 - 1e-12):
         raise InputError(f"pressure must be at least {least:g} for full contact [Pa]; got {load:g}")
-    slope = 2.0 * np.pi * amplitude / wavelength
+    height = checks.positive("amplitude", amplitude, unit="m")
+    slope = 2.0 * np.pi * height / checks.positive("wavelength", wavelength, unit="m")
     return float(slope**2 * _modulus(plane_strain_modulus).imag / (4.0 * load))
 
 
@@ -217,7 +218,7 @@ def _modulus(value: complex) -> complex:
 
 
 def slab_compliance(
-    wavenumber: ArrayLike, *, depth: float, youngs_modulus: float, poisson_ratio: float
+    wavenumber: ArrayLike, *, depth: Quantity, youngs_modulus: Quantity, poisson_ratio: float
 ) -> Array:
     """Return normal displacement over pressure amplitude, u/p [m/Pa], same shape as `wavenumber`.
 

@@ -40,7 +40,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask
+from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
@@ -307,19 +307,22 @@ class HalfPlane(Checked):
 def solve_half_plane(
     rubber: Rubber,
     *,
-    wavelength: float,
-    amplitude: float,
-    pressure: float,
-    speed: float,
-    load_time: float = float("inf"),
+    wavelength: Quantity,
+    amplitude: Quantity,
+    pressure: Quantity,
+    speed: Quantity,
+    load_time: Quantity = float("inf"),
     points: int = HalfPlane.points,
     poisson_ratio: float | None = None,
     most_iterations: int = HalfPlane.most_iterations,
 ) -> ScaleResult:
     """Return contact and friction of one wave by small-strain theory.
 
-    Raises `InputError` if an argument is out of its range, or the rubber at rest is a melt: the
-    pressure is more than ten times the equilibrium modulus.
+    The result has the `model` "half_plane", stretches NaN (the surface of a half-plane does not
+    show them) and `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`. A
+    `status` other than "converged" says why not to trust the numbers. Raises `InputError` if an
+    argument is out of its range, or the rubber at rest is a melt: the pressure is more than ten
+    times the equilibrium modulus.
 
     Parameters
     ----------
@@ -335,13 +338,6 @@ def solve_half_plane(
         How long the load has lasted [s]; recorded, without effect in small strain.
     points, poisson_ratio, most_iterations
         See `HalfPlane`.
-
-    Returns
-    -------
-    ScaleResult
-        With `model` "half_plane", stretches NaN (a half-plane's surface does not show them) and
-        `details`: `contact_edges` [m], `points`, `points_in_contact`, `full_contact`. A `status`
-        other than "converged" says why not to trust the numbers.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:

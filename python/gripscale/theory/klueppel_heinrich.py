@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.model import Load, Model, OnProgress
@@ -62,7 +62,7 @@ _COARSEST, _FINEST = 4, 1024
 """Intervals between them, doubled from the first to the last."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class KlueppelHeinrichResult(TheoryResult):
     """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
 
@@ -86,12 +86,12 @@ def klueppel_heinrich(
     rubber: Rubber,
     surface: SelfAffineFit | HeightDifference | Profile | Sequence[Profile],
     *,
-    pressure: float,
-    speed: float,
+    pressure: Quantity,
+    speed: Quantity,
     layer_ratio: float,
-    penetration_depth: float,
-    smallest_wavelength: float,
-    footprint: float | None = None,
+    penetration_depth: Quantity,
+    smallest_wavelength: Quantity,
+    footprint: Quantity | None = None,
 ) -> KlueppelHeinrichResult:
     """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
 

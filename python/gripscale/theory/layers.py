@@ -39,7 +39,9 @@ import numpy as np
 
 from gripscale.core import checks
 from gripscale.core.arrays import Array, ComplexArray
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
+from gripscale.core.units import readable
 from gripscale.rubber import Rubber
 
 _ROWS = 2**14
@@ -48,18 +50,19 @@ _TERMS = 8
 """Of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum."""
 
 
-class Layers:
+class Layers(Described):
     """Layers of rubber on a rigid base, bonded to one another.
+
+    Raises `InputError` unless there is at least one layer, each a `Rubber` and a thickness above
+    zero.
+
+        >>> gs.Layers([(rubber, "4 mm"), (rubber, "6 mm")]).thicknesses
+        [0.004, 0.006]
 
     Parameters
     ----------
     layers : sequence of (Rubber, float)
         Rubber and thickness [m] of each layer, that in contact first.
-
-    Raises
-    ------
-    InputError
-        Unless there is at least one layer, each a `Rubber` and a thickness above zero.
     """
 
     __slots__ = ("_layers",)
@@ -102,9 +105,10 @@ class Layers:
     def __iter__(self) -> Iterator[tuple[Rubber, float]]:
         return iter(self._layers)
 
-    def __repr__(self) -> str:
-        parts = ", ".join(f"({rubber.name or 'rubber'}, {d:g})" for rubber, d in self)
-        return f"Layers([{parts}])"
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield thickness and rubber of each layer, that in contact first."""
+        for number, (rubber, thickness) in enumerate(self, start=1):
+            yield f"layer {number}", f"{readable(thickness, 'm')} of {rubber.name or 'rubber'}"
 
     @property
     def rubbers(self) -> list[Rubber]:

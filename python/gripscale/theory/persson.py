@@ -35,8 +35,9 @@ import numpy as np
 
 from gripscale import model
 from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
@@ -58,8 +59,8 @@ Variable = tuple[str, Any, str, str]
 """Name of variable and attribute, dimension, unit and meaning."""
 
 
-@dataclass(frozen=True)
-class TheoryResult:
+@dataclass(frozen=True, repr=False)
+class TheoryResult(Described):
     """Base of the results of theories: friction down to each wavelength and its Dataset."""
 
     name: ClassVar[str]
@@ -173,7 +174,7 @@ _ANGLES = 12
 """Angles of a quarter turn beyond the number of intervals."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class PerssonResult(TheoryResult):
     """Contact and friction of a randomly rough surface, down to each wavelength.
 
@@ -214,12 +215,12 @@ def persson(
     rubber: Rubber,
     spectrum: ArealSpectrum | ProfileSpectrum,
     *,
-    pressure: float,
-    speed: float,
-    smallest_wavelength: float | None = None,
+    pressure: Quantity,
+    speed: Quantity,
+    smallest_wavelength: Quantity | None = None,
     gamma: float = 0.5,
-    footprint: float | None = None,
-    thickness: float | None = None,
+    footprint: Quantity | None = None,
+    thickness: Quantity | None = None,
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
 

@@ -20,6 +20,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gripscale.core import checks
+from gripscale.core.arrays import Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
@@ -175,11 +176,11 @@ class FiniteStrainBlock(Checked):
 def solve_scale(
     rubber: Rubber,
     *,
-    wavelength: float,
-    amplitude: float,
-    pressure: float,
-    speed: float,
-    load_time: float = math.inf,
+    wavelength: Quantity,
+    amplitude: Quantity,
+    pressure: Quantity,
+    speed: Quantity,
+    load_time: Quantity = math.inf,
     depth: float = Mesh.depth,
     columns: int = Mesh.columns,
     rows: int = Mesh.rows,
@@ -202,6 +203,10 @@ def solve_scale(
     The `status` of the result is `converged`, or the reason not to use the numbers. Raises
     `InputError` if a value is not a number or out of its range, or the pressure is more than ten
     times the modulus of the rubber: the equilibrium modulus at rest, else E(0).
+
+        >>> load = {"pressure": "3 bar", "speed": "0.3 m/s"}
+        >>> f"{gs.solve_scale(rubber, wavelength='8 mm', amplitude='0.5 mm', **load).friction:.3f}"
+        '0.044'
 
     Parameters
     ----------
@@ -268,10 +273,10 @@ def solve_profile(
     rubber: Rubber,
     profile: Profile,
     *,
-    pressure: float,
-    speed: float,
-    load_time: float = math.inf,
-    smallest_wavelength: float | None = None,
+    pressure: Quantity,
+    speed: Quantity,
+    load_time: Quantity = math.inf,
+    smallest_wavelength: Quantity | None = None,
     periodic: bool = False,
     depth: float = Mesh.depth,
     columns: int | None = None,
@@ -290,6 +295,10 @@ def solve_profile(
     Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
     columns, or the pressure is more than ten times the modulus of the rubber: at rest the
     equilibrium modulus, which a melt does not have, else that at the highest frequencies.
+
+        >>> period = gs.solve_profile(rubber, sampled, pressure="3 bar", speed=0.3, periodic=True)
+        >>> period.status == "converged"
+        True
 
     Parameters
     ----------
@@ -331,7 +340,9 @@ def solve_profile(
     if not isinstance(profile, Profile):
         raise InputError(f"profile must be a gripscale.Profile; got {type(profile).__name__}")
     checks.flag("periodic", periodic)
-    if smallest_wavelength is None and not periodic:
+    if smallest_wavelength is not None:
+        smallest_wavelength = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+    elif not periodic:
         smallest_wavelength = min(RESOLVED_STEPS * profile.step, len(profile) * profile.step)
     heights = _heights(profile, smallest_wavelength, periodic)
     smallest = smallest_wavelength or heights.wavelength / heights.waves

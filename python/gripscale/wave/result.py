@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 import gripscale
 from gripscale.core.arrays import Array
+from gripscale.core.described import Pictured
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.rubber import Rubber, extrapolation
@@ -45,8 +46,8 @@ def harmonics(x: Array, pressure: Array, period: float, order: NDArray[np.int_])
     return np.asarray(np.abs(phase @ (weight * height)) / period)
 
 
-@dataclass(frozen=True)
-class ScaleResult:
+@dataclass(frozen=True, repr=False)
+class ScaleResult(Pictured):
     """Contact and friction of one wave, or of one period of a profile, with the evidence for them.
 
     All lengths in m, pressures in Pa, speeds in m/s, angular frequencies in rad/s.

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.rubber import Rubber
@@ -29,7 +30,11 @@ DEFAULT_ROWS = 14
 
 
 class Stage(Checked):
-    """A period of constant speed and pressure."""
+    """A period of constant speed and pressure.
+
+    >>> gs.Stage(duration="10 ms", speed="0.1 m/s", pressure="3 bar")
+    Stage(duration=10 ms, speed=0.1 m/s, pressure=300 kPa)
+    """
 
     duration: float = checked(checks.positive, unit="s")
     """Duration [s]; a sliding stage is rounded to whole columns of the mesh."""
@@ -39,8 +44,8 @@ class Stage(Checked):
     """Mean pressure [Pa]."""
 
 
-@dataclass(frozen=True, eq=False)
-class TransientResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class TransientResult(Described):
     """Friction and contact against time; arrays of shape (moments,).
 
     `status` is `converged`, or the reason why the run ended early; its moments are valid.
@@ -102,8 +107,8 @@ class TransientResult:
 def solve_transient(
     rubber: Rubber,
     *,
-    wavelength: float,
-    amplitude: float,
+    wavelength: Quantity,
+    amplitude: Quantity,
     stages: Sequence[Stage],
     start: ScaleResult | None = None,
     depth: float = 1.5,
@@ -118,6 +123,10 @@ def solve_transient(
     block's mean shear), which makes a dwell one of constant mean shear.
 
     Raises `InputError` if a value is not a number or out of its range, or there are no stages.
+
+        >>> stages = [gs.Stage("5 ms", 0.1, "3 bar")]
+        >>> gs.solve_transient(rubber, wavelength="2 mm", amplitude=1e-4, stages=stages).converged
+        True
 
     Parameters
     ----------
@@ -153,8 +162,8 @@ def solve_transient(
         pressure=run.pressure,
         friction=run.friction,
         contact_fraction=run.contact_fraction,
-        indentation=run.approach * wavelength,
+        indentation=run.approach * profile.wavelength,
         status=Status(run.status),
         newton_iterations=run.newton_iterations,
-        wavelength=float(wavelength),
+        wavelength=profile.wavelength,
     )

@@ -126,7 +126,13 @@ class Answer(NumbersWithIntervals):
 
 
 def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
-    """Return friction and contact area of a case, with their 90 % intervals.
+    """Return friction and contact area of a case, with their 90 % intervals, as `gripscale run`.
+
+    Raises `InputError` if the direct contact cannot use the rubber or a profile, or the roughness
+    below the measurement has no result.
+
+        >>> f"{gs.answer(case).friction:.3f}"
+        '0.038'
 
     Parameters
     ----------
@@ -135,17 +141,6 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         their chain, and `Answer.reliable` is False.
     folder : path, optional
         Keeps the solution of a roughness that is continued below the measurement.
-
-    Returns
-    -------
-    Answer
-        `print` shows what `gripscale run` prints.
-
-    Raises
-    ------
-    InputError
-        If the model cannot use the rubber or a profile, or the roughness below the measurement
-        has no result.
     """
     samples = direct_contact.solve_direct_contact(case)
     if samples is None:

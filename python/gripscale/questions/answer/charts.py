@@ -52,6 +52,8 @@ _INSIDE = 0.94
 def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None) -> Figure:
     """Draw a direct contact: rubber on the surface, pressure, friction, a stretch to scale.
 
+    Raises `InputError` if the stretch is not positive.
+
     Parameters
     ----------
     contact : RoughContact
@@ -60,11 +62,6 @@ def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None)
         Length of the stretch that is drawn to scale [m], around the contact of the one of this
         length with most friction. By default that is sought with 4 mm, see
         `gripscale.half_space.contact_trace`, and drawn as short as its contact allows.
-
-    Raises
-    ------
-    InputError
-        If the stretch is not positive.
     """
     return trace_sheet(contact_trace(contact, stretch=stretch), length=stretch).on_paper()
 

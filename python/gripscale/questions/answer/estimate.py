@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
 from gripscale.half_space.model import DirectContact
@@ -42,8 +43,8 @@ UNKNOWN_VALUE = LogNormalValue(math.nan)
 """Of a factor nobody has computed."""
 
 
-@dataclass(frozen=True)
-class Factor:
+@dataclass(frozen=True, repr=False)
+class Factor(Described):
     """A factor on contact fraction and friction, known from elsewhere."""
 
     name: str

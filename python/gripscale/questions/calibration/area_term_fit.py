@@ -19,6 +19,7 @@ import xarray as xr
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array
+from gripscale.core.described import Described
 from gripscale.core.labels import labelled
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.model import STATUS, STATUS_WORD
@@ -74,8 +75,8 @@ class Estimate:
         return math.isfinite(self.low) and math.isfinite(self.high)
 
 
-@dataclass(frozen=True, eq=False)
-class AreaTermFit:
+@dataclass(frozen=True, eq=False, repr=False)
+class AreaTermFit(Described):
     """A law of the area term fitted to measured friction beside a predicted hysteresis."""
 
     measured: MeasuredFriction
@@ -300,6 +301,9 @@ def fit_area_term(
     Weighted with the spread of the measurement; without any, all points weigh the same and the
     scatter of the residuals is taken for it.
 
+    Raises `InputError` if a value cannot be used, points are too few for the law, or the hysteresis
+    alone exceeds what was measured at more than half of the points.
+
     Parameters
     ----------
     measured : MeasuredFriction
@@ -314,12 +318,6 @@ def fit_area_term(
     hold_out : str, optional
         "temperature" or "speed": predict each temperature, or each decade of speed, from the
         others.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, points are too few for the law, or the hysteresis alone exceeds
-        what was measured at more than half of the points.
     """
     checks.instance("measured", measured, MeasuredFriction)
     checks.instance("predicted", predicted, Predicted)

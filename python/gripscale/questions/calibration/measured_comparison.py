@@ -41,6 +41,8 @@ from gripscale.surface import Surface
 class Predicted(Checked, eq=False):
     """Contact and friction at the points of a measurement, arrays of shape (n,) in its order.
 
+    Raises `InputError` if the lengths differ, or a pressure is not above zero.
+
     Parameters
     ----------
     friction : array_like
@@ -57,17 +59,12 @@ class Predicted(Checked, eq=False):
         "converged", or why there is no answer.
     status_word : sequence of str, optional
         Words of these statuses, empty where there is none.
-
-    Raises
-    ------
-    InputError
-        If the lengths differ, or a pressure is not above zero.
     """
 
     friction: Vector = checked(checks.vector, missing=True, repr=False)
     contact_fraction: Vector = checked(checks.vector, missing=True, repr=False)
     pressure: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
-    temperature: Vector = checked(checks.vector, missing=True, repr=False)
+    temperature: Vector = checked(checks.vector, unit="K", missing=True, repr=False)
     outside_band: Vector = checked(checks.vector, missing=True, default=None, repr=False)
     status: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
     status_word: Sequence[str] = checked(checks.instances, kind=str, default=None, repr=False)
@@ -171,6 +168,9 @@ def predictions_at(
 ) -> Predicted:
     """Return what `model` predicts at each measured speed, temperature and pressure.
 
+    Raises `InputError` or `FileError` as the model and `solve_all` do; a temperature other than
+    that of the rubber needs a shift.
+
     Parameters
     ----------
     measured : MeasuredFriction
@@ -185,11 +185,6 @@ def predictions_at(
         Keeps each answer as soon as it is there; what it has is not solved again.
     workers, client, on_task
         As for `gripscale.experiment.solve_all`.
-
-    Raises
-    ------
-    InputError, FileError
-        As the model and `solve_all` do; a temperature other than that of the rubber needs a shift.
     """
     design = measured_design(measured, model, rubber, surface, load)
     return predicted_of(solve_design(design, Bench(store, workers, client, on_task)))
@@ -316,6 +311,13 @@ def residuals(
 ) -> xr.Dataset:
     """Return predicted friction beside measured friction, over `model` and `measurement`.
 
+    The result has `hysteresis`, `area_term` where there is a law, `friction` (their sum),
+    `difference` (predicted less measured) and `difference_in_spread` (NaN where no spread is known)
+    over `model` and `measurement`; `rms_difference` and `rms_difference_in_spread` over `model`, of
+    the points that have an answer; and what was measured. Raises `InputError` if a prediction has
+    another number of points or other pressures than the measurement, there is none, or the law
+    needs a temperature that is not known.
+
     Parameters
     ----------
     measured : MeasuredFriction
@@ -324,20 +326,6 @@ def residuals(
         What each model says at its points, in their order, by the model's name.
     shear_stress : InterfacialShearStress, optional
         Law of an area term that the total friction has beside the hysteresis.
-
-    Returns
-    -------
-    xarray.Dataset
-        `hysteresis`, `area_term` where there is a law, `friction` (their sum), `difference`
-        (predicted less measured) and `difference_in_spread` (NaN where no spread is known) over
-        `model` and `measurement`; `rms_difference` and `rms_difference_in_spread` over `model`,
-        of the points that have an answer; and what was measured.
-
-    Raises
-    ------
-    InputError
-        If a prediction has another number of points or other pressures than the measurement, there
-        is none, or the law needs a temperature that is not known.
     """
     checks.instance("measured", measured, MeasuredFriction)
     if not isinstance(predicted, Mapping) or not predicted:

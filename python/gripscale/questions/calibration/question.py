@@ -126,6 +126,13 @@ def calibrate(
 ) -> Calibration:
     """Predict the hysteresis of a case at each measured point and fit an area term beside it.
 
+    Raises `InputError` or `FileError` as `fit_area_term` and the models do; if the case has no
+    measured friction; if it refuses extrapolation and a point excites the rubber beyond its
+    measured frequencies.
+
+        >>> gs.calibrate(case, "friction.csv", law="constant").lines[-1]
+        '  Friction with it misses the measured friction by 0.32 (rms), without it by 0.68.'
+
     Parameters
     ----------
     case : Case
@@ -142,12 +149,6 @@ def calibrate(
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     workers, client, on_task
         As for `gripscale.experiment.Bench`.
-
-    Raises
-    ------
-    InputError, FileError
-        As `fit_area_term` and the models do; if the case has no measured friction; if it refuses
-        extrapolation and a point excites the rubber beyond its measured frequencies.
     """
     if model is not None:
         checks.one_of("model", model, _MODELS)

@@ -342,17 +342,14 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     that cool it below zero: heat that comes up from the depth when the contact has passed. Dots are
     at the surface, in the contact of the wave. Waves without solution are left out.
 
+    Raises `InputError` if there are no temperatures in it.
+
     Parameters
     ----------
     data : xarray.Dataset
         Of `ChainResult.to_dataset`, with heat.
     title : str
         Above the panel.
-
-    Raises
-    ------
-    InputError
-        If there are no temperatures in it.
     """
     return heat_sheet(data, title).on_paper()
 
@@ -391,17 +388,14 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     On one side where the octaves of wavelengths lose their energy; on the other at the surface, of
     a line with its contact marked below.
 
+    Raises `InputError` if it has no temperatures.
+
     Parameters
     ----------
     contact : RoughContact
         Solved with heat, sliding.
     title : str
         Above the panels.
-
-    Raises
-    ------
-    InputError
-        If it has no temperatures.
     """
     if contact.surface_warming is None or contact.scales is None:
         raise InputError("contact must be solved with heat and slide; got one without temperatures")

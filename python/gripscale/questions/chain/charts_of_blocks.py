@@ -187,17 +187,14 @@ def _joined(rows: Array) -> Array:
 def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
     """Draw one wave: contact pressure above the deformed mesh and the rigid sine.
 
+    Raises `InputError` if there is no such wave.
+
     Parameters
     ----------
     prediction
         Dataset over `scale`, of a prediction or of `gripscale.wave.result.waves_to_dataset`.
     wave
         Number of the wave, from 1.
-
-    Raises
-    ------
-    InputError
-        If there is no such wave.
     """
     view = PredictionView(prediction)
     number = checks.whole("wave", wave, least=1, most=max(view.waves, 1))

@@ -83,7 +83,6 @@ def run_page(run: RunSource) -> Page:
     origin: list[Element] = [_load_facts(run)]
     if run.record.has("file_name"):
         origin.append(inputs.files_table(run.record))
-    measured = run.direct is not None and is_measured(run.direct)
     return Page.of(
         f"Contact and friction: {case or 'result'}",
         "; ".join(view.title for view in run.predictions),
@@ -98,22 +97,21 @@ def run_page(run: RunSource) -> Page:
             Section("inputs", "Inputs and their origin", origin),
             Section("surface", "Surface", surface),
             Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
-            Section("results", _chain_title(run), _results(run, tables), folded=measured),
+            Section("results", _chain_title(run), _results(run, tables)),
             Section("measured", "Measured friction", _measured(run)),
             Section(
                 "cut-off",
                 "Against the cut-off",
                 [] if run.cut_off is None else CutOff(run.cut_off).elements(),
             ),
-            Section("effects", "What each effect is worth to the chain", effects, folded=measured),
+            Section("effects", "What each effect is worth to the chain", effects),
             Section(
                 "blocks",
                 "Deformed blocks",
                 list(map(blocks_image, meshed)) or [Text("The result holds no deformed meshes.")],
-                folded=measured,
             ),
             Section("comparison", "Models side by side", _comparison(run)),
-            Section("verification", "Verification", _verification(run, tables), folded=measured),
+            Section("verification", "Verification", _verification(run, tables)),
             method_section(),
             rerun_section(run.attrs),
         ],

@@ -16,6 +16,7 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.core import checks, provenance
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
@@ -41,8 +42,8 @@ _WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), s
 """The two numbers that are compared."""
 
 
-@dataclass(frozen=True, eq=False)
-class SolvedLadder:
+@dataclass(frozen=True, eq=False, repr=False)
+class SolvedLadder(Described):
     """The models of one case with their samples, under one load or over a varied input."""
 
     case: Case
@@ -252,6 +253,11 @@ def at_measured(
 ) -> xr.Dataset | None:
     """Return what the models that predict say at each measured speed, temperature and pressure.
 
+    The result is that of `gripscale.questions.residuals`, with the area term of the case's
+    conditions; None where no friction was measured or no model predicts. Of several samples of a
+    model the means; beside the direct contact the `answer` of the case, which has its factors on
+    friction and area. Raises `InputError` or `FileError` as `predictions_at`.
+
     Parameters
     ----------
     ladder : SolvedLadder
@@ -260,18 +266,6 @@ def at_measured(
         Folder of the finished predictions.
     workers, client, on_task
         As for `gripscale.experiment.Bench`.
-
-    Returns
-    -------
-    xarray.Dataset or None
-        As `gripscale.questions.residuals`, with the area term of the case's conditions; None where
-        no friction was measured or no model predicts. Of several samples the means; beside
-        the direct contact the `answer` of the case, which has its factors on friction and area.
-
-    Raises
-    ------
-    InputError, FileError
-        As `predictions_at`.
     """
     measured, setup = ladder.measured, ladder.setups[0]
     if measured is None:

@@ -18,6 +18,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import ContinuedContact
 from gripscale.core import checks
+from gripscale.core.described import Described
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
@@ -33,8 +34,8 @@ from gripscale.theory.persson import Persson
 from gripscale.wave.kernel import WaveSolver
 
 
-@dataclass(frozen=True, eq=False)
-class ComparisonSetup:
+@dataclass(frozen=True, eq=False, repr=False)
+class ComparisonSetup(Described):
     """What the models are compared over, and how finely."""
 
     rubber: Rubber

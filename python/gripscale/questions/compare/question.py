@@ -134,6 +134,15 @@ def compare(
 ) -> Comparison:
     """Put the models side by side over the inputs of a case.
 
+    The result is over `model`, and what is varied; without a measured profile it has only the chain
+    and its own waves at once. A sample that did not converge counts in no mean, and its model says
+    so. Raises `InputError` or `FileError` if an input cannot be used by a model, a result cannot be
+    written, the case refuses extrapolation and a wave excites the rubber beyond the measured band,
+    or other than one input of numbers is varied.
+
+        >>> gs.compare(case, models=["theory"]).to_dataset().model.values.tolist()
+        ['persson']
+
     Parameters
     ----------
     case : Case
@@ -159,19 +168,6 @@ def compare(
         As for `gripscale.experiment.Bench`.
     on_stage : callable, optional
         Called with the `SolvedLadder` as it stands, while more samples are solved.
-
-    Returns
-    -------
-    Comparison
-        Over `model`, and what is varied. Without a measured profile only the chain and its own
-        waves at once. A sample that did not converge counts in no mean, and its model says so.
-
-    Raises
-    ------
-    InputError, FileError
-        If an input cannot be used by a model, a result cannot be written, the case refuses
-        extrapolation and a wave excites the rubber beyond the measured band, or other than one
-        input of numbers is varied.
     """
     doubtful: list[Finding] = []
     if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:

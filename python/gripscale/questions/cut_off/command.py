@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 from gripscale import terminal
+from gripscale.core.units import si_value
 from gripscale.terminal import CasePath, OwnFolder, Workers, case_command, option
 
 if TYPE_CHECKING:
@@ -35,11 +36,10 @@ def cut_off_command(
     """Contact and friction against the cut-off, down below what the profiles resolve."""
     import numpy as np
 
-    from gripscale.case import in_si
     from gripscale.core.units import in_mm
     from gripscale.questions.cut_off.question import cut_off
 
-    end = None if down_to is None else in_si("--down-to", down_to, "length")
+    end = si_value("--down-to", down_to, "m")
     work = terminal.CaseCommand(case)
     opening = f"Contact and friction of {work.file.path} against the cut-off"
     work.open_results(output, "cut_off", opening)

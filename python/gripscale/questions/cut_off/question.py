@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from gripscale.case import Case, in_si
+from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.charts.draw import Sheet
 from gripscale.core import provenance
 from gripscale.core.finding import Finding, Severity
-from gripscale.core.units import MILLI, display_unit_of, in_mm
+from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, change, on_page, significant
@@ -215,6 +215,15 @@ def cut_off(
 ) -> CutOff:
     """Return contact and friction of a case against the cut-off.
 
+    Over `cut_off` the result has the curves of `gripscale.continuation.contact_by_cut_off` with the
+    prefix `curve_`; over `rule` the cut-off that each rule gives, with friction and contact there.
+    The totals are those of the last cut-off; not numbers where the faces foretell no octave below
+    the measurement, at which the curves then end (`findings`). Raises `InputError` or `FileError`
+    for what cannot be used; if nothing was measured.
+
+        >>> gs.cut_off(case, down_to="1 mm").to_dataset().rule.values.tolist()
+        ['shortest wavelength measured', 'cut-off of the case']
+
     Parameters
     ----------
     case : Case
@@ -227,21 +236,8 @@ def cut_off(
         Keeps the solution as soon as it is there: what was interrupted resumes.
     workers, on_task, on_step
         As for `gripscale.experiment.Bench`; a step is the `RoughContact` of a line at a cut-off.
-
-    Returns
-    -------
-    CutOff
-        Over `cut_off`: the curves of `gripscale.continuation.contact_by_cut_off` with the prefix
-        `curve_`. Over `rule`: the cut-off that each rule gives, with friction and contact there.
-        The totals are those of the last cut-off; not numbers where the faces foretell no octave
-        below the measurement, at which the curves then end (`findings`).
-
-    Raises
-    ------
-    InputError, FileError
-        For what cannot be used; if nothing was measured.
     """
-    end = None if down_to is None else in_si("down_to", down_to, "length")
+    end = si_value("down_to", down_to, "m")
     with bench_in(folder, workers, None, on_task, on_step) as bench:
         data = cut_off_curve(case, case.load, bench, down_to=end, hurst=hurst)
     return cut_off_result(data, case)

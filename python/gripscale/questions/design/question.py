@@ -98,6 +98,15 @@ def design(
     Small strain, direct contact, hysteresis alone: of the conditions of the case only the
     temperature counts.
 
+    The result is over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %),
+    friction, moduli and master curve; over `compound` the other compounds; today's values without
+    either. Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal or a limit
+    cannot be used, a temperature needs a shift that the rubber does not have, or today's compound
+    has no friction.
+
+        >>> gs.design(case, levels=[1.0]).lines[0]
+        'Answer: friction +57 % at the same rolling resistance; the limits decide'
+
     Parameters
     ----------
     case : Case
@@ -123,20 +132,6 @@ def design(
         Called with the Dataset of each point as it is solved or read.
     on_task : callable, optional
         Called with today's answer at each goal, as for `gripscale.experiment.Bench`.
-
-    Returns
-    -------
-    CompoundDesign
-        Over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %),
-        `answer_friction`, that of the answer times the gain at each goal, friction of the direct
-        contact, moduli and master curve; over `compound` the other compounds; today's values
-        without either, such as `today_answer_friction`.
-
-    Raises
-    ------
-    InputError, FileError, ConvergenceError
-        If the case, a goal or a limit cannot be used, a temperature needs a shift that the rubber
-        does not have, or today's compound has no friction.
     """
     target = None if folder is None else Path(folder)
     if target is not None:

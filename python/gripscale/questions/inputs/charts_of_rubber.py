@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
 CELSIUS = PlotAxis("temperature [°C]")
 KILO = 1e3
+_TWO_TO_ONE: dict[str, Any] = {"sharex": True, "height_ratios": [2.0, 1.0]}
 _MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
 
 
@@ -82,8 +83,7 @@ def master_curve_sheet(
     omega = np.asarray(excitation, dtype=float)
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
-    layout = {"sharex": True, "height_ratios": [2.0, 1.0]}
-    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=layout)
+    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=_TWO_TO_ONE)
 
 
 def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]:
@@ -213,6 +213,25 @@ def _rows(
                      marker="x", listed=listed)  # fmt: skip
 
 
+def measured_moduli_figure(master: MasterCurve) -> Figure:
+    """Draw both moduli [MPa] and the loss factor of a master curve as measured."""
+    omega = master.angular_frequency
+    marks: dict[str, Any] = {"dash": "", "marker": ".", "size": 3.5}
+    moduli: list[Mark] = [
+        Series(omega, getattr(master, part) / MEGA, colour, name, **marks)
+        for part, name, colour in _MODULI
+    ]
+    panels = [
+        Panel(OMEGA, PlotAxis("modulus $E'$, $E''$ [MPa]", log=True), moduli),
+        Panel(
+            OMEGA,
+            PlotAxis("loss factor $E''/E'$ [-]", low=0.0),
+            [Series(omega, master.loss_factor, GREEN, **marks)],
+        ),
+    ]
+    return Sheet(panels, 1, NARROW, 4.9, gap=0.02, layout=_TWO_TO_ONE).on_paper()
+
+
 def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
     """Draw E' [MPa] and the loss factor of compounds, dashed beyond what was measured.
 
@@ -239,17 +258,14 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     """Draw the sweeps as measured and shifted: moduli [MPa] and loss factor by frequency [Hz].
 
+    Raises `InputError` if the master curve has no shift.
+
     Parameters
     ----------
     sweeps
         The sweeps.
     master
         Their master curve, with its shift.
-
-    Raises
-    ------
-    InputError
-        If the master curve has no shift.
     """
     return superposition_sheet(sweeps, master).on_paper()
 
@@ -416,15 +432,12 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
     """Draw nominal stress [kPa] against stretch, one panel for each test.
 
+    Raises `InputError` if there is no fit, or the fits are of different tests.
+
     Parameters
     ----------
     fits
         Label of each fit in the legend -> fit; all of the same tests.
-
-    Raises
-    ------
-    InputError
-        If there is no fit, or the fits are of different tests.
     """
     first = next(iter(fits.values()), None)
     if first is None or any(fit.tests != first.tests for fit in fits.values()):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -159,8 +160,20 @@ _KEPT = "#cfe3f3"
 """Colour of what a crop keeps."""
 
 
+def surface_figure(surface: HeightMap | Profile) -> Figure:
+    """Draw the heights of a map from above, or of a profile."""
+    raw = surface if isinstance(surface, HeightMap) else [surface]
+    panel = replace(_raw_panel(raw), title=surface.name)
+    height = 3.4 if isinstance(surface, HeightMap) else 2.2
+    return Sheet([panel], 1, NARROW, height, legend="").on_paper()
+
+
 def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None = None) -> Chart:
     """Return a surface as it was measured, the part that a crop along x [m] keeps in a shade."""
+    return draw.panels_on_page([_raw_panel(raw, crop)])[0]
+
+
+def _raw_panel(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None = None) -> Panel:
     kept: list[Mark] = []
     if crop is not None:
         low, high = (end / MILLI for end in crop)
@@ -176,7 +189,7 @@ def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None =
         pieces = [envelope(profile.x, profile.z) for profile in raw]
         marks = [_outline(x, ends, "as read", GREY) for x, *ends in pieces]
         words, ordinate = "The profiles as measured.", _HEIGHT
-    panel = Panel(
+    return Panel(
         DISTANCE,
         ordinate,
         [*marks, *kept],
@@ -186,7 +199,6 @@ def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None =
         height=300,
         to_scale=isinstance(raw, HeightMap),
     )
-    return draw.panels_on_page([panel])[0]
 
 
 def correlation_figure(

@@ -16,6 +16,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.core import checks, provenance
+from gripscale.core.arrays import Quantity
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.units import display_unit_of
@@ -164,10 +165,7 @@ class Sensitivity(Result):
         columns = [self._points_column(), *moduli, *self._scalar_columns("")]
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
         if self.data.attrs["iterated"] and not self._has_feedback:
-            notes.append(
-                "Strain and temperature of the rubber are kept; --with-feedback also lets them "
-                "follow."
-            )
+            notes.append("Strain and temperature of the rubber stay; with feedback they follow.")
         return Table("sums", columns, "What the friction depends on", notes, keys=1)
 
     def decades_table(self) -> Table:
@@ -267,7 +265,7 @@ def sensitivity(
     *,
     bands_per_decade: int | None = ...,
     contact_fraction: bool = ...,
-    reference_temperature: float | None = ...,
+    reference_temperature: Quantity | None = ...,
 ) -> xr.Dataset: ...
 
 
@@ -292,12 +290,18 @@ def sensitivity(
     bands_per_decade: int | None = None,
     contact_fraction: bool = False,
     with_feedback: bool = False,
-    reference_temperature: float | None = None,
+    reference_temperature: Quantity | None = None,
     folder: str | Path | None = None,
     workers: int | None = None,
     on_task: OnTask | None = None,
 ) -> Sensitivity | xr.Dataset:
     """Return the derivatives of the friction of a case, or of one direct contact.
+
+    Raises `InputError` or `FileError` for what cannot be used; if the case is at rest, or has no
+    measured surface.
+
+        >>> f"{gs.sensitivity(contact).d_ln_friction_d_ln_loss.values.sum():.2f}"
+        '0.91'
 
     Parameters
     ----------
@@ -334,11 +338,6 @@ def sensitivity(
         the traces of the profiles (`gripscale.half_space.location.traces_of`).
     xarray.Dataset
         Of a contact, see `gripscale.half_space.contact_sensitivity`.
-
-    Raises
-    ------
-    InputError, FileError
-        For what cannot be used; if the case is at rest, or has no measured surface.
     """
     if not isinstance(subject, Case):
         return contact_sensitivity(

@@ -177,6 +177,10 @@ def first_order(
 ) -> xr.Dataset:
     """Return the errors of friction and contact area of a case by each source.
 
+    The result is over `source`: `friction_error` and `contact_fraction_error`, the relative
+    standard errors by first order [-]; NaN for the stretch of road where pieces of the profiles are
+    too few. The grid has none. Raises `InputError` as `Tangent.of`.
+
     Parameters
     ----------
     case : Case
@@ -187,18 +191,6 @@ def first_order(
         Draws of each source for the friction.
     seed : int
         Seed of the random numbers.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `source`: `friction_error` and `contact_fraction_error`, the relative standard errors
-        by first order [-]; NaN for the stretch of road where pieces of the profiles are too few.
-        The grid has none.
-
-    Raises
-    ------
-    InputError
-        As `Tangent.of`.
     """
     measurement = Measurement.of(case)
     asked = uncertainty or Uncertainty.of_case(stated_options(case))

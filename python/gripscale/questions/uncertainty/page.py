@@ -92,7 +92,7 @@ def interval_sentence(data: xr.Dataset) -> str:
     if DIRECT not in data.model.values:
         return (
             "interval: that of `gripscale run`, without errors of the inputs: the direct contact "
-            "was not sampled (--model direct or both)"
+            "was not sampled (model: direct or both)"
         )
     text = f"interval: with the errors of the inputs, from {count} samples"
     if missing := not_stated(data):

@@ -45,10 +45,8 @@ JOINT_WAVES = 0.5
 class ProfileBlocks:
     """Profiles cut into blocks, and what is drawn of them.
 
-    Raises
-    ------
-    InputError
-        If there are fewer than four blocks, or they are shorter than the largest wave.
+    Raises `InputError` if there are fewer than four blocks, or they are shorter than the largest
+    wave.
     """
 
     profiles: Sequence[Profile]

@@ -280,6 +280,9 @@ def propagate(
 ) -> xr.Dataset:
     """Sample what is not known of a case and predict each sample.
 
+    Raises `InputError` or `FileError` if an argument or a file cannot be used, or a result cannot
+    be written.
+
     Parameters
     ----------
     case : Case
@@ -301,11 +304,6 @@ def propagate(
         which count in no quantile; `_share` of each `source` in the variance (see
         `variance_shares`). At one load `_first_order` of each source of the
         direct contact, its error by derivatives (see `first_order`).
-
-    Raises
-    ------
-    InputError, FileError
-        If an argument or a file cannot be used, or a result cannot be written.
     """
     defaults = sampling.stated_options(case)
     choice = Uncertainty.of_case(defaults) if uncertainty is None else uncertainty

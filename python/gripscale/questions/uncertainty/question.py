@@ -93,6 +93,12 @@ def uncertainty(
 ) -> SampledAnswer:
     """Return the answer of a case with the errors of its inputs, from samples of all at once.
 
+    Raises `InputError` or `FileError` if an argument or a file cannot be used, or a result cannot
+    be written.
+
+        >>> gs.uncertainty(case, samples=10, without=["profile"]).to_dataset().sizes["sample"]
+        10
+
     Parameters
     ----------
     case : Case
@@ -117,11 +123,6 @@ def uncertainty(
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     workers, client, on_task
         As for `gripscale.experiment.Bench`.
-
-    Raises
-    ------
-    InputError, FileError
-        If an argument or a file cannot be used, or a result cannot be written.
     """
     choice = Uncertainty.of_case(
         stated_options(case), without=without, ranges=ranges, block_length=block_length

@@ -237,6 +237,9 @@ class Range(Checked):
     Between two ends it is spread evenly in its logarithm, as befits a factor that may be too large
     or too small by as much: its reciprocal is then spread evenly, too.
 
+    Raises `InputError` if there are no values, one is not above zero, they do not rise, or there
+    are other than two ends.
+
     Parameters
     ----------
     values : tuple of float
@@ -244,12 +247,6 @@ class Range(Checked):
     between : bool
         Whether the two values are ends, with anything between them; otherwise each of the values
         is as likely as the others.
-
-    Raises
-    ------
-    InputError
-        If there are no values, one is not above zero, they do not rise, or there are other than
-        two ends.
     """
 
     values: tuple[float, ...]

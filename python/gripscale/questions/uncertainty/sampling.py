@@ -39,6 +39,9 @@ class Chosen(NamedTuple):
 class Uncertainty:
     """What is taken to be uncertain: all sources that a case has, unless said otherwise.
 
+    Raises `InputError` if a source is unknown, both left out and given, or has no values to be
+    given.
+
     Parameters
     ----------
     without : sequence of str
@@ -53,11 +56,6 @@ class Uncertainty:
         [Pa]) one standard error: without it they are not drawn.
     block_length : float, optional
         Length of the blocks of profiles [m]; by default four of the largest waves.
-
-    Raises
-    ------
-    InputError
-        If a source is unknown, both left out and given, or has no values to be given.
     """
 
     without: Sequence[str] = ()

@@ -72,18 +72,15 @@ class Shares:
 def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
     """Return the shares of the sources in an answer, or None where it cannot tell.
 
+    None if there are fewer than three samples for each term, an answer is not above zero, or all
+    are equal.
+
     Parameters
     ----------
     answer : array, shape (samples,)
         Above zero. Samples that are NaN do not count.
     coordinates : mapping
         Of each source, shape (samples, numbers): logarithms.
-
-    Returns
-    -------
-    Shares or None
-        None if there are fewer than three samples for each term, an answer is not above zero, or
-        all are equal.
     """
     valid = np.isfinite(answer)
     if not valid.any():

@@ -151,11 +151,11 @@ def compare_rubbers(
 ) -> None:
     """Rank compounds on one road by friction: with what confidence, and why."""
     from gripscale.case_file.named_inputs import names_of, read_rubber
-    from gripscale.core.units import temperature_in_kelvin
+    from gripscale.core.units import si_value
     from gripscale.questions.vary.ranking import compare_compounds
 
     chosen = case_of(rubbers, case, "the road and the load")
-    kelvin = None if temperature is None else temperature_in_kelvin(temperature)
+    kelvin = si_value("--temperature", temperature, "K")
     work = terminal.CaseCommand(chosen)
     work.open_results(output, "rubbers")
     compounds = compare_compounds(

@@ -48,11 +48,8 @@ _KEPT = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, STATUS, STATUS_WORD, "predic
 def effect_tasks(model: Model, rubber: Rubber, surface: Surface, load: Load) -> dict[str, Task]:
     """Return what has to be solved, by the effects that count: "all", "no heat", ..., "none".
 
-    Raises
-    ------
-    InputError
-        If the model has no conditions, its conditions do nothing to the rubber, or the rubber has
-        no shift to the temperature they state.
+    Raises `InputError` if the model has no conditions, its conditions do nothing to the rubber, or
+    the rubber has no shift to the temperature they state.
     """
     asked = inputs.effects_asked(model)
     if not asked:

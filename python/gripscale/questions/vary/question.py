@@ -80,6 +80,14 @@ def vary(
 ) -> Variation:
     """Return friction and contact area of a case over one or two of its inputs.
 
+    The result is per wave and in total, over the varied axes; at rest with the prefix `static_`. A
+    prediction that did not converge has NaN totals and says why in `prediction_status`. Raises
+    `InputError` or `FileError` for an input that cannot be used, or a result that cannot be
+    written.
+
+        >>> gs.vary(case, speed=["0.36 km/h", 0.3]).to_dataset().total_friction.values.round(3)
+        array([0.037, 0.039])
+
     Parameters
     ----------
     case : Case
@@ -93,17 +101,6 @@ def vary(
     **axes
         One or two inputs with their values, such as `speed=[0.1, 1.0]` [m/s] or
         `temperature="0 C,20 C"`; see `gripscale.questions.Study` for all.
-
-    Returns
-    -------
-    Variation
-        Per wave and in total, over the varied axes; at rest with the prefix `static_`. A prediction
-        that did not converge has NaN totals and says why in `prediction_status`.
-
-    Raises
-    ------
-    InputError, FileError
-        An input that cannot be used, a result that cannot be written.
     """
     study = Study(case, axes, static=static, model=model, tolerance=tolerance)
     data = study.run(folder, workers=workers, client=client, on_task=on_task)

@@ -141,6 +141,8 @@ STUDY_FILE = "study.nc"
 class Study:
     """A case with one or two of its inputs varied.
 
+    Raises `InputError` or `FileError` for a value or a file that cannot be used.
+
     Parameters
     ----------
     case
@@ -162,11 +164,6 @@ class Study:
         is varied, else the chain.
     tolerance
         Estimated relative error of a direct contact that is chosen by name or by default.
-
-    Raises
-    ------
-    InputError, FileError
-        A value or a file that cannot be used.
     """
 
     def __init__(
@@ -270,6 +267,9 @@ class Study:
     ) -> xr.Dataset:
         """Solve what `folder` does not have yet, and write and return the Dataset.
 
+        Raises `InputError` or `FileError` for an input that cannot be used, or a result that cannot
+        be written.
+
         Parameters
         ----------
         folder : path, optional
@@ -278,17 +278,6 @@ class Study:
             folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
             As for `solve_all`.
-
-        Returns
-        -------
-        xarray.Dataset
-            Per wave and in total, over the varied axes; at rest with the prefix `static_`.
-            A prediction that did not converge has NaN totals and says why in `prediction_status`.
-
-        Raises
-        ------
-        InputError, FileError
-            An input that cannot be used, a result that cannot be written.
         """
         data = None if folder is None else self.stored(folder)
         if data is not None:

@@ -1,0 +1,130 @@
+"""What public objects show of themselves: few lines of text, and a figure in notebooks."""
+
+from __future__ import annotations
+
+import gc
+import inspect
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+import gripscale as gs
+from gripscale import conditions, experiment, export, half_space, rubber, surface, theory, wave
+from gripscale.core.described import Described
+from tests.core.doors import doors
+from tests.public_objects import public_objects
+
+ROOMS = (
+    *(gs, gs.chain, conditions, gs.continuation, experiment, export, half_space, gs.questions),
+    *(rubber, surface, theory, wave),
+)
+HTML = {
+    *("Profile", "HeightMap", "MasterCurve", "Rubber", "RoughContact", "ScaleResult"),
+    *("ChainResult", "Answer", "Variation"),
+}
+"""Classes that a notebook shows with a figure."""
+
+
+@cache
+def objects() -> dict[str, Any]:
+    """Return the named small objects, what functions make of them, and what the doors make."""
+    made = public_objects()
+    road, solid, case = made["road"], made["rubber"], made["case"]
+    correlation = gs.height_difference(road)
+    load = {"pressure": 3e5, "speed": 0.3}
+    answers = [
+        gs.answer(case),
+        gs.vary(case, speed=[0.1, 0.3]),
+        gs.fit_self_affine(correlation),
+        surface.sine_ambiguity(correlation, gs.fit_sines(correlation, scales=3)),
+        surface.find_cut_off(road, 1e-3),
+        gs.clean(road),
+        rubber.fit_prony_report(made["master"]),
+        rubber.superpose_report(made["sweeps"], reference_temperature=293.15),
+        theory.persson(solid, surface.profile_spectrum(road), **load),
+        half_space.solve_windows(solid, road, 0.02, **load),
+        gs.solve_transient(solid, wavelength=2e-3, amplitude=1e-4, stages=[gs.Stage(1e-3, 1, 1e5)]),
+        export.abaqus_rubber(solid),
+        gs.Layers([(solid, 4e-3), (solid, 4e-3)]),
+    ]
+    classes = [door.call(**door.good) for door in doors() if inspect.isclass(door.call)]
+    return made | {"answers": answers, "classes": classes}
+
+
+def public_classes() -> dict[type, str]:
+    """Return the classes of the rooms by their names, without errors and protocols."""
+    rooms = [(room, name) for room in ROOMS for name in getattr(room, "__all__", dir(room))]
+    items = [(getattr(room, name), name) for room, name in rooms]
+    return {
+        item: name
+        for item, name in items
+        if inspect.isclass(item) and not issubclass(item, Exception | type(None))
+    }
+
+
+def test_every_object_is_shown_in_few_lines() -> None:
+    kept, wanted = objects(), public_classes()
+    shown: dict[str, str] = {}
+    for item in gc.get_objects():
+        if type(item) in wanted and wanted[type(item)] not in shown:
+            shown[wanted[type(item)]] = repr(item)
+    assert kept
+    assert len(shown) > 60
+    for name, text in shown.items():
+        lines = text.splitlines()
+        assert len(lines) <= 15, (name, text)
+        assert max(map(len, lines)) <= 100, (name, text)
+        assert " object at 0x" not in text, (name, text)
+
+
+def test_numbers_have_units_and_arrays_a_range() -> None:
+    made = objects()
+    assert repr(wave.Sine(8e-3, 5e-4)) == "Sine(wavelength=8 mm, amplitude=500 um)"
+    assert "frequency    61 values from 0.01 Hz to 100 MHz, 10.0 decades" in repr(made["master"])
+    assert "tan delta    61 values from 0.08557" in repr(made["master"])
+    assert "temperature  20 °C" in repr(made["master"])
+    assert "300 kPa, 0.3 m/s" in repr(made["contact"])
+    assert "step 100 um, length 200 mm" in repr(made["road"])
+
+
+def test_notebooks_show_a_figure_beside_the_text() -> None:
+    made = objects()
+    answers = {type(item).__name__: item for item in made["answers"]}
+    wave_result = made["chain"].scales[0]
+    items = [*made.values(), wave_result, answers["Answer"], answers["Variation"]]
+    html = {
+        type(item).__name__: item._repr_html_() for item in items if type(item).__name__ in HTML
+    }
+    assert set(html) == HTML
+    for name, text in html.items():
+        assert text.count("data:image/png;base64,") == 1, name
+        assert text.count("<div") == text.count("</div>") == 2, name
+        assert len(text) < 200_000, name
+
+
+def test_an_object_without_a_figure_is_shown_as_text() -> None:
+    empty = gs.Rubber(1e6)
+
+    class Undrawn(type(empty)):  # type: ignore[misc]
+        def plot(self) -> Any:
+            raise gs.InputError("nothing to draw")
+
+    html = Undrawn(1e6)._repr_html_()
+    assert "<table>" in html
+    assert "<img" not in html
+
+
+def test_many_fields_are_cut() -> None:
+    @dataclass(repr=False)
+    class Many(Described):
+        values: Any
+
+        def shown_rows(self) -> Any:
+            yield from ((f"row {k}", "x" * 150) for k in range(20))
+
+    lines = repr(Many(np.zeros(3))).splitlines()
+    assert len(lines) == 15
+    assert lines[-1] == "  ..."
+    assert max(map(len, lines)) <= 100
