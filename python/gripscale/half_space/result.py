@@ -26,7 +26,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
@@ -40,6 +39,7 @@ from gripscale.core.status import Status
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
+from gripscale.half_space.regions import periodic_regions
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND
 from gripscale.rubber import Rubber
@@ -50,20 +50,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def patch_points(active: Mask) -> NDArray[np.int64]:
+def patch_points(active: Mask) -> NDArray[np.intp]:
     """Return the number of points of each patch of neighbours across the period, largest first."""
-    labels, count = scipy.ndimage.label(active)
-    first, second = [], []
-    for axis in range(active.ndim):
-        ends = np.take(labels, 0, axis=axis), np.take(labels, -1, axis=axis)
-        adjacent = (ends[0] > 0) & (ends[1] > 0)
-        first.append(ends[0][adjacent])
-        second.append(ends[1][adjacent])
-    rows, columns = np.concatenate(first) - 1, np.concatenate(second) - 1
-    joined = scipy.sparse.coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
-    number, patch = scipy.sparse.csgraph.connected_components(joined, directed=False)
-    sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
-    return np.sort(np.bincount(patch, weights=sizes, minlength=number).astype(np.int64))[::-1]
+    return np.sort(periodic_regions(active).points)[::-1]
 
 
 def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents:

@@ -1,0 +1,3 @@
+from .gap_flow import GapFlow as GapFlow
+from .gap_flow import Junction as Junction
+from .gap_flow import gap_flow as gap_flow

@@ -1,0 +1,61 @@
+"""Charts of the flow through a gap: fluid pressure, and the paths that carry the flow."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gripscale.charts import chart, draw
+from gripscale.charts.style import ORANGE, WIDE
+from gripscale.core.arrays import Array
+from gripscale.core.units import MILLI
+from gripscale.flow.gap_flow import GapFlow, conductances
+
+FAINTEST = 1e-3
+"""Flow over its mean below which a path is left white."""
+
+
+def flow_density(flow: GapFlow, axis: int) -> Array:
+    """Return the flow through each point over the mean flow along an axis [-]."""
+    pressure = np.nan_to_num(flow.pressure[axis])
+    parts = []
+    for along, faces in enumerate(conductances(flow.gap / flow.mean_gap, flow.spacing)):
+        drop = pressure - np.roll(pressure, -1, along)
+        if along == axis:  # the last cell flows into the first of the next period
+            ends = [slice(None), slice(None)]
+            ends[axis] = slice(-1, None)
+            drop[tuple(ends)] += 1.0
+        rate = np.where(np.isnan(flow.pressure[axis]), 0.0, faces * drop)
+        parts.append(0.5 * (rate + np.roll(rate, 1, along)))
+    density = np.hypot(*parts)
+    return density / parts[axis].mean() if parts[axis].any() else density
+
+
+def gap_flow_sheet(flow: GapFlow) -> draw.Sheet:
+    """Describe fluid pressure and flow along the axis with more flow."""
+    axis = int(flow.flow_factor[1] > flow.flow_factor[0])
+    density = flow_density(flow, axis)
+    paths = np.where(density > FAINTEST, np.log10(np.maximum(density, FAINTEST)), np.nan)
+    x, y = (
+        step * np.arange(n) / MILLI for step, n in zip(flow.spacing, flow.gap.shape, strict=True)
+    )
+    junction = flow.junction[axis]
+    ring = [] if junction is None else [
+        chart.Series(
+            [junction.x / MILLI], [junction.y / MILLI], ORANGE, "critical junction", dash="",
+            marker="o", size=9.0, filled=False, width=2.0,
+        )
+    ]  # fmt: skip
+    names = (
+        (flow.pressure[axis], f"fluid pressure, flow along {'xy'[axis]} [-]"),
+        (paths, "log$_{10}$ of flow over its mean"),
+    )
+    panels = [
+        chart.Panel(
+            chart.PlotAxis("$x$ [mm]", grid=False),
+            chart.PlotAxis("$y$ [mm]", grid=False),
+            [chart.ValueMap(x, y, values.T, label), *ring],
+            to_scale=True,
+        )
+        for values, label in names
+    ]
+    return draw.Sheet(panels, columns=2, width=WIDE, height=3.4)
