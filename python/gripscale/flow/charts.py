@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from gripscale.charts import chart, draw
@@ -9,6 +11,9 @@ from gripscale.charts.style import ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.flow.gap_flow import GapFlow, conductances
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FAINTEST = 1e-3
 """Flow over its mean below which a path is left white."""
@@ -30,8 +35,8 @@ def flow_density(flow: GapFlow, axis: int) -> Array:
     return density / parts[axis].mean() if parts[axis].any() else density
 
 
-def gap_flow_sheet(flow: GapFlow) -> draw.Sheet:
-    """Describe fluid pressure and flow along the axis with more flow."""
+def gap_flow_figure(flow: GapFlow) -> Figure:
+    """Draw fluid pressure and flow along the axis with more flow."""
     axis = int(flow.flow_factor[1] > flow.flow_factor[0])
     density = flow_density(flow, axis)
     paths = np.where(density > FAINTEST, np.log10(np.maximum(density, FAINTEST)), np.nan)
@@ -58,4 +63,4 @@ def gap_flow_sheet(flow: GapFlow) -> draw.Sheet:
         )
         for values, label in names
     ]
-    return draw.Sheet(panels, columns=2, width=WIDE, height=3.4)
+    return draw.Sheet(panels, columns=2, width=WIDE, height=3.4).on_paper()

@@ -13,7 +13,7 @@ their h^3. Only regions that percolate carry flow; without one along an axis its
 The error compares with the four grids of every second point. Constrictions decide the flow, so that
 the error is one of the logarithm: with s the largest |ln phi_c / phi| of the four, the factor is
 between phi e^-cs and phi e^cs, and from zero if a coarse grid does not percolate. Of 135 factors
-of twelve random elastic contacts at areas of 0.17 to 0.48 these intervals held that of a grid two or
+of twelve random elastic contacts, areas 0.17 to 0.48, these intervals held that of a grid two or
 four times finer, solved anew, in 131.
 """
 
@@ -29,6 +29,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
+import gripscale
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
 
 NARROWEST = 1e-8
 """Gap over its mean below which a point is closed: less than the contact is solved to."""
-FLOW_TOLERANCE, COARSE_TOLERANCE = 1e-6, 1e-3
+FLOW_TOLERANCE, COARSE_FLOW_TOLERANCE = 1e-6, 1e-3
 """Relative errors of a flow factor from the iteration, and of those of every second point."""
 ERROR_SHARE = 0.5
 """c, the error of a grid over its difference from those of twice the spacing."""
@@ -165,9 +166,7 @@ class GapFlow:
 
     def plot(self) -> Figure:
         """Draw fluid pressure and paths of the flow, along the axis with more flow."""
-        from gripscale.flow.charts import gap_flow_sheet
-
-        return gap_flow_sheet(self).on_paper()
+        return gripscale.flow.gap_flow_figure(self)
 
 
 def gap_flow(
@@ -308,7 +307,9 @@ def _intervals(
     nx, ny = (n // 2 for n in gap.shape)
     wide = 2.0 * spacing[0], 2.0 * spacing[1]
     coarse = [
-        _flow(gap[i::2, j::2][:nx, :ny], wide, COARSE_TOLERANCE)[0] for i in (0, 1) for j in (0, 1)
+        _flow(gap[i::2, j::2][:nx, :ny], wide, COARSE_FLOW_TOLERANCE)[0]
+        for i in (0, 1)
+        for j in (0, 1)
     ]
     out = []
     for factor, others in zip(factors, np.transpose(coarse), strict=True):

@@ -39,7 +39,7 @@ SWEEPS = 2
 ENOUGH = 0.25
 """Residual over that before, below which a second step on a coarse grid is not worth its cost."""
 LAST_STEPS = 3
-MOST_STEPS = 200
+_MOST_STEPS = 200
 
 
 def laplacian(
@@ -94,7 +94,7 @@ class Multigrid:
         direction, image = np.zeros_like(inflow), np.zeros_like(inflow)
         dissipation, curvature, falls = outset, 0.0, [np.inf] * LAST_STEPS
         iteration = 0
-        while iteration < MOST_STEPS and sum(falls) > tolerance * dissipation:
+        while iteration < _MOST_STEPS and sum(falls) > tolerance * dissipation:
             iteration += 1
             step = self._cycle(residual)
             if curvature > 0.0:
