@@ -9,8 +9,10 @@ import numpy as np
 from gripscale.charts import chart, draw
 from gripscale.charts.style import ORANGE, WIDE
 from gripscale.core.arrays import Array
-from gripscale.core.units import MILLI
+from gripscale.core.errors import InputError
+from gripscale.core.units import MEGA, MILLI
 from gripscale.flow.gap_flow import GapFlow, conductances
+from gripscale.half_space.result import RoughContact
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -64,3 +66,27 @@ def gap_flow_figure(flow: GapFlow) -> Figure:
         for values, label in names
     ]
     return draw.Sheet(panels, columns=2, width=WIDE, height=3.4).on_paper()
+
+
+def trapped_water_figure(contact: RoughContact) -> Figure:
+    """Draw the pressure of the contact and that of the water in its pools.
+
+    Raises `InputError` for a contact without water.
+    """
+    if contact.water is None:
+        raise InputError("contact must be solved with water; got a dry one: use water=True")
+    water, x, y = contact.water.pressure / MEGA, contact.x / MILLI, contact.y / MILLI
+    dry = np.where(contact.active, contact.pressure / MEGA, np.nan)
+    panels = [
+        chart.Panel(
+            chart.PlotAxis("$x$ [mm]", grid=False),
+            chart.PlotAxis("$y$ [mm]", grid=False),
+            [chart.ValueMap(x, y, values.T, label)],
+            to_scale=True,
+        )
+        for values, label in (
+            (dry, "contact pressure [MPa]"),
+            (np.where(water > 0.0, water, np.nan), "pressure of trapped water [MPa]"),
+        )
+    ]
+    return draw.Sheet(panels, columns=2, width=WIDE, height=3.1, legend="").on_paper()

@@ -34,6 +34,7 @@ from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
@@ -144,6 +145,29 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
 
 
 @dataclass(frozen=True)
+class TrappedWater:
+    """Water in pools that the contact closes."""
+
+    film: float
+    """Mean thickness of the water before the contact [m]; infinite: flooded."""
+    pool: NDArray[np.intp] = field(repr=False)
+    """Number of the pool of each point, from 1; 0 outside."""
+    pool_pressure: Array = field(repr=False)
+    """Of each pool [Pa]; zero where room is left."""
+    pool_volume: Array = field(repr=False)
+    """Water in each pool [m^3]."""
+    dry_contact_fraction: float
+    """Real over nominal contact area without water [-]."""
+    dry_friction: float
+    """Friction from dissipation without water [-]."""
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure of the water [Pa], shape of the grid; zero where it drains."""
+        return np.asarray(np.append(0.0, self.pool_pressure)[self.pool])
+
+
+@dataclass(frozen=True)
 class RoughContact:
     """Contact and friction of a whole surface (m, Pa, m/s); arrays have the shape of the grid."""
 
@@ -174,7 +198,7 @@ class RoughContact:
     height: Array = field(repr=False)
     """Of the surface as it was solved, mean zero [m]."""
     pressure: Array = field(repr=False)
-    """Contact pressure [Pa], zero out of contact."""
+    """Pressure on the rubber [Pa], of the contact and of trapped water; zero elsewhere."""
     gap: Array = field(repr=False)
     """Between rubber and surface [m], zero in contact."""
     measured: Mask = field(repr=False)
@@ -198,6 +222,8 @@ class RoughContact:
     """Of the rubber on a rigid base [m]; None: a half-space, or `layers`."""
     layers: Layers | None = None
     """The stack, that in contact first and also `rubber`; None: one rubber."""
+    water: TrappedWater | None = None
+    """Pools that the contact closes; None: a dry contact."""
 
     @property
     def adhesive_friction(self) -> float:
@@ -259,7 +285,21 @@ class RoughContact:
     @property
     def active(self) -> Mask:
         """Where the rubber is in contact."""
-        return np.asarray(self.pressure > 0.0)
+        if self.water is None:
+            return np.asarray(self.pressure > 0.0)
+        return np.asarray((self.pressure > 0.0) & (self.water.pool == 0))
+
+    def require_dry(self, why: str) -> None:
+        """Raise `InputError`, with the reason, for a contact in water."""
+        if self.water is not None:
+            raise InputError(f"contact must be solved without water: {why}")
+
+    @property
+    def water_load_share(self) -> float:
+        """Share of the load on trapped water [-]."""
+        if self.water is None:
+            return 0.0
+        return float(self.water.pressure.mean() / self.nominal_pressure)
 
     @property
     def friction_mismatch(self) -> float:
@@ -326,6 +366,12 @@ class RoughContact:
             )
         if self.missing_share > 0.05:
             out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")
+        if self.water is not None:
+            out.append(
+                f"Trapped water carries {self.water_load_share:.1%} of the load. Without it the "
+                f"contact area is {self.water.dry_contact_fraction:.3g} and the friction "
+                f"{self.water.dry_friction:.3g}."
+            )
         if self.surface_warming is not None:
             out += heat_left_out(self.adhesive_friction, self.friction)
         if self.status == Status.FRICTIONS_DISAGREE:
@@ -391,7 +437,9 @@ class RoughContact:
         return xr.Dataset(data).set_coords("wavelength")
 
     def plot(self) -> Figure:
-        """Draw rubber on the surface and pressure; see `rough_contact_figure`."""
+        """Draw rubber on the surface and pressure, or with water the pools."""
+        if self.water is not None:
+            return gripscale.flow.trapped_water_figure(self)
         return gripscale.questions.rough_contact_figure(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
@@ -423,6 +471,14 @@ class RoughContact:
             text = "friction from the energy lost in the layer"
             add("friction_by_layer", "layer", self.friction_by_layer, "1", text)
             add("layer_thickness", "layer", self.layers.thicknesses, "m", "thickness of the layer")
+        if self.water is not None:
+            water = self.water
+            add("water_film", (), water.film, "m", "mean thickness of the water; inf if flooded")
+            add("water_load_share", (), self.water_load_share, "1", "share of the load on water")
+            for name in ("dry_contact_fraction", "dry_friction"):
+                add(name, (), getattr(water, name), "1", f"{name[4:]} without water")
+            add("pool_pressure", "pool", water.pool_pressure, "Pa", "pressure of each pool")
+            add("pool_volume", "pool", water.pool_volume, "m3", "water in each pool")
         pressures = self.pressure_quantiles(_SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]
@@ -433,6 +489,8 @@ class RoughContact:
             add("height", axes, self.height, "m", "height of the surface as solved")
             add("pressure", axes, self.pressure, "Pa", "contact pressure")
             add("gap", axes, self.gap, "m", "gap between rubber and surface")
+            if self.water is not None:
+                add("pool_number", axes, self.water.pool, "1", "number of the pool, 0 outside")
         for name, value in self.residuals.items():
             add(f"residual_{name}", (), value, "1", f"residual of the {name}")
         add("status", (), np.array(str(self.status), dtype=object), "1", "")
