@@ -35,7 +35,7 @@ def run(console: Console) -> None:
                     f"{time.process_time() - processor:.2f}",
                     f"{peak_since_reset() - before:.0f}",
                     f"{flow.flow_factor[0]:.4g}",
-                    f"{flow.flow_factor_interval[0][0]:.3g} to {flow.flow_factor_interval[0][1]:.3g}",
+                    "{:.3g} to {:.3g}".format(*flow.flow_factor_interval[0]),
                 ]
             )
     reset_peak()

@@ -47,8 +47,8 @@ def test_a_sine_across_and_along(amplitude: float) -> None:
 def test_gaussian_roughness_as_patir_and_cheng(ratio: float) -> None:
     """Their simulations scatter by some per cent; theirs have the roughness cut at three rms."""
     factors = []
-    for seed in range(2):
-        gap = np.maximum(ratio + np.maximum(gaussian_heights(192, 10.0, seed), -3.0), 0.0)
+    for seed in range(3):
+        gap = np.maximum(ratio + np.maximum(gaussian_heights(192, 5.0, seed), -3.0), 0.0)
         factors += gs.gap_flow(gap * 1e-6, spacing=SQUARE).flow_factor
     assert np.mean(factors) == pytest.approx(thin_film.patir_cheng_flow_factor(ratio), rel=0.05)
 
@@ -122,7 +122,6 @@ def test_the_critical_junction_is_the_hole_in_a_wall() -> None:
     assert junction is not None
     assert (junction.x, junction.gap) == pytest.approx((20 * 1e-5, 2e-6))
     assert 8 <= round(junction.y / 2e-5) <= 10
-    assert junction.width == pytest.approx(3 * 2e-5)
 
 
 def test_a_contact_and_its_gap_have_the_same_flow() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gripscale.charts import chart, draw
+from gripscale.charts.chart import Mark
 from gripscale.charts.style import ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
@@ -56,14 +58,15 @@ def gap_flow_figure(flow: GapFlow) -> Figure:
         (flow.pressure[axis], f"fluid pressure, flow along {'xy'[axis]} [-]"),
         (paths, "log$_{10}$ of flow over its mean"),
     )
+    return _maps(x, y, names, ring)
+
+
+def _maps(x: Array, y: Array, maps: Sequence[tuple[Array, str]], marks: Sequence[Mark]) -> Figure:
+    """Draw maps of values with their labels side by side, over x and y [mm]."""
+    axes = [chart.PlotAxis(f"${name}$ [mm]", grid=False) for name in "xy"]
     panels = [
-        chart.Panel(
-            chart.PlotAxis("$x$ [mm]", grid=False),
-            chart.PlotAxis("$y$ [mm]", grid=False),
-            [chart.ValueMap(x, y, values.T, label), *ring],
-            to_scale=True,
-        )
-        for values, label in names
+        chart.Panel(*axes, [chart.ValueMap(x, y, values.T, label), *marks], to_scale=True)
+        for values, label in maps
     ]
     return draw.Sheet(panels, columns=2, width=WIDE, height=3.4).on_paper()
 
@@ -77,16 +80,8 @@ def trapped_water_figure(contact: RoughContact) -> Figure:
         raise InputError("contact must be solved with water; got a dry one: use water=True")
     water, x, y = contact.water.pressure / MEGA, contact.x / MILLI, contact.y / MILLI
     dry = np.where(contact.active, contact.pressure / MEGA, np.nan)
-    panels = [
-        chart.Panel(
-            chart.PlotAxis("$x$ [mm]", grid=False),
-            chart.PlotAxis("$y$ [mm]", grid=False),
-            [chart.ValueMap(x, y, values.T, label)],
-            to_scale=True,
-        )
-        for values, label in (
-            (dry, "contact pressure [MPa]"),
-            (np.where(water > 0.0, water, np.nan), "pressure of trapped water [MPa]"),
-        )
-    ]
-    return draw.Sheet(panels, columns=2, width=WIDE, height=3.1, legend="").on_paper()
+    maps = (
+        (dry, "contact pressure [MPa]"),
+        (np.where(water > 0.0, water, np.nan), "pressure of trapped water [MPa]"),
+    )
+    return _maps(x, y, maps, ())

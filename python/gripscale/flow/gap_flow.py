@@ -62,8 +62,6 @@ class Junction:
     """Position from the first point of the map [m]."""
     gap: float
     """Height of the passage [m]."""
-    width: float
-    """Its open width, the least along the axes and diagonals [m]."""
 
 
 @dataclass(frozen=True)
@@ -127,18 +125,16 @@ class GapFlow:
             low, high = self.flow_factor_interval[axis]
             lines.append(
                 f"Along {name}: flow factor {self.flow_factor[axis]:.4g} "
-                f"({low:.3g} to {high:.3g}); critical junction {junction.gap * 1e6:.3g} um high, "
-                f"{junction.width * 1e6:.3g} um wide, at x = {junction.x * 1e3:.4g} mm, "
-                f"y = {junction.y * 1e3:.4g} mm."
+                f"({low:.3g} to {high:.3g}); critical junction {junction.gap * 1e6:.3g} um high "
+                f"at x = {junction.x * 1e3:.4g} mm, y = {junction.y * 1e3:.4g} mm."
             )
         return "\n".join(lines)
 
     def to_dataset(self) -> xr.Dataset:
         """Return numbers and fields as a labelled Dataset."""
         low, high = np.transpose(self.flow_factor_interval)
-        places = [junction or Junction(*[math.nan] * 4) for junction in self.junction]
         x, y = (step * np.arange(n) for step, n in zip(self.spacing, self.gap.shape, strict=True))
-        fields = ("axis", "x", "y")
+        narrow = [each.gap if each else 0.0 for each in self.junction]
         variables = {
             "flow_factor": ("axis", self.flow_factor, "1", "flow over that of the mean gap"),
             "flow_factor_low": ("axis", low, "1", "its lower end by the error of the grid"),
@@ -146,17 +142,14 @@ class GapFlow:
             "percolates": ("axis", self.percolates, "1", "whether an open path leads through"),
             "mean_gap": ((), self.mean_gap, "m", "mean gap, contact included"),
             "closed_fraction": ((), self.contact_fraction, "1", "closed points over all points"),
-            **{
-                f"junction_{name}": ("axis", [getattr(each, name) for each in places], "m", text)
-                for name, text in (
-                    ("x", "position of the critical junction along x"),
-                    ("y", "position of the critical junction along y"),
-                    ("gap", "height of the critical junction"),
-                    ("width", "width of the critical junction"),
-                )
-            },
+            "junction_gap": ("axis", narrow, "m", "height of the critical junction"),
             "gap": (("x", "y"), self.gap, "m", "gap between rubber and surface"),
-            "fluid_pressure": (fields, self.pressure, "1", "over the fall along a period"),
+            "fluid_pressure": (
+                ("axis", "x", "y"),
+                self.pressure,
+                "1",
+                "over the fall along a period",
+            ),
             "x": ("x", x, "m", "x"),
             "y": ("y", y, "m", "y"),
         }
@@ -338,23 +331,4 @@ def _critical_junction(
     regions = periodic_regions(gap >= values[low])
     path = regions.where(regions.percolates[:, axis])
     i, j = np.argwhere(path & (gap == values[low]))[0]
-    width = min(
-        _open_run(gap > 0.0, (i, j), step) * math.hypot(step[0] * spacing[0], step[1] * spacing[1])
-        for step in ((1, 0), (0, 1), (1, 1), (1, -1))
-    )
-    return Junction(
-        float(i * spacing[0]), float(j * spacing[1]), float(values[low] * mean), float(width)
-    )
-
-
-def _open_run(opened: Mask, start: tuple[int, int], step: tuple[int, int]) -> int:
-    """Return the open points in a row through `start`, at most those of the longer axis."""
-    most, count = max(opened.shape), 1
-    for sign in (1, -1):
-        i, j = start
-        while count < most:
-            i, j = (i + sign * step[0]) % opened.shape[0], (j + sign * step[1]) % opened.shape[1]
-            if not opened[i, j]:
-                break
-            count += 1
-    return count
+    return Junction(float(i * spacing[0]), float(j * spacing[1]), float(values[low] * mean))

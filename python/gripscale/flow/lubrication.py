@@ -304,11 +304,7 @@ def inclined_block(
         contact = np.trapezoid(curve.contact_pressure(gap), position)
         return float(np.trapezoid(water, position)), float(contact)
 
-    lowest = curve.final_gap(load)
-    while sum(carried(lowest)) < load:
-        lowest *= 0.5
-    highest = 2.0 * lowest
-    while sum(carried(highest)) > load:
-        highest *= 2.0
-    trailing = scipy.optimize.brentq(lambda h: sum(carried(h)) - load, lowest, highest, rtol=1e-10)
-    return float(trailing), carried(trailing)[1] / load
+    near, far = np.log(curve.final_gap(load)) + np.array([-7.0, 14.0])
+    logarithm = scipy.optimize.brentq(lambda h: sum(carried(math.exp(h))) - load, near, far)
+    trailing = math.exp(logarithm)
+    return trailing, carried(trailing)[1] / load

@@ -341,9 +341,10 @@ def solve_grid(
     sharper = SHARPER if is_lossy_line(response) else 1.0
     tolerance, products, fewest, waited = sharper * LOOSEST, 1, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):
-        wet = None if pools is None else pools.under_pressure(active)
-        where = np.flatnonzero(active if wet is None else active | wet)
-        averaged = None if pools is None else pools.averaging(where, active)
+        where, averaged, room = np.flatnonzero(active), None, np.zeros(1)
+        if pools is not None:
+            where = np.flatnonzero(active | pools.under_pressure(active))
+            averaged, room = pools.averaging(where, active)
         # the pressure at the points without tension, scaled to the load; even if there is none
         positive = np.maximum(pressure[where], 0.0)
         if averaged is not None:
@@ -356,7 +357,7 @@ def solve_grid(
         closed = close_gap(
             response,
             where,
-            flat[where] if pools is None else flat[where] + pools.mean_gap(where, active),
+            flat[where] + room,
             tried[where],
             displacement,
             tolerance,
@@ -368,15 +369,11 @@ def solve_grid(
         pressure[where] = closed.pressure
         displacement = closed.displacement
         gap = displacement - flat
-        gap -= gap[where].mean()
-        if pools is not None:
-            gap += pools.mean_gap(where, active).mean()
+        gap -= gap[where].mean() - room.mean()
         excess = gap / -stiffest
-        if pools is None:
-            excess[where] = -closed.pressure
-        else:
-            excess[active] = pools.pressures(pressure, active)[pools.label][active]
-            excess[active] -= pressure[active]
+        excess[active] = -pressure[active]
+        if pools is not None:
+            excess[active] += pools.pressures(pressure, active)[pools.label[active]]
         wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
         count = int(wrong.sum())
         if pools is not None:
@@ -389,13 +386,13 @@ def solve_grid(
         solved = count == 0 and tolerance <= goal
         if solved or iteration == most_iterations or waited > GIVING_UP:
             break
-        if waited > PATIENCE:
+        if waited > PATIENCE and wrong.any():
             wrong &= excess >= np.median(excess[wrong])
         # tighter with fewer changes, and tenfold where the number of wrong points does not fall
         fewer = count < fewest
         share = sharper * count / len(where)
         wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * share)
-        tolerance = max(wanted, goal if fewer else CONTACT_TOLERANCE)
+        tolerance = max(wanted, goal if fewer else min(goal, CONTACT_TOLERANCE))
         fewest = min(fewest, count)
         active = active ^ wrong
     return GridContact(

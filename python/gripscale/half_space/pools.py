@@ -41,8 +41,11 @@ class Pools:
         """Return the open points of filled pools."""
         return np.asarray(self.filled[self.label] & ~active)
 
-    def averaging(self, where: _Index, active: Mask) -> Callable[[Array], Array]:
-        """Return what replaces values at the points `where` by the means of their pools."""
+    def averaging(self, where: _Index, active: Mask) -> tuple[Callable[[Array], Array], Array]:
+        """Return what replaces values at the points `where` by the means of their pools.
+
+        And the mean gap of the pool of each point [m], zero in contact.
+        """
         label = np.where(active[where], 0, self.label[where])
         count = np.maximum(np.bincount(label, minlength=self.volume.size), 1)
         pooled = np.flatnonzero(label)
@@ -53,13 +56,7 @@ class Pools:
             out[pooled] = means[label[pooled]]
             return out
 
-        return averaged
-
-    def mean_gap(self, where: _Index, active: Mask) -> Array:
-        """Return the mean gap of the pool of each of the points `where` [m]; zero in contact."""
-        label = np.where(active[where], 0, self.label[where])
-        count = np.maximum(np.bincount(label, minlength=self.volume.size), 1)
-        return np.asarray(np.where(label > 0, (self.volume / count)[label], 0.0))
+        return averaged, np.where(label > 0, (self.volume / count)[label], 0.0)
 
     def pressures(self, pressure: Array, active: Mask) -> Array:
         """Return the pressure of each pool [Pa], zero of one without open points."""

@@ -12,16 +12,17 @@ lies below that level, and may have room left.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import replace
 
 import numpy as np
 import scipy
 
 from gripscale.core import checks, units
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, Mask
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, solve_grid
+from gripscale.half_space.active_set import START_TOLERANCE, solve_grid
 from gripscale.half_space.grid import Grid, resampled
 from gripscale.half_space.grid_sequence import (
     friction_from_traction,
@@ -43,6 +44,12 @@ closes within a step is trapped at its end, with less water. Half the steps chan
 a map by up to 3 %, where the contact percolates."""
 
 
+_ERRORS = {
+    "contact_fraction_error": "contact_fraction",
+    "friction_error": "friction_from_dissipation",
+}
+
+
 def water_film(water: object) -> float:
     """Return the film that `water` asks for [m]: infinite if flooded, zero if dry."""
     if isinstance(water, bool | np.bool_):
@@ -56,87 +63,84 @@ def water_film(water: object) -> float:
     return checks.positive("water", film, unit="m")
 
 
-@dataclass(frozen=True)
-class _Wet:
-    """Contact with pools on one grid, and the numbers of the dry and the wet one."""
-
-    contact: GridContact
-    pools: Pools
-    dry: dict[str, float]
-    numbers: dict[str, float]
-
-
 def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -> RoughContact:
     """Return a dry contact with trapped water, solved on its grid and more coarsely.
 
-    The coarse solution has half the points each way and half the steps of load.
-    Errors are those of the dry contact and the change of wet over dry between the two.
+    The coarse solution has half the points each way and half the steps of load. Errors are those of
+    the dry contact and the change of wet over dry between the two.
     """
-    fine = _solve_wet(contact, contact.height, film, LOAD_STEPS, workers, most)
+    response = Response.of(contact.body, contact.grid, workers)
+    load = contact.nominal_pressure
+    step, pools = _under_rising_load(response, contact.height, load, film, LOAD_STEPS, most)
+    numbers = _numbers(response, contact.height, step)
+
     shape = tuple(n // 2 for n in contact.grid.shape)
-    half = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, shape)
-    coarse = _solve_wet(contact, half, film, LOAD_STEPS // 2, workers, most)
-    area_ratio, area_change = _change(fine, coarse, "contact_fraction")
-    friction_ratio, friction_change = _change(fine, coarse, "friction_from_dissipation")
-    settled = fine.contact.settled
-    pressure, active = fine.contact.pressure, fine.contact.active
-    label = np.where(active, 0, fine.pools.label.reshape(active.shape))
+    response = Response.of(contact.body, Grid(shape, contact.grid.lengths), workers)
+    height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, shape)
+    start = _loaded(response.full_contact(height, load), load)
+    before = _numbers(response, height, solve_grid(response, height, start, most, START_TOLERANCE))
+    coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2, most)
+    after = _numbers(response, height, coarse)
+    errors = {}
+    for error, name in _ERRORS.items():
+        dry = getattr(contact, name) or math.inf
+        ratio, coarse_ratio = numbers[name] / dry, after[name] / (before[name] or math.inf)
+        errors[error] = getattr(contact, error) * ratio + abs(numbers[name] - coarse_ratio * dry)
+    flat, active = step.pressure.reshape(-1), step.active
     water = TrappedWater(
         film=film,
-        pool=label,
-        pool_pressure=fine.pools.pressures(pressure.reshape(-1), active.reshape(-1))[1:],
-        pool_volume=fine.pools.volume[1:] * float(np.prod(contact.grid.spacing)),
+        pool=np.where(active, 0, pools.label.reshape(active.shape)),
+        pool_pressure=pools.pressures(flat, active.reshape(-1))[1:],
+        pool_volume=pools.volume[1:] * math.prod(contact.grid.spacing),
         dry_contact_fraction=contact.contact_fraction,
         dry_friction=contact.friction_from_dissipation,
     )
     return replace(
         contact,
-        **fine.numbers,
-        contact_fraction_error=contact.contact_fraction_error * area_ratio + area_change,
-        friction_error=contact.friction_error * friction_ratio + friction_change,
-        status=contact.status if settled else Status.ACTIVE_SET_NOT_SETTLED,
+        **numbers,
+        **errors,
+        status=contact.status if step.settled else Status.ACTIVE_SET_NOT_SETTLED,
+        residuals={**contact.residuals, "pressure": step.missing},
         full_contact=bool(active.all()),
-        pressure=np.maximum(pressure, 0.0),
-        gap=np.where(active, 0.0, np.maximum(fine.contact.gap, 0.0)),
+        pressure=np.maximum(step.pressure, 0.0),
+        gap=np.where(active, 0.0, np.maximum(step.gap, 0.0)),
         water=water,
     )
 
 
-def _change(fine: _Wet, coarse: _Wet, name: str) -> tuple[float, float]:
-    """Return wet over dry of a number, and the error of the wet number by the coarse solution."""
-    ratios = [each.numbers[name] / (each.dry[name] or np.inf) for each in (fine, coarse)]
-    return ratios[0], abs(ratios[0] - ratios[1]) * abs(fine.dry[name])
-
-
-def _solve_wet(
-    contact: RoughContact, height: Array, film: float, steps: int, workers: int, most: int
-) -> _Wet:
-    """Return the contact on a grid under loads that rise, from one that is dry."""
-    grid = Grid(height.shape, contact.grid.lengths)
-    response = Response.of(contact.body, grid, workers)
+def _under_rising_load(
+    response: Response, height: Array, load: float, film: float, steps: int, most: int
+) -> tuple[GridContact, Pools]:
+    """Return the contact on a grid under loads that rise from a dry one, and its pools."""
     level = _water_level(height, film)
-    dry = solve_grid(response, height, _start(contact, height), most, CONTACT_TOLERANCE)
-    loads = contact.nominal_pressure * np.geomspace(FIRST_LOAD, 1.0, steps)
-    start = response.full_contact(height, loads[0])
-    step = solve_grid(response, height, _loaded(start, loads[0]), most, START_TOLERANCE)
-    pools = _trapped(Pools(np.zeros(height.size, dtype=np.intp), np.zeros(1)), step, height, level)
-    for load in loads[1:]:
-        goal = POOL_TOLERANCE if load == loads[-1] else START_TOLERANCE
-        start = _loaded(step.pressure, load)
-        step = solve_grid(response, height, start, most, goal, pools=pools, active=step.active)
-        last, pools = pools, _trapped(pools, step, height, level)
-    return _Wet(step, last, _numbers(response, height, dry), _numbers(response, height, step))
+    loads = load * np.geomspace(FIRST_LOAD, 1.0, steps)
+    start = _loaded(response.full_contact(height, loads[0]), loads[0])
+    step = solve_grid(response, height, start, most, START_TOLERANCE)
+    pools = Pools(np.zeros(height.size, dtype=np.intp), np.zeros(1))
+    touched = np.zeros(height.shape, dtype=bool)
+    for under in loads[1:]:
+        pools = _trapped(pools, step, height, level, touched)
+        touched, goal = step.active, POOL_TOLERANCE if under == loads[-1] else START_TOLERANCE
+        start = _loaded(step.pressure, under)
+        step = solve_grid(response, height, start, most, goal, pools=pools, active=touched)
+    return step, pools
 
 
-def _trapped(pools: Pools, contact: GridContact, height: Array, level: float) -> Pools:
-    """Return the pools of a contact, with the water that was in them under the load before."""
+def _trapped(
+    pools: Pools, contact: GridContact, height: Array, level: float, touched: Mask
+) -> Pools:
+    """Return the pools of a contact, with the water that was in them under the load before.
+
+    What was `touched` before has no water yet.
+    """
     active, gap = contact.active.reshape(-1), contact.gap.reshape(-1)
     opened = np.where(active, 0.0, np.maximum(gap, 0.0))
     depth = np.minimum(opened, np.maximum(level - height.reshape(-1), 0.0))
     capacity = pools.capacity(gap, active)
     share = np.divide(pools.volume, capacity, out=np.zeros_like(capacity), where=capacity > 0.0)
     inside = pools.label > 0
-    depth[inside] = (opened * np.minimum(share, 1.0)[pools.label])[inside]
+    depth[inside] = (opened * share[pools.label])[inside]
+    depth[touched.reshape(-1)] = 0.0
     regions = periodic_regions(~contact.active)
     closed = ~regions.percolates.any(axis=1)
     number = np.append(0, np.cumsum(closed) * closed)
@@ -153,15 +157,6 @@ def _water_level(height: Array, film: float) -> float:
     if film >= mean_depth[-1]:
         return float(below[-1] + film - mean_depth[-1])
     return float(np.interp(film, mean_depth, below))
-
-
-def _start(contact: RoughContact, height: Array) -> Array:
-    """Return the pressure of the dry contact on a grid."""
-    if height.shape == contact.grid.shape:
-        return contact.pressure
-    every = tuple(slice(None, None, 2) for _ in height.shape)
-    pressure = contact.pressure[every][tuple(slice(n) for n in height.shape)]
-    return _loaded(pressure, contact.nominal_pressure)
 
 
 def _loaded(pressure: Array, load: float) -> Array:
