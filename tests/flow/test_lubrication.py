@@ -19,7 +19,7 @@ PLATES = GapCurve(
     mean_gap=np.array([1.01e-8, 1e-8]),
     flow_factor=np.ones(2),
     friction=np.zeros(2),
-    rms_height=0.0,
+    rms_height=math.inf,
 )
 """Smooth plates that meet at a hundredth of a micrometre."""
 ROUGH = GapCurve(
@@ -54,7 +54,7 @@ def test_water_below_the_gap_of_the_contact_is_dry() -> None:
 
 
 def test_a_gap_that_does_not_percolate_keeps_its_water() -> None:
-    closed = GapCurve(ROUGH.pressure, ROUGH.mean_gap, np.zeros(8), ROUGH.friction, 0.0)
+    closed = GapCurve(ROUGH.pressure, ROUGH.mean_gap, np.zeros(8), ROUGH.friction, math.inf)
     water = squeeze_out(closed, film=2e-4, length=LENGTH, pressure=LOAD)
     expected = float(closed.contact_pressure(np.array(2e-4))) / LOAD
     assert water.until(1.0, water.asperity_share) == pytest.approx(expected, rel=1e-6)
@@ -112,6 +112,6 @@ def test_wet_friction_of_a_map_falls_with_speed() -> None:
 def test_a_line_and_a_negative_film_are_refused() -> None:
     x = np.arange(64) * 1e-5
     with pytest.raises(gs.InputError, match="map"):
-        gap_curve(ZENER, gs.Profile(x, 1e-6 * np.cos(x)), pressure=1e5, speed=1.0)  # type: ignore[arg-type]
+        gap_curve(ZENER, gs.Profile(x, 1e-6 * np.cos(1e5 * x)), pressure=1e5, speed=1.0)  # type: ignore[arg-type]
     with pytest.raises(gs.InputError, match="film"):
         squeeze_out(ROUGH, film=-1e-3, length=LENGTH, pressure=LOAD)

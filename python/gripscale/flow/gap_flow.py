@@ -49,7 +49,6 @@ ERROR_SHARE = 0.5
 """c, the error of a grid over its difference from those of twice the spacing."""
 FEWEST_CELLS = 8
 """Points along each axis from which a grid with half of them is of use."""
-_AXES = ("x", "y")
 _SOURCE = "gripscale gap flow"
 
 
@@ -88,24 +87,16 @@ class GapFlow:
     pressure: Array = field(repr=False)
     """Fluid pressure in a mean gradient of one period, shape (2, nx, ny) [-]: it falls from 1 to 0
     along the axis. NaN where nothing flows."""
-
-    def permeability(self, axis: int = 0) -> float:
-        """Return phi <h>^3 / 12 along an axis [m^3]."""
-        return self.flow_factor[axis] * self.mean_gap**3 / 12.0
+    density: Array = field(repr=False)
+    """Flow through each point over the mean flow along the axis, shape (2, nx, ny) [-]."""
 
     def leak_rate(
         self, *, length: float, width: float, pressure_difference: float, viscosity: float
     ) -> tuple[float, float]:
         """Return the volume that leaks through a seal in a second [m^3/s], along x and along y.
 
-        Parameters
-        ----------
-        length, width : float
-            Of the nominal contact along and across the leak [m].
-        pressure_difference : float
-            Across the seal [Pa].
-        viscosity : float
-            Of the fluid [Pa s], which does not compress.
+        `length` and `width` are those of the nominal contact along and across the leak [m];
+        `pressure_difference` [Pa] drives an incompressible fluid of the `viscosity` [Pa s].
         """
         share = (
             checks.positive("width", width, unit="m")
@@ -113,11 +104,12 @@ class GapFlow:
             * checks.not_negative("pressure_difference", pressure_difference, unit="Pa")
             / checks.positive("viscosity", viscosity, unit="Pa s")
         )
-        return self.permeability(0) * share, self.permeability(1) * share
+        along_x, along_y = (phi * self.mean_gap**3 / 12.0 * share for phi in self.flow_factor)
+        return along_x, along_y
 
     def __str__(self) -> str:
         lines = [f"Mean gap {self.mean_gap * 1e6:.4g} um, {self.contact_fraction:.1%} closed."]
-        for axis, name in enumerate(_AXES):
+        for axis, name in enumerate("xy"):
             junction = self.junction[axis]
             if junction is None:
                 lines.append(f"Along {name}: no open path, flow factor 0.")
@@ -154,8 +146,7 @@ class GapFlow:
             "y": ("y", y, "m", "y"),
         }
         data = {name: labelled(*entry, _SOURCE) for name, entry in variables.items()}
-        attrs = {"title": "Flow through the gap of a contact", **provenance.version_attributes()}
-        return xr.Dataset(data, {"axis": list(_AXES)}, attrs)
+        return xr.Dataset(data, {"axis": ["x", "y"]}, provenance.version_attributes())
 
     def plot(self) -> Figure:
         """Draw fluid pressure and paths of the flow, along the axis with more flow."""
@@ -185,7 +176,7 @@ def gap_flow(
     mean = float(gap.mean())
     closed = gap <= NARROWEST * mean
     relative = np.where(closed, 0.0, gap / (mean or 1.0))
-    factors, pressure, percolates = _flow(relative, steps)
+    factors, pressure, density, percolates = _flow(relative, steps)
     intervals = _intervals(relative, steps, factors)
     junctions = [
         _critical_junction(relative, steps, axis, mean) if open_path else None
@@ -201,6 +192,7 @@ def gap_flow(
         gap=gap,
         spacing=steps,
         pressure=pressure,
+        density=density,
     )
 
 
@@ -218,12 +210,11 @@ def _gap_and_spacing(
         return contact.gap, (dx, dy)
     expected = "gap must be a map of finite numbers, zero or more [m], with two axes"
     gap = checks.array(contact, expected)
-    if gap.ndim != 2 or min(gap.shape) < 2:
-        raise InputError(f"{expected} of at least two points; got shape {gap.shape}")
-    if not np.isfinite(gap).all():
-        raise InputError(f"{expected}; got {int((~np.isfinite(gap)).sum())} missing values")
-    if (gap < 0.0).any():
-        raise InputError(f"{expected}; got {gap.min():g} at the least")
+    bad = int((~np.isfinite(gap) | (gap < 0.0)).sum())
+    if gap.ndim != 2 or min(gap.shape) < 2 or bad:
+        raise InputError(
+            f"{expected}; got shape {gap.shape} with {bad} missing, infinite or negative values"
+        )
     steps = checks.positive_vector("spacing", () if spacing is None else spacing, unit="m")
     if steps.size != 2:
         raise InputError(
@@ -234,17 +225,18 @@ def _gap_and_spacing(
 
 def _flow(
     gap: Array, spacing: tuple[float, float], tolerance: float = FLOW_TOLERANCE
-) -> tuple[tuple[float, float], Array, tuple[bool, bool]]:
-    """Return flow factors, pressures and percolation of a gap over its mean.
+) -> tuple[tuple[float, float], Array, Array, tuple[bool, bool]]:
+    """Return flow factors, pressures, densities of flow and percolation of a gap over its mean.
 
     The mean is that of the whole map, also for a part of its points.
     """
     regions = periodic_regions(gap > 0.0)
     ways = regions.percolates
     factors, pressure = [0.0, 0.0], np.full((2, *gap.shape), math.nan)
+    density = np.zeros_like(pressure)
     if ways.any():
         through = regions.where(np.any(ways, axis=1))
-        conductance = conductances(np.where(through, gap, 0.0), spacing)
+        conductance = _conductances(np.where(through, gap, 0.0), spacing)
         network = Multigrid(_matrix(conductance, through))
         for axis in (0, 1):
             carrying = regions.where(ways[:, axis])
@@ -253,19 +245,24 @@ def _flow(
             outset = spacing[axis] ** 2 * float(faces[axis].sum())
             deviation = np.zeros(gap.shape)
             if outset > 0.0:
-                deviation[through] = network.solve(inflow[through], outset, tolerance)[0]
+                deviation[through] = network.solve(inflow[through], outset, tolerance)
             position = spacing[axis] * np.indices(gap.shape, sparse=True)[axis]
             length = spacing[axis] * gap.shape[axis]
             pressure[axis] = np.where(carrying, 1.0 - (deviation + position) / length, math.nan)
             lost = 0.0
             for along, each in enumerate(faces):
-                drop = np.roll(deviation, -1, along) - deviation
-                lost += float((each * (drop + spacing[axis] * (along == axis)) ** 2).sum())
+                drop = np.roll(deviation, -1, along) - deviation + spacing[axis] * (along == axis)
+                rate = each * drop
+                lost += float((rate * drop).sum())
+                through_cell = (rate + np.roll(rate, 1, along)) * spacing[along]
+                density[axis] = np.hypot(density[axis], 0.5 * through_cell)
             factors[axis] = lost / (gap.size * spacing[0] * spacing[1])
-    return (factors[0], factors[1]), pressure, (bool(ways[:, 0].any()), bool(ways[:, 1].any()))
+            density[axis] *= 1.0 / (spacing[0] * spacing[1] * (factors[axis] or 1.0))
+    open_ways = bool(ways[:, 0].any()), bool(ways[:, 1].any())
+    return (factors[0], factors[1]), pressure, density, open_ways
 
 
-def conductances(gap: Array, spacing: tuple[float, float]) -> list[Array]:
+def _conductances(gap: Array, spacing: tuple[float, float]) -> list[Array]:
     """Return the conductance from each cell to the next along x and along y."""
     cubed, ratio = gap**3, spacing[1] / spacing[0]
     out = []

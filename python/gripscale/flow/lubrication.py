@@ -11,12 +11,11 @@ that slides with speed v passes a spot of the road in L / v; in this time the me
 the share of the load on asperities, and the wet friction is that of the contact with its share of
 the load, and the shear of the water, eta v / h.
 
-A block with its leading edge higher by the slope s carries load on the water without end:
+A block with its leading edge higher by the slope s rides on the water, and sinks until water and
+contact carry p_0 (N. Patir & H. S. Cheng, J. Lubr. Technol. 101 (1979) 220, doi:10.1115/1.3453329,
+without their shear flow factor):
 
     d/dx (phi h^3 / (12 eta) dp/dx) = v / 2 dh/dx,    h = h_0 + s (L - x),    p(0) = p(L) = 0
-
-and sinks until water and contact carry p_0 (N. Patir & H. S. Cheng, J. Lubr. Technol. 101 (1979)
-220, doi:10.1115/1.3453329, without their shear flow factor).
 
 Inertia is left out: it counts above a reduced Reynolds number rho v <h^2> / (eta L) of about one.
 """
@@ -54,6 +53,14 @@ NEARLY = 1e-7
 FLOATING = 0.01
 """Share of the load on asperities below which the block floats."""
 _SOURCE = "gripscale lubrication"
+_OVER_SPEED = (
+    ("friction", "1", "friction coefficient on the wet surface"),
+    ("dry_friction", "1", "friction coefficient of the dry contact"),
+    ("viscous_friction", "1", "share of the shear of the water in the friction coefficient"),
+    ("asperity_share", "1", "share of the load on asperities, mean of the passage"),
+    ("film", "m", "mean gap at the end of the passage"),
+    ("reduced_reynolds", "1", "inertia over viscous forces, mean of the passage"),
+)
 
 
 @dataclass(frozen=True)
@@ -69,13 +76,11 @@ class GapCurve:
     friction: Array
     """Dry, from dissipation [-]."""
     rms_height: float
-    """Of the surface [m]; zero: the flow factor stays as it is beyond the first contact."""
+    """Of the surface [m]; infinite: the flow factor stays as it is beyond the first contact."""
 
     def contact_pressure(self, gap: Array) -> Array:
         """Return p_c [Pa] at mean gaps [m]; its logarithm is linear beyond the contacts."""
         log_gap, log_pressure = np.log(self.mean_gap[::-1]), np.log(self.pressure[::-1])
-        if log_gap.size == 1:
-            return np.where(gap > self.mean_gap[0], 0.0, self.pressure[0])
         curve = scipy.interpolate.PchipInterpolator(log_gap, log_pressure)
         slope = (log_pressure[-1] - log_pressure[-2]) / (self.mean_gap[0] - self.mean_gap[1])
         beyond = np.maximum(gap - self.mean_gap[0], 0.0)
@@ -85,15 +90,12 @@ class GapCurve:
     def flow_factors(self, gap: Array) -> Array:
         """Return phi [-] at mean gaps [m]; it tends to 1 beyond the contacts."""
         inside = np.interp(gap, self.mean_gap[::-1], self.flow_factor[::-1])
-        if self.rms_height == 0.0:
-            return np.asarray(inside)
         beyond = np.maximum(gap - self.mean_gap[0], 0.0) / self.rms_height
         return np.asarray(1.0 - (1.0 - inside) * np.exp(-DECAY * beyond))
 
     def friction_stress(self, pressure: Array) -> Array:
         """Return the friction per nominal area [Pa] of the contact under pressures [Pa]."""
-        friction = np.interp(pressure, self.pressure, self.friction)
-        return np.asarray(friction * pressure)
+        return np.asarray(np.interp(pressure, self.pressure, self.friction) * pressure)
 
     def final_gap(self, pressure: float) -> float:
         """Return the mean gap under a pressure without water [m]."""
@@ -108,18 +110,14 @@ def gap_curve(
 
     `options` are those of `solve_rough_contact`. Raises `InputError` for a profile.
     """
-    if not isinstance(surface, HeightMap):
-        raise InputError(
-            "surface must be a map (HeightMap): water flows around contacts, which a line does not "
-            f"show; got {type(surface).__name__}"
-        )
     highest = checks.positive("pressure", pressure, unit="Pa")
     loads = highest * np.geomspace(LOWEST_PRESSURE, 1.0, CURVE_CONTACTS)
-    contacts = [
-        solve_rough_contact(rubber, surface, pressure=float(load), speed=speed, **options)
-        for load in loads
-    ]
-    flows = [gap_flow(contact) for contact in contacts]
+    contacts, flows = [], []
+    for load in map(float, loads):
+        contacts.append(solve_rough_contact(rubber, surface, pressure=load, speed=speed, **options))
+        flows.append(gap_flow(contacts[-1]))
+    if not flows[-1].mean_gap > 0.0:
+        raise InputError(f"pressure must leave a gap; got {highest:g} Pa, which closes it")
     return GapCurve(
         pressure=loads,
         mean_gap=np.array([flow.mean_gap for flow in flows]),
@@ -151,20 +149,11 @@ class SqueezeOut:
 def squeeze_out(
     curve: GapCurve, *, film: float, length: float, pressure: float, viscosity: float = WATER
 ) -> SqueezeOut:
-    """Return how water leaves from under a block that a pressure [Pa] holds down.
+    """Return how water leaves from under a block.
 
-    Parameters
-    ----------
-    curve : GapCurve
-        The contact.
-    film : float
-        Mean gap at the beginning, filled with water [m].
-    length : float
-        Of the block between the edges where water leaves [m].
-    pressure : float
-        Mean pressure on the block [Pa], within the curve.
-    viscosity : float
-        [Pa s]; of water by default.
+    `film` is the mean gap at the beginning [m], full of water; `length` that of the block between
+    the edges where water leaves [m]; `pressure` the mean pressure on it [Pa], within the curve;
+    `viscosity` that of the fluid [Pa s].
     """
     first = checks.positive("film", film, unit="m")
     load = checks.positive("pressure", pressure, unit="Pa")
@@ -194,76 +183,41 @@ def wet_friction(
     density: float = WATER_DENSITY,
     **options: Any,
 ) -> xr.Dataset:
-    """Return friction of a block on a wet map over its speed.
+    """Return friction of a block on a wet map over its speed [m/s].
 
-    Parameters
-    ----------
-    rubber, surface, pressure
-        As of `gripscale.solve_rough_contact`, whose other arguments may follow.
-    speeds : sequence of float
-        Sliding speeds [m/s].
-    film, length, viscosity
-        As of `squeeze_out`.
-    density : float
-        Of the fluid [kg/m^3], for the reduced Reynolds number.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `speed`: `friction`, `dry_friction`, `viscous_friction`, `asperity_share` [-] in the
-        mean of the passage, `film` at its end [m] and `reduced_reynolds` [-]. The attribute
-        `notes` says where the model ends.
+    `film`, `length` and `viscosity` are those of `squeeze_out`, `density` is that of the fluid
+    [kg/m^3]; `options` are further arguments of `gripscale.solve_rough_contact`. The Dataset has
+    `friction`, `dry_friction`, `viscous_friction`, `asperity_share` [-] in the mean of the passage,
+    `film` at its end [m] and `reduced_reynolds` [-]; its attribute `notes` says where the model
+    ends.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
-    rows = []
-    for speed in checks.positive_vector("speeds", speeds, unit="m/s"):
-        curve = gap_curve(rubber, surface, pressure=load, speed=float(speed), **options)
+    sliding, rows = checks.positive_vector("speeds", speeds, unit="m/s"), []
+    for speed in map(float, sliding):
+        curve = gap_curve(rubber, surface, pressure=load, speed=speed, **options)
         water = squeeze_out(curve, film=film, length=length, pressure=load, viscosity=viscosity)
-        passage = length / float(speed)
-        stress = curve.friction_stress(water.asperity_share * load)
-        shear = viscosity * float(speed) / water.mean_gap * (1.0 - water.asperity_share)
+        passage, share = length / speed, water.asperity_share
+        viscous = water.until(passage, viscosity * speed / water.mean_gap * (1.0 - share)) / load
+        hysteresis = water.until(passage, curve.friction_stress(share * load)) / load
         last = float(np.interp(passage, water.time, water.mean_gap))
-        viscous = water.until(passage, shear) / load
-        rows.append(
-            (
-                water.until(passage, stress) / load + viscous,
-                float(curve.friction[-1]),
-                viscous,
-                water.until(passage, water.asperity_share),
-                last,
-                density
-                * float(speed)
-                * water.until(passage, water.mean_gap**2)
-                / (viscosity * length),
-            )
-        )
-    return _over_speed(np.array(rows), np.asarray(speeds, dtype=float))
-
-
-def _over_speed(rows: Array, speeds: Array) -> xr.Dataset:
-    """Return the rows of speeds as a Dataset, with the limits of the model in words."""
-    columns = (
-        ("friction", "1", "friction coefficient on the wet surface"),
-        ("dry_friction", "1", "friction coefficient of the dry contact"),
-        ("viscous_friction", "1", "share of the shear of the water in the friction coefficient"),
-        ("asperity_share", "1", "share of the load on asperities, mean of the passage"),
-        ("film", "m", "mean gap at the end of the passage"),
-        ("reduced_reynolds", "1", "inertia over viscous forces, mean of the passage"),
-    )
+        inertia = density * speed * water.until(passage, water.mean_gap**2)
+        reynolds = inertia / (viscosity * length)
+        dry, carried = float(curve.friction[-1]), water.until(passage, share)
+        rows.append((hysteresis + viscous, dry, viscous, carried, last, reynolds))
     data = {
         name: labelled("speed", values, unit, text, _SOURCE)
-        for (name, unit, text), values in zip(columns, rows.T, strict=True)
+        for (name, unit, text), values in zip(_OVER_SPEED, np.transpose(rows), strict=True)
     }
-    speed = labelled("speed", speeds, "m/s", "sliding speed", "input")
     notes = []
-    if (floating := speeds[rows[:, 3] < FLOATING]).size:
+    if (floating := sliding[data["asperity_share"].values < FLOATING]).size:
         notes.append(f"The block floats on the water from {floating.min():.3g} m/s.")
-    if (fast := speeds[rows[:, 5] > 1.0]).size:
+    if (fast := sliding[data["reduced_reynolds"].values > 1.0]).size:
         notes.append(
             f"Inertia of the water, which is left out, counts from {fast.min():.3g} m/s: there the "
             "water carries more."
         )
-    return xr.Dataset(data, {"speed": speed}, {"notes": " ".join(notes)})
+    axis = labelled("speed", sliding, "m/s", "sliding speed", "input")
+    return xr.Dataset(data, {"speed": axis}, {"notes": " ".join(notes)})
 
 
 def inclined_block(
@@ -277,16 +231,8 @@ def inclined_block(
 ) -> tuple[float, float]:
     """Return the mean gap at the trailing edge [m] and the asperity share [-] of a sliding block.
 
-    Parameters
-    ----------
-    curve : GapCurve
-        The contact at this speed.
-    slope : float
-        Rise of the block towards its leading edge [-].
-    length, pressure, viscosity
-        As of `squeeze_out`.
-    speed : float
-        Sliding speed [m/s].
+    `curve` is the contact at its `speed` [m/s], `slope` its rise towards the leading edge [-]; the
+    others are those of `squeeze_out`.
     """
     rise = checks.positive("slope", slope) * checks.positive("length", length, unit="m")
     load = checks.positive("pressure", pressure, unit="Pa")
@@ -300,7 +246,7 @@ def inclined_block(
         resistance = 1.0 / np.maximum(curve.flow_factors(gap) * gap**3, 1e-300)
         flow = np.trapezoid(0.5 * gap * resistance, position) / np.trapezoid(resistance, position)
         gradient = drag * (0.5 * gap - flow) * resistance
-        water = scipy.integrate.cumulative_trapezoid(gradient, position, initial=0.0)
+        water = scipy.integrate.cumulative_trapezoid(gradient, position, initial=0)
         contact = np.trapezoid(curve.contact_pressure(gap), position)
         return float(np.trapezoid(water, position)), float(contact)
 

@@ -84,8 +84,8 @@ class Multigrid:
         scaled = scipy.sparse.csc_array(scaling @ self.matrix @ scaling)
         self._factors = scipy.sparse.linalg.splu(scaled)
 
-    def solve(self, inflow: Array, outset: float, tolerance: float) -> tuple[Array, float, int]:
-        """Return pressures, the dissipation in excess of their minimum, and the iterations.
+    def solve(self, inflow: Array, outset: float, tolerance: float) -> Array:
+        """Return the pressures.
 
         Conjugate gradients lower the dissipation, `outset` at zero pressure, in every iteration.
         They end when the last of them lowered it by less than the tolerance times its value.
@@ -93,9 +93,9 @@ class Multigrid:
         pressure, residual = np.zeros_like(inflow), inflow.copy()
         direction, image = np.zeros_like(inflow), np.zeros_like(inflow)
         dissipation, curvature, falls = outset, 0.0, [np.inf] * LAST_STEPS
-        iteration = 0
-        while iteration < _MOST_STEPS and sum(falls) > tolerance * dissipation:
-            iteration += 1
+        for _ in range(_MOST_STEPS):
+            if sum(falls) <= tolerance * dissipation:
+                break
             step = self._cycle(residual)
             if curvature > 0.0:
                 step -= (step @ image) / curvature * direction
@@ -108,7 +108,7 @@ class Multigrid:
             residual -= length * image
             falls = [*falls[1:], length**2 * curvature]
             dissipation -= falls[-1]
-        return pressure, sum(falls), iteration
+        return pressure
 
     def _cycle(self, right: Array) -> Array:
         """Return an approximate solution by one cycle through the coarse grids."""
@@ -135,14 +135,13 @@ class Multigrid:
             return first
         length = float(first @ right) / curvature
         residual = right - length * image
-        if np.linalg.norm(residual) <= ENOUGH * np.linalg.norm(right):
-            return length * first
-        second = self._cycle(residual)
-        second -= float(second @ image) / curvature * first
-        curvature = float(second @ (self.matrix @ second))
-        if not curvature > 0.0:
-            return length * first
-        return length * first + float(second @ residual) / curvature * second
+        if np.linalg.norm(residual) > ENOUGH * np.linalg.norm(right):
+            second = self._cycle(residual)
+            second -= float(second @ image) / curvature * first
+            curvature = float(second @ (self.matrix @ second))
+            if curvature > 0.0:
+                return length * first + float(second @ residual) / curvature * second
+        return length * first
 
 
 def _paired(matrix: scipy.sparse.csr_array) -> tuple[_Index, scipy.sparse.csr_array]:

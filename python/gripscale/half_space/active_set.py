@@ -56,15 +56,13 @@ import scipy
 from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array, Mask
-from gripscale.half_space.pools import Pools
+from gripscale.half_space.pools import Averaged, Pools
 from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
 _Index = NDArray[np.intp]
 OnIteration = Callable[[int, int], None]
 """Called with the number of an iteration and of the points that are to change sides."""
-Averaged = Callable[[AnyArray], AnyArray]
-"""Replaces values of the points of each pool by their mean."""
 
 _REACH = 1
 """Steps along each axis to the neighbours that the extension uses."""
@@ -341,7 +339,8 @@ def solve_grid(
     sharper = SHARPER if is_lossy_line(response) else 1.0
     tolerance, products, fewest, waited = sharper * LOOSEST, 1, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):
-        where, averaged, room = np.flatnonzero(active), None, np.zeros(1)
+        averaged: Averaged | None = None
+        where, room = np.flatnonzero(active), np.zeros(1)
         if pools is not None:
             where = np.flatnonzero(active | pools.under_pressure(active))
             averaged, room = pools.averaging(where, active)

@@ -12,7 +12,7 @@ the rubber otherwise. Volumes are sums of the gap over points [m].
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array, Mask
 
 _Index = NDArray[np.intp]
+Averaged = Callable[[NDArray[np.floating]], NDArray[np.floating]]
+"""Replaces values of the points of each pool by their mean."""
 
 
 @dataclass(frozen=True)
@@ -30,18 +32,14 @@ class Pools:
     """Number of the pool of each point, from 1; 0 outside."""
     volume: Array
     """Sum of the gap of each pool with its water [m]; the first entry is of no pool."""
-    filled: Mask = field(default_factory=lambda: np.empty(0, dtype=bool))
+    filled: Mask
     """Which pools are full of water; the others have room left, and no pressure."""
-
-    def __post_init__(self) -> None:
-        if not self.filled.size:
-            object.__setattr__(self, "filled", np.arange(self.volume.size) > 0)
 
     def under_pressure(self, active: Mask) -> Mask:
         """Return the open points of filled pools."""
         return np.asarray(self.filled[self.label] & ~active)
 
-    def averaging(self, where: _Index, active: Mask) -> tuple[Callable[[Array], Array], Array]:
+    def averaging(self, where: _Index, active: Mask) -> tuple[Averaged, Array]:
         """Return what replaces values at the points `where` by the means of their pools.
 
         And the mean gap of the pool of each point [m], zero in contact.
@@ -50,7 +48,7 @@ class Pools:
         count = np.maximum(np.bincount(label, minlength=self.volume.size), 1)
         pooled = np.flatnonzero(label)
 
-        def averaged(values: Array) -> Array:
+        def averaged(values: NDArray[np.floating]) -> NDArray[np.floating]:
             means = np.bincount(label, values, self.volume.size) / count
             out = values.copy()
             out[pooled] = means[label[pooled]]

@@ -24,16 +24,6 @@ class Regions:
     percolates: Mask
     """Whether each region percolates, shape (regions, axes)."""
 
-    @property
-    def count(self) -> int:
-        """Number of regions."""
-        return len(self.percolates)
-
-    @property
-    def points(self) -> NDArray[np.intp]:
-        """Points of each region."""
-        return np.bincount(self.labels.reshape(-1), minlength=self.count + 1)[1:]
-
     def where(self, chosen: Mask) -> Mask:
         """Return the points of the regions that are `chosen`, one truth for each region."""
         return np.asarray(np.append(False, chosen)[self.labels])

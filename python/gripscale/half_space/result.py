@@ -51,11 +51,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def patch_points(active: Mask) -> NDArray[np.intp]:
-    """Return the number of points of each patch of neighbours across the period, largest first."""
-    return np.sort(periodic_regions(active).points)[::-1]
-
-
 def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents:
     """Return the exponents of the cut-off from the `grids` of a contact, coarse to fine."""
     pairs = [
@@ -353,7 +348,8 @@ class RoughContact:
     @property
     def patches(self) -> Array:
         """Size of each contact patch, largest first: length [m] on a line, area [m^2] on a map."""
-        return np.asarray(patch_points(self.active) * math.prod(self.grid.spacing))
+        points = np.bincount(periodic_regions(self.active).labels.reshape(-1))[1:]
+        return np.asarray(np.sort(points)[::-1] * math.prod(self.grid.spacing))
 
     @property
     def notes(self) -> list[str]:
@@ -471,8 +467,7 @@ class RoughContact:
             text = "friction from the energy lost in the layer"
             add("friction_by_layer", "layer", self.friction_by_layer, "1", text)
             add("layer_thickness", "layer", self.layers.thicknesses, "m", "thickness of the layer")
-        if self.water is not None:
-            water = self.water
+        if (water := self.water) is not None:
             add("water_film", (), water.film, "m", "mean thickness of the water; inf if flooded")
             add("water_load_share", (), self.water_load_share, "1", "share of the load on water")
             for name in ("dry_contact_fraction", "dry_friction"):
@@ -489,8 +484,8 @@ class RoughContact:
             add("height", axes, self.height, "m", "height of the surface as solved")
             add("pressure", axes, self.pressure, "Pa", "contact pressure")
             add("gap", axes, self.gap, "m", "gap between rubber and surface")
-            if self.water is not None:
-                add("pool_number", axes, self.water.pool, "1", "number of the pool, 0 outside")
+            if water is not None:
+                add("pool_number", axes, water.pool, "1", "number of the pool, 0 outside")
         for name, value in self.residuals.items():
             add(f"residual_{name}", (), value, "1", f"residual of the {name}")
         add("status", (), np.array(str(self.status), dtype=object), "1", "")

@@ -239,17 +239,13 @@ def _checked_water(
     water: object, heights: PeriodicHeights, effects: Conditions, start: RoughContact | None
 ) -> float:
     """Return the film of water [m], zero if dry; raise `InputError` where it cannot be followed."""
-    film = water_film(water)
+    film, where = water_film(water), ""
     if film > 0.0 and len(heights.grid.shape) == 1:
-        raise InputError(
-            "water must be False on a profile: whether a line of road traps water is decided "
-            f"beside it, and needs a map; got {water!r}"
-        )
-    if film > 0.0 and (effects.iterated or start is not None):
-        raise InputError(
-            "water must be False with softening, heat or a contact to start from; "
-            f"got {water!r}: leave them out"
-        )
+        where = "on a profile: what closes a pool lies beside the line, and needs a map"
+    elif film > 0.0 and (effects.iterated or start is not None):
+        where = "with softening, heat or a contact to start from"
+    if where:
+        raise InputError(f"water must be False {where}; got {water!r}")
     return film
 
 

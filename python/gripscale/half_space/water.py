@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import scipy
@@ -27,6 +28,7 @@ from gripscale.half_space.grid import Grid, resampled
 from gripscale.half_space.grid_sequence import (
     friction_from_traction,
     grid_contact_fraction,
+    loaded,
     lost_by_harmonic,
 )
 from gripscale.half_space.pools import Pools
@@ -44,10 +46,7 @@ closes within a step is trapped at its end, with less water. Half the steps chan
 a map by up to 3 %, where the contact percolates."""
 
 
-_ERRORS = {
-    "contact_fraction_error": "contact_fraction",
-    "friction_error": "friction_from_dissipation",
-}
+_ERRORS = ("contact_fraction_error", "friction_error")
 
 
 def water_film(water: object) -> float:
@@ -77,15 +76,15 @@ def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -
     shape = tuple(n // 2 for n in contact.grid.shape)
     response = Response.of(contact.body, Grid(shape, contact.grid.lengths), workers)
     height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, shape)
-    start = _loaded(response.full_contact(height, load), load)
+    start = loaded(response.full_contact(height, load), load)
     before = _numbers(response, height, solve_grid(response, height, start, most, START_TOLERANCE))
     coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2, most)
     after = _numbers(response, height, coarse)
-    errors = {}
-    for error, name in _ERRORS.items():
+    changed: dict[str, Any] = {**numbers}
+    for error, name in zip(_ERRORS, ("contact_fraction", "friction_from_dissipation"), strict=True):
         dry = getattr(contact, name) or math.inf
         ratio, coarse_ratio = numbers[name] / dry, after[name] / (before[name] or math.inf)
-        errors[error] = getattr(contact, error) * ratio + abs(numbers[name] - coarse_ratio * dry)
+        changed[error] = getattr(contact, error) * ratio + abs(numbers[name] - coarse_ratio * dry)
     flat, active = step.pressure.reshape(-1), step.active
     water = TrappedWater(
         film=film,
@@ -97,8 +96,7 @@ def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -
     )
     return replace(
         contact,
-        **numbers,
-        **errors,
+        **changed,
         status=contact.status if step.settled else Status.ACTIVE_SET_NOT_SETTLED,
         residuals={**contact.residuals, "pressure": step.missing},
         full_contact=bool(active.all()),
@@ -114,14 +112,14 @@ def _under_rising_load(
     """Return the contact on a grid under loads that rise from a dry one, and its pools."""
     level = _water_level(height, film)
     loads = load * np.geomspace(FIRST_LOAD, 1.0, steps)
-    start = _loaded(response.full_contact(height, loads[0]), loads[0])
+    start = loaded(response.full_contact(height, loads[0]), loads[0])
     step = solve_grid(response, height, start, most, START_TOLERANCE)
-    pools = Pools(np.zeros(height.size, dtype=np.intp), np.zeros(1))
+    pools = Pools(np.zeros(height.size, dtype=np.intp), np.zeros(1), np.zeros(1, dtype=bool))
     touched = np.zeros(height.shape, dtype=bool)
     for under in loads[1:]:
         pools = _trapped(pools, step, height, level, touched)
         touched, goal = step.active, POOL_TOLERANCE if under == loads[-1] else START_TOLERANCE
-        start = _loaded(step.pressure, under)
+        start = loaded(step.pressure, under)
         step = solve_grid(response, height, start, most, goal, pools=pools, active=touched)
     return step, pools
 
@@ -145,7 +143,8 @@ def _trapped(
     closed = ~regions.percolates.any(axis=1)
     number = np.append(0, np.cumsum(closed) * closed)
     label = number[regions.labels].reshape(-1)
-    return Pools(label, np.bincount(label, depth, int(closed.sum()) + 1))
+    volume: Array = np.asarray(np.bincount(label, depth, int(closed.sum()) + 1), dtype=float)
+    return Pools(label, volume, np.arange(volume.size) > 0)
 
 
 def _water_level(height: Array, film: float) -> float:
@@ -157,12 +156,6 @@ def _water_level(height: Array, film: float) -> float:
     if film >= mean_depth[-1]:
         return float(below[-1] + film - mean_depth[-1])
     return float(np.interp(film, mean_depth, below))
-
-
-def _loaded(pressure: Array, load: float) -> Array:
-    """Return `pressure` without tension, scaled to a load [Pa]."""
-    positive = np.maximum(pressure, 0.0)
-    return np.asarray(positive * (load / positive.mean()))
 
 
 def _numbers(response: Response, height: Array, contact: GridContact) -> dict[str, float]:
