@@ -49,18 +49,15 @@ ERROR_SHARE = 0.5
 """c, the error of a grid over its difference from those of twice the spacing."""
 FEWEST_CELLS = 8
 """Points along each axis from which a grid with half of them is of use."""
-_SOURCE = "gripscale gap flow"
 
 
 @dataclass(frozen=True)
 class Junction:
-    """The narrowest passage of the widest path: what closes it ends the flow."""
+    """Narrowest passage of the widest path: position from the first point and gap [m]."""
 
     x: float
     y: float
-    """Position from the first point of the map [m]."""
     gap: float
-    """Height of the passage [m]."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +142,7 @@ class GapFlow:
             "x": ("x", x, "m", "x"),
             "y": ("y", y, "m", "y"),
         }
-        data = {name: labelled(*entry, _SOURCE) for name, entry in variables.items()}
+        data = {name: labelled(*entry, "gripscale gap flow") for name, entry in variables.items()}
         return xr.Dataset(data, {"axis": ["x", "y"]}, provenance.version_attributes())
 
     def plot(self) -> Figure:

@@ -65,16 +65,15 @@ _OVER_SPEED = (
 
 @dataclass(frozen=True)
 class GapCurve:
-    """A contact under rising pressures: what it carries and lets through, against its mean gap."""
+    """A contact under rising pressures [Pa]: what it carries and lets through at its mean gap [m].
+
+    The flow factor is that along the sliding direction, the friction that of dissipation.
+    """
 
     pressure: Array
-    """Rising [Pa]."""
     mean_gap: Array
-    """Falling [m]."""
     flow_factor: Array
-    """Along the sliding direction [-]."""
     friction: Array
-    """Dry, from dissipation [-]."""
     rms_height: float
     """Of the surface [m]; infinite: the flow factor stays as it is beyond the first contact."""
 
@@ -129,14 +128,11 @@ def gap_curve(
 
 @dataclass(frozen=True)
 class SqueezeOut:
-    """A film under a block over the time since it was covered."""
+    """Mean gap [m] under a block and share of the load on asperities [-] over the time [s]."""
 
     time: Array
-    """[s]."""
     mean_gap: Array
-    """[m]."""
     asperity_share: Array
-    """Share of the load on asperities [-]."""
 
     def until(self, time: float, values: Array) -> float:
         """Return the mean of values of the film until a time [s]."""
@@ -216,8 +212,8 @@ def wet_friction(
             f"Inertia of the water, which is left out, counts from {fast.min():.3g} m/s: there the "
             "water carries more."
         )
-    axis = labelled("speed", sliding, "m/s", "sliding speed", "input")
-    return xr.Dataset(data, {"speed": axis}, {"notes": " ".join(notes)})
+    data["speed"] = labelled("speed", sliding, "m/s", "sliding speed", "input")
+    return xr.Dataset(data, attrs={"notes": " ".join(notes)})
 
 
 def inclined_block(

@@ -29,8 +29,7 @@ LARGEST_CONDITION = 8.0
 ROUNDS = 6
 """Rounds in which nodes that choose each other pair."""
 JITTER = 0.1
-"""Relative random change of the choices: on a uniform grid every node would choose alike, and few
-each other."""
+"""Relative random change of the choices: alike nodes would choose alike, and few each other."""
 FEWEST_NODES = 1500
 """Nodes of a coarse grid that is factorised."""
 DAMPING = 0.7
@@ -38,7 +37,6 @@ SWEEPS = 2
 """Smoothing before and after each correction."""
 ENOUGH = 0.25
 """Residual over that before, below which a second step on a coarse grid is not worth its cost."""
-LAST_STEPS = 3
 _MOST_STEPS = 200
 
 
@@ -92,7 +90,7 @@ class Multigrid:
         """
         pressure, residual = np.zeros_like(inflow), inflow.copy()
         direction, image = np.zeros_like(inflow), np.zeros_like(inflow)
-        dissipation, curvature, falls = outset, 0.0, [np.inf] * LAST_STEPS
+        dissipation, curvature, falls = outset, 0.0, [np.inf] * 3
         for _ in range(_MOST_STEPS):
             if sum(falls) <= tolerance * dissipation:
                 break
