@@ -15,6 +15,7 @@ from rich.console import Console
 from benchmarks import (
     case,
     conditions,
+    gap_flow,
     machine,
     questions,
     random_loads,
@@ -36,6 +37,7 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "transient": lambda console, _: transient.run(console),
     "sweep": lambda console, _: sweep.run(console),
     "rough_contact": lambda console, _: rough_contact.run(console),
+    "gap_flow": lambda console, _: gap_flow.run(console),
     "conditions": lambda console, _: conditions.run(console),
     "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),

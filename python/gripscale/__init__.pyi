@@ -1,6 +1,7 @@
 from . import charts as charts
 from . import conditions as conditions
 from . import continuation as continuation
+from . import flow as flow
 from . import half_space as half_space
 from . import questions as questions
 from . import report as report
@@ -19,6 +20,8 @@ from .core.errors import FileError as FileError
 from .core.errors import GripscaleError as GripscaleError
 from .core.errors import InputError as InputError
 from .core.errors import RubberWarning as RubberWarning
+from .flow.gap_flow import GapFlow as GapFlow
+from .flow.gap_flow import gap_flow as gap_flow
 from .half_space.result import RoughContact as RoughContact
 from .half_space.solve import solve_rough_contact as solve_rough_contact
 from .questions.answer.answer import Answer as Answer

@@ -229,3 +229,25 @@ def test_run_case(start, tmp_path):
     assert friction == pytest.approx(answer.friction, rel=5e-3)
     low, high = answer.friction_interval
     assert low < friction < high
+
+
+def test_seal_leak(run):
+    printed = run("seal_leak")
+    leaks = [float(v) for v in re.findall(r"MPa +[\d.]+ +[\d.]+ um +(\S+)", printed)]
+    assert len(leaks) == 6
+    assert leaks == sorted(leaks, reverse=True)
+    assert leaks[0] > 1e3 * leaks[4] > leaks[5] == 0.0
+    assert "critical junction" in printed
+
+
+def test_wet_road(run):
+    """Trapped water and the film that stays have nearly the same friction: two models."""
+    printed = run("wet_road")
+    (share,) = numbers(r"carries ([\d.]+)% of the load", printed)
+    assert 10.0 < share < 35.0
+    dry, wet = (
+        *numbers(r"the friction ([\d.]+)\.", printed),
+        *numbers(r"is ([\d.]+)\.\n", printed),
+    )
+    assert 0.6 < wet / dry < 0.85
+    assert "Inertia of the water" in printed

@@ -5,6 +5,7 @@ from .location import contact_trace as contact_trace
 from .model import BlockOnProfile as BlockOnProfile
 from .model import DirectContact as DirectContact
 from .result import RoughContact as RoughContact
+from .result import TrappedWater as TrappedWater
 from .result import shares_by_slope as shares_by_slope
 from .sensitivity import contact_sensitivity as contact_sensitivity
 from .solve import solve_rough_contact as solve_rough_contact

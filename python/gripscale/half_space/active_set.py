@@ -39,6 +39,10 @@ Of very lossy rubber, E* ~ (i w)^a, S is of the order 1 + a and its weights fall
 |x - y|^-(2 + a): the displacement of a gap is that of its two ends. At the order 2 it would be
 linear between them, and so it is taken on lines of such rubber. A lossy line then needs a tenth of
 the products (loss angles 0.7 to 1.2); maps converge without.
+
+The open points of a pool of trapped water (`gripscale.half_space.pools`) have one pressure, and the
+mean of their gap is given. They belong to A, with gaps and pressures replaced by their means over
+the pool, before E and after S.
 """
 
 from __future__ import annotations
@@ -52,6 +56,7 @@ import scipy
 from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array, Mask
+from gripscale.half_space.pools import Averaged, Pools
 from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
@@ -168,9 +173,10 @@ def is_lossy_line(response: Response) -> bool:
 class PointsInContact:
     """The projected operator on some points of a grid."""
 
-    def __init__(self, response: Response, where: _Index) -> None:
+    def __init__(self, response: Response, where: _Index, averaged: Averaged | None = None) -> None:
         self._response = response
         self._where = where
+        self._averaged = averaged
         active = np.zeros(response.grid.points, dtype=bool)
         active[where] = True
         active = active.reshape(response.grid.shape)
@@ -181,8 +187,12 @@ class PointsInContact:
 
     def missing(self, gap: AnyArray) -> AnyArray:
         """Return Q r [Pa] of the open gap r [m] at the points."""
+        if self._averaged is not None:
+            gap = self._averaged(gap)
         gap = (gap - gap.mean(dtype=np.float64)).astype(np.float32, copy=False)
         pressure = self._applied(self._response.pressure, self._extension @ gap)[self._where]
+        if self._averaged is not None:
+            pressure = self._averaged(pressure)
         pressure -= pressure.mean(dtype=np.float64)
         if self._lossy_line:
             pressure *= np.float32(SHORTFALL)
@@ -217,14 +227,16 @@ def close_gap(
     tolerance: float,
     *,
     check: bool,
+    averaged: Averaged | None = None,
 ) -> ClosedGap:
     """Return the pressure that closes the gap at the points `where`, of the heights `height` [m].
 
     `start` is a pressure there, whose sum is kept, `displacement` what it gives over the whole grid
     [m], `tolerance` the missing pressure at the end over the pressure, or over what is missing
-    first if the start is zero. With `check` GMRES is not believed at the end.
+    first if the start is zero. With `check` GMRES is not believed at the end. `averaged` takes
+    means over pools; `height` there includes the mean gap.
     """
-    points = PointsInContact(response, where)
+    points = PointsInContact(response, where, averaged)
     pressure = start.copy()
     size, most = float(np.linalg.norm(pressure)), _SHORTEST
     for run in range(RUNS + 1):
@@ -240,7 +252,7 @@ def close_gap(
             most = min(2 * most, _LONGEST)
         pressure += norm * correction
         pressure += (start.sum() - pressure.sum()) / len(pressure)
-        if short and len(where) <= FEW:
+        if short and len(where) <= FEW and averaged is None:
             pressure, reduction = _eliminated(response, where, height, float(start.sum())), 0.0
         displacement = np.asarray(points.displacement(pressure), dtype=np.float64)
         norm *= reduction
@@ -308,23 +320,34 @@ def solve_grid(
     most_iterations: int,
     goal: float = CONTACT_TOLERANCE,
     on_iteration: OnIteration | None = None,
+    pools: Pools | None = None,
+    active: Mask | None = None,
 ) -> GridContact:
     """Return the contact with `height` [m] under the load of `start`.
 
     `start` is a pressure [Pa] with the required mean, positive where contact is expected; `goal`
     the missing pressure over the pressure at which the linear system counts as solved.
     `on_iteration` is called with the number of each iteration and of the points to change sides.
+    With `pools` the load rests on their water too; `active` then are the points of `start` in
+    contact.
     """
     flat, shape = height.reshape(-1), height.shape
-    pressure, active = start.reshape(-1), start.reshape(-1) > 0.0
+    pressure = start.reshape(-1)
+    active = pressure > 0.0 if active is None else active.reshape(-1)
     displacement = np.asarray(response.displacement(start), dtype=np.float64).reshape(-1)
     load, stiffest = float(start.sum()), response.smallest_compliance
     sharper = SHARPER if is_lossy_line(response) else 1.0
     tolerance, products, fewest, waited = sharper * LOOSEST, 1, flat.size + 1, 0
     for iteration in range(1, most_iterations + 1):
-        where = np.flatnonzero(active)
+        averaged: Averaged | None = None
+        where, room = np.flatnonzero(active), np.zeros(1)
+        if pools is not None:
+            where = np.flatnonzero(active | pools.under_pressure(active))
+            averaged, room = pools.averaging(where, active)
         # the pressure at the points without tension, scaled to the load; even if there is none
         positive = np.maximum(pressure[where], 0.0)
+        if averaged is not None:
+            positive = averaged(positive)
         total = positive.sum()
         tried = np.zeros(flat.size)
         tried[where] = load / len(where) if total == 0.0 else positive * (load / total)
@@ -333,35 +356,42 @@ def solve_grid(
         closed = close_gap(
             response,
             where,
-            flat[where],
+            flat[where] + room,
             tried[where],
             displacement,
             tolerance,
             check=tolerance <= goal,
+            averaged=averaged,
         )
         products += closed.products + 1
         pressure = tried
         pressure[where] = closed.pressure
         displacement = closed.displacement
         gap = displacement - flat
-        gap -= gap[where].mean()
+        gap -= gap[where].mean() - room.mean()
         excess = gap / -stiffest
-        excess[where] = -closed.pressure
+        excess[active] = -pressure[active]
+        if pools is not None:
+            excess[active] += pools.pressures(pressure, active)[pools.label[active]]
         wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
         count = int(wrong.sum())
+        if pools is not None:
+            following = pools.refilled(pressure, gap, active)
+            count += int((following.filled != pools.filled).sum())
+            pools = following
         if on_iteration is not None:
             on_iteration(iteration, count)
         waited = 0 if count < fewest else waited + 1
         solved = count == 0 and tolerance <= goal
         if solved or iteration == most_iterations or waited > GIVING_UP:
             break
-        if waited > PATIENCE:
+        if waited > PATIENCE and wrong.any():
             wrong &= excess >= np.median(excess[wrong])
         # tighter with fewer changes, and tenfold where the number of wrong points does not fall
         fewer = count < fewest
         share = sharper * count / len(where)
         wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * share)
-        tolerance = max(wanted, goal if fewer else CONTACT_TOLERANCE)
+        tolerance = max(wanted, goal if fewer else min(goal, CONTACT_TOLERANCE))
         fewest = min(fewest, count)
         active = active ^ wrong
     return GridContact(

@@ -261,9 +261,8 @@ class GridSequence:
                 following, np.zeros(following.shape), everywhere, 0, settled=True, products=1
             )
         else:
-            start = self._loaded(
-                following if self.last is None else self._expected(response, height)
-            )
+            expected = following if self.last is None else self._expected(response, height)
+            start = loaded(expected, self.pressure)
             contact = self._contact(response, height, start, tolerance)
             if not contact.settled and np.iscomplex(response.compliance).any():
                 contact = self._through_losses(response, height, start, contact)
@@ -308,7 +307,7 @@ class GridSequence:
                 iterations=contact.iterations + step.iterations,
                 products=contact.products + step.products,
             )
-            start = self._loaded(np.where(contact.active, contact.pressure, 0.0))
+            start = loaded(np.where(contact.active, contact.pressure, 0.0), self.pressure)
         return contact
 
     def _expected(self, response: Response, height: Array) -> Array:
@@ -322,10 +321,11 @@ class GridSequence:
         opening = _OPENING / response.smallest_compliance * np.maximum(gap, 0.0)
         return np.asarray(pressure - opening + response.pressure(height - before))
 
-    def _loaded(self, pressure: Array) -> Array:
-        """Return `pressure` without tension, scaled to the load; uniform if nothing is left."""
-        positive = np.maximum(pressure, 0.0)
-        mean = positive.mean()
-        if mean == 0.0:
-            return np.full(pressure.shape, self.pressure)
-        return np.asarray(positive * (self.pressure / mean))
+
+def loaded(pressure: Array, load: float) -> Array:
+    """Return `pressure` without tension, scaled to a load [Pa]; uniform if nothing is left."""
+    positive = np.maximum(pressure, 0.0)
+    mean = positive.mean()
+    if mean == 0.0:
+        return np.full(pressure.shape, load)
+    return np.asarray(positive * (load / mean))

@@ -26,7 +26,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
@@ -35,13 +34,15 @@ from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import provenance
 from gripscale.core.arrays import Array, Mask
-from gripscale.core.described import Pictured
+from gripscale.core.described import Described, Pictured
+from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, lost_by_harmonic
+from gripscale.half_space.regions import periodic_regions
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import CUT_OFF_EXPONENTS, OUTSIDE_BAND
 from gripscale.rubber import Rubber
@@ -50,22 +51,6 @@ from gripscale.theory.layers import Layers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-def patch_points(active: Mask) -> NDArray[np.int64]:
-    """Return the number of points of each patch of neighbours across the period, largest first."""
-    labels, count = scipy.ndimage.label(active)
-    first, second = [], []
-    for axis in range(active.ndim):
-        ends = np.take(labels, 0, axis=axis), np.take(labels, -1, axis=axis)
-        adjacent = (ends[0] > 0) & (ends[1] > 0)
-        first.append(ends[0][adjacent])
-        second.append(ends[1][adjacent])
-    rows, columns = np.concatenate(first) - 1, np.concatenate(second) - 1
-    joined = scipy.sparse.coo_array((np.ones(rows.size), (rows, columns)), shape=(count, count))
-    number, patch = scipy.sparse.csgraph.connected_components(joined, directed=False)
-    sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
-    return np.sort(np.bincount(patch, weights=sizes, minlength=number).astype(np.int64))[::-1]
 
 
 def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents:
@@ -154,6 +139,29 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
 
 
 @dataclass(frozen=True, repr=False)
+class TrappedWater(Described):
+    """Water in pools that the contact closes."""
+
+    film: float
+    """Mean thickness of the water before the contact [m]; infinite: flooded."""
+    pool: NDArray[np.intp] = field(repr=False)
+    """Number of the pool of each point, from 1; 0 outside."""
+    pool_pressure: Array = field(repr=False)
+    """Of each pool [Pa]; zero where room is left."""
+    pool_volume: Array = field(repr=False)
+    """Water in each pool [m^3]."""
+    dry_contact_fraction: float
+    """Real over nominal contact area without water [-]."""
+    dry_friction: float
+    """Friction from dissipation without water [-]."""
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure of the water [Pa], shape of the grid; zero where it drains."""
+        return np.asarray(np.append(0.0, self.pool_pressure)[self.pool])
+
+
+@dataclass(frozen=True, repr=False)
 class RoughContact(Pictured):
     """Contact and friction of a whole surface (m, Pa, m/s); arrays have the shape of the grid."""
 
@@ -184,7 +192,7 @@ class RoughContact(Pictured):
     height: Array = field(repr=False)
     """Of the surface as it was solved, mean zero [m]."""
     pressure: Array = field(repr=False)
-    """Contact pressure [Pa], zero out of contact."""
+    """Pressure on the rubber [Pa], of the contact and of trapped water; zero elsewhere."""
     gap: Array = field(repr=False)
     """Between rubber and surface [m], zero in contact."""
     measured: Mask = field(repr=False)
@@ -208,6 +216,8 @@ class RoughContact(Pictured):
     """Of the rubber on a rigid base [m]; None: a half-space, or `layers`."""
     layers: Layers | None = None
     """The stack, that in contact first and also `rubber`; None: one rubber."""
+    water: TrappedWater | None = None
+    """Pools that the contact closes; None: a dry contact."""
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield status, contact, friction, load and grid."""
@@ -283,7 +293,21 @@ class RoughContact(Pictured):
     @property
     def active(self) -> Mask:
         """Where the rubber is in contact."""
-        return np.asarray(self.pressure > 0.0)
+        if self.water is None:
+            return np.asarray(self.pressure > 0.0)
+        return np.asarray((self.pressure > 0.0) & (self.water.pool == 0))
+
+    def require_dry(self, why: str) -> None:
+        """Raise `InputError`, with the reason, for a contact in water."""
+        if self.water is not None:
+            raise InputError(f"contact must be solved without water: {why}")
+
+    @property
+    def water_load_share(self) -> float:
+        """Share of the load on trapped water [-]."""
+        if self.water is None:
+            return 0.0
+        return float(self.water.pressure.mean() / self.nominal_pressure)
 
     @property
     def friction_mismatch(self) -> float:
@@ -337,7 +361,8 @@ class RoughContact(Pictured):
     @property
     def patches(self) -> Array:
         """Size of each contact patch, largest first: length [m] on a line, area [m^2] on a map."""
-        return np.asarray(patch_points(self.active) * math.prod(self.grid.spacing))
+        points = np.bincount(periodic_regions(self.active).labels.reshape(-1))[1:]
+        return np.asarray(np.sort(points)[::-1] * math.prod(self.grid.spacing))
 
     @property
     def notes(self) -> list[str]:
@@ -350,6 +375,12 @@ class RoughContact(Pictured):
             )
         if self.missing_share > 0.05:
             out.append(f"{self.missing_share:.0%} of the contact lies on interpolated heights.")
+        if self.water is not None:
+            out.append(
+                f"Trapped water carries {self.water_load_share:.1%} of the load. Without it the "
+                f"contact area is {self.water.dry_contact_fraction:.3g} and the friction "
+                f"{self.water.dry_friction:.3g}."
+            )
         if self.surface_warming is not None:
             out += heat_left_out(self.adhesive_friction, self.friction)
         if self.status == Status.FRICTIONS_DISAGREE:
@@ -415,7 +446,9 @@ class RoughContact(Pictured):
         return xr.Dataset(data).set_coords("wavelength")
 
     def plot(self) -> Figure:
-        """Draw rubber on the surface and pressure; see `rough_contact_figure`."""
+        """Draw rubber on the surface and pressure, or with water the pools."""
+        if self.water is not None:
+            return gripscale.flow.trapped_water_figure(self)
         return gripscale.questions.rough_contact_figure(self)
 
     def to_dataset(self, *, fields: bool = True) -> xr.Dataset:
@@ -447,6 +480,13 @@ class RoughContact(Pictured):
             text = "friction from the energy lost in the layer"
             add("friction_by_layer", "layer", self.friction_by_layer, "1", text)
             add("layer_thickness", "layer", self.layers.thicknesses, "m", "thickness of the layer")
+        if (water := self.water) is not None:
+            add("water_film", (), water.film, "m", "mean thickness of the water; inf if flooded")
+            add("water_load_share", (), self.water_load_share, "1", "share of the load on water")
+            for name in ("dry_contact_fraction", "dry_friction"):
+                add(name, (), getattr(water, name), "1", f"{name[4:]} without water")
+            add("pool_pressure", "pool", water.pool_pressure, "Pa", "pressure of each pool")
+            add("pool_volume", "pool", water.pool_volume, "m3", "water in each pool")
         pressures = self.pressure_quantiles(_SHARES)
         add("contact_pressure", "share", pressures, "Pa", "not exceeded on the share")
         axes = ("x", "y")[: self.height.ndim]
@@ -457,6 +497,8 @@ class RoughContact(Pictured):
             add("height", axes, self.height, "m", "height of the surface as solved")
             add("pressure", axes, self.pressure, "Pa", "contact pressure")
             add("gap", axes, self.gap, "m", "gap between rubber and surface")
+            if water is not None:
+                add("pool_number", axes, water.pool, "1", "number of the pool, 0 outside")
         for name, value in self.residuals.items():
             add(f"residual_{name}", (), value, "1", f"residual of the {name}")
         add("status", (), np.array(str(self.status), dtype=object), "1", "")

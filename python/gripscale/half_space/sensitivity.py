@@ -432,6 +432,7 @@ def contact_sensitivity(
             "contact must slide with friction above zero for the derivatives of its logarithm; got "
             f"speed {contact.speed:g} m/s and friction {contact.friction_from_dissipation:.3g}"
         )
+    contact.require_dry("derivatives do not know the pools")
     per_decade = checks.whole("bands_per_decade", bands_per_decade, least=1, most=100)
     adjoint = FrictionAdjoint.of(contact, layer)
     shift = 1.0

@@ -38,6 +38,7 @@ from gripscale.half_space.grid_sequence import (
 )
 from gripscale.half_space.response import HalfSpace, OutOfTime, check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
+from gripscale.half_space.water import water_film, with_water
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -74,6 +75,7 @@ def solve_rough_contact(
     periodic: bool = False,
     thickness: Quantity | None = None,
     steepest: float = STEEPEST,
+    water: bool | float | str = False,
     tolerance: float | None = 0.02,
     workers: int | None = None,
     most_points: int = 2**22,
@@ -124,6 +126,10 @@ def solve_rough_contact(
     thickness : float, optional
         Thickness [m] of the rubber, bonded to a rigid base; None: a half-space. `Layers` state
         their own.
+    water : bool, float or str
+        True: the surface is flooded, and open regions that the contact closes keep their water. A
+        thickness [m], or a text such as "0.5 mm": a film of so much. Only of maps, for slow
+        sliding: water that finds a way out has no pressure.
     tolerance : float, optional
         Estimated relative error to reach in contact fraction and friction, below 1 (friction below
         0.01 is held to the tolerance times 0.01). None: four points in the smallest wave, whatever
@@ -185,6 +191,7 @@ def solve_rough_contact(
             f"{heights.smallest_wavelength:.4g} m; got {most}: raise it, take a larger "
             "smallest_wavelength or a part of the surface"
         )
+    film = _checked_water(water, heights, effects, start)
     threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
     for name, hook in (("on_grid", on_grid), ("on_iteration", on_iteration)):
@@ -212,6 +219,8 @@ def solve_rough_contact(
 
     if not effects.iterated:
         contact = solve(None, first, goal).contact
+        if film > 0.0 and contact.status in (Status.CONVERGED, Status.TOLERANCE_NOT_MET):
+            contact = with_water(contact, film, workers=threads, most=iterations)
         return replace(contact, conditions=conditions, status=_judged(contact, goal))
     heated = 0.0
     if effects.heat is not None and body.speed > 0.0:
@@ -224,6 +233,20 @@ def solve_rough_contact(
     assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
     contact = solve_coupled_contact(whole, quick, rubber, effects, heated)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
+
+
+def _checked_water(
+    water: object, heights: PeriodicHeights, effects: Conditions, start: RoughContact | None
+) -> float:
+    """Return the film of water [m], zero if dry; raise `InputError` where it cannot be followed."""
+    film, where = water_film(water), ""
+    if film > 0.0 and len(heights.grid.shape) == 1:
+        where = "on a profile: what closes a pool lies beside the line, and needs a map"
+    elif film > 0.0 and (effects.iterated or start is not None):
+        where = "with softening, heat or a contact to start from"
+    if where:
+        raise InputError(f"water must be False {where}; got {water!r}")
+    return film
 
 
 def _rubber_before(body: HalfSpace, conditions: Conditions) -> HalfSpace:
@@ -259,6 +282,7 @@ def relative_tolerance(name: str, value: float | None) -> float | None:
 def _known_level(start: RoughContact, heights: PeriodicHeights) -> KnownLevels:
     """Return the contact to start from, by its level; `InputError` if it is of another surface."""
     checks.instance("start", start, RoughContact)
+    start.require_dry("a solution starts without pools")
     same = (
         start.grid.lengths == heights.grid.lengths
         and start.smallest_wavelength == heights.smallest_wavelength

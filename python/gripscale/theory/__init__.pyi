@@ -16,3 +16,7 @@ from .klueppel_heinrich import klueppel_heinrich as klueppel_heinrich
 from .persson import Persson as Persson
 from .persson import PerssonResult as PerssonResult
 from .persson import persson as persson
+from .thin_film import flow_factor_across as flow_factor_across
+from .thin_film import flow_factor_along as flow_factor_along
+from .thin_film import patir_cheng_flow_factor as patir_cheng_flow_factor
+from .thin_film import stefan_time as stefan_time

@@ -1,0 +1,11 @@
+from .charts import gap_flow_figure as gap_flow_figure
+from .charts import trapped_water_figure as trapped_water_figure
+from .gap_flow import GapFlow as GapFlow
+from .gap_flow import Junction as Junction
+from .gap_flow import gap_flow as gap_flow
+from .lubrication import GapCurve as GapCurve
+from .lubrication import SqueezeOut as SqueezeOut
+from .lubrication import gap_curve as gap_curve
+from .lubrication import inclined_block as inclined_block
+from .lubrication import squeeze_out as squeeze_out
+from .lubrication import wet_friction as wet_friction
