@@ -131,7 +131,7 @@ def test_levels_of_white_noise_rise_by_the_bandwidth() -> None:
 
 
 def test_short_profile_has_no_levels() -> None:
-    with pytest.raises(InputError, match="longer than 2.69 mm .*; got 1.95 mm"):
+    with pytest.raises(InputError, match=r"longer than 2\.69 mm"):
         texture_levels(wave(1e-3, length=2e-3))
     assert Measured.of([wave(1e-3, length=2e-3)]).texture_levels is None
 

@@ -6,8 +6,9 @@ The autocorrelation of the heights z over their plane, without wrapping round, i
 
 each < > over the pairs of points that are there. The autocorrelation length Sal is the shortest way
 from the middle to where f falls to 0.2, the texture aspect ratio Str that length over the longest;
-both are straight ways on which f is larger (ISO 25178-2:2021). The texture direction Std is the angle to x of the ridges: across the direction
-in which the power spectrum, summed from the middle outwards and over some 15 degrees, is largest.
+both are straight ways on which f is larger (ISO 25178-2:2021). The texture direction Std is the
+angle to x of the ridges: across the direction in which the power spectrum, summed from the middle
+outwards and over some 15 degrees, is largest.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _WAYS = 180
 """Directions that are followed, one a degree."""
 
 _SMOOTHING = np.hanning(33)[1:-1]
-"""Weights of neighbouring degrees: a single wave of a random texture has no direction of its own."""
+"""Weights of neighbouring degrees, without which the strongest wave of a random texture decides."""
 
 _LONGEST_PART = 0.5
 """Share of the largest wavenumber within which the direction is sought: a square grid has more

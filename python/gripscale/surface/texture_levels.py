@@ -64,8 +64,8 @@ def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Datas
     last = int(np.floor(10.0 * np.log10(length / _LENGTHS) + 1e-9))
     if last < first:
         raise InputError(
-            f"profile must be longer than {in_mm(_LENGTHS * shortest * _HALF_BAND, 3)} for a texture "
-            f"level at wavelengths that it resolves; got {in_mm(length, 3)}"
+            f"profile must be longer than {in_mm(_LENGTHS * shortest * _HALF_BAND, 3)} for a level "
+            f"at wavelengths that it resolves; got {in_mm(length, 3)}"
         )
     bands = np.arange(last, first - 1, -1)
     middle = 2.0 * np.pi / 10.0 ** (bands / 10.0)

@@ -1,0 +1,189 @@
+"""Friction of a case over sliding speed, temperature and pressure, with the interval of its answer.
+
+The contacts are solved on their first full grid under the conditions of the case, but for heat: how
+the rubber warms depends on its way through the patch. Between points friction is linear in ln v, T
+and ln p; beyond them it is that of the last point.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case import Case
+from gripscale.conditions import Conditions
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.provenance import software
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
+from gripscale.experiment.solve import Bench
+from gripscale.experiment.task import KEY_LENGTH, Task
+from gripscale.half_space.model import DirectContact
+from gripscale.questions.answer.best_estimate import AREA_TERM, with_best_estimate
+from gripscale.questions.vary.study import study_numbers
+
+TABLE = "table_friction"
+"""Name of the friction over `kind`, `bound` and the three axes of the table."""
+AXES = ("sliding_speed", "rubber_temperature", "local_pressure")
+HYSTERESIS, WITH_AREA_TERM = "hysteresis", "with area term"
+BOUNDS = ("low", "value", "high")
+"""Ends of the 90 % interval, and the value between."""
+
+_SLOWEST = 0.01
+"""Lowest sliding speed of the table [m/s]."""
+_SPEEDS = 6
+_PRESSURES = 0.375, 1.5
+"""Pressures over the mean one: the highest of a parabola, and a quarter of it."""
+_WARMEST = 80.0
+"""Rise of the temperature up to which friction is solved where the rubber warms [K]."""
+_WARMER = 47.0
+"""Largest step of the temperatures [K]."""
+
+
+def friction_table(
+    case: Case,
+    temperatures: Sequence[float],
+    fastest: float,
+    bench: Bench,
+    tolerance: float | None = None,
+) -> xr.Dataset:
+    """Return the friction of a case up to a sliding speed [m/s], at temperatures [K] and above.
+
+    `TABLE` over `kind` (hysteresis, and with the area term of the case), `bound` and `AXES`. The
+    store of the bench keeps it. Raises `InputError` if no surface was measured, or a contact has no
+    result.
+    """
+    if case.surface.measured is None:
+        raise InputError("a slip curve needs a measured surface; got sine waves")
+    asked = json.dumps([software(), case.key, list(temperatures), fastest, tolerance])
+    key = hashlib.sha256(asked.encode()).hexdigest()[:KEY_LENGTH]
+    stored = None if bench.store is None else bench.store.get(key)
+    if stored is None:
+        stored = _solved(case, temperatures, fastest, bench, tolerance)
+        if bench.store is not None:
+            bench.store.put(key, stored.assign_attrs(prediction_key=key))
+    return stored.drop_attrs()
+
+
+def _solved(
+    case: Case,
+    temperatures: Sequence[float],
+    fastest: float,
+    bench: Bench,
+    tolerance: float | None,
+) -> xr.Dataset:
+    """Solve the contacts of a table and return it."""
+    conditions = replace(case.conditions or Conditions(), heat=None)
+    warms = case.conditions is not None and case.conditions.heat is not None
+    values = {
+        "speed": np.geomspace(_SLOWEST, max(fastest, 10.0 * _SLOWEST), _SPEEDS),
+        "temperature": _temperatures(case, temperatures, warms),
+        "pressure": case.load.pressure * np.array(_PRESSURES),
+    }
+    points = []
+    for index in product(*(range(axis.size) for axis in values.values())):
+        speed, kelvin, pressure = (
+            float(axis[i]) for axis, i in zip(values.values(), index, strict=True)
+        )
+        known = math.isfinite(kelvin)
+        there = replace(conditions, temperature=kelvin) if known else conditions
+        load = replace(case.load, speed=speed, pressure=pressure)
+        model = DirectContact(tolerance=tolerance, conditions=there)
+        label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
+        label += f", {kelvin - ZERO_CELSIUS:.3g} C" if known else ""
+        points.append(Point(index, label, Task(case.rubber, case.surface, load, model)))
+    design = Design({name: axis.size for name, axis in values.items()}, points)
+    data = solve_design(design, bench, study_numbers).assign_coords(values)
+    failed = [str(word) for word in data.prediction_status.values.flat if word != "converged"]
+    if failed:
+        raise InputError(f"the friction of the case has no result at every speed: {failed[0]}")
+    best = with_best_estimate(data.assign_attrs(nominal_speed=case.load.speed))
+    return _of_kinds(best).rename(dict(zip(values, AXES, strict=True)))
+
+
+def _temperatures(case: Case, asked: Sequence[float], warms: bool) -> Array:
+    """Return the temperatures of the table [K]; one that is NaN for a rubber without one."""
+    if not asked:
+        return np.array([math.nan])
+    low, high = min(asked), max(asked) + (_WARMEST if warms else 0.0)
+    if case.rubber.shift is not None:
+        high = max(min(high, case.rubber.shift.limits[1]), low)
+    return np.linspace(low, high, 1 + math.ceil((high - low) / _WARMER - 1e-9))
+
+
+def _of_kinds(best: xr.Dataset) -> xr.Dataset:
+    """Return the hysteresis friction with its interval, and that with the area term above it.
+
+    The area term shears the contact area, at both ends of its interval.
+    """
+    names = ("best_{}_low", "best_{}", "best_{}_high")
+    friction, area = (
+        xr.concat([best[name.format(number)] for name in names], "bound")
+        for number in ("friction", "contact_fraction")
+    )
+    kinds = [friction]
+    if AREA_TERM in best:
+        kinds.append(friction + best[AREA_TERM] * area / best["best_contact_fraction"])
+    if not np.isfinite(friction.sel(bound=1)).all():
+        raise InputError("the direct contact of the case has no friction for a slip curve")
+    table = xr.concat(kinds, "kind").transpose("kind", "bound", "speed", "temperature", "pressure")
+    named = {"kind": [HYSTERESIS, WITH_AREA_TERM][: len(kinds)], "bound": list(BOUNDS)}
+    text = variable_attributes("sliding friction with the interval of the answer")
+    return xr.Dataset({TABLE: table.assign_coords(named).assign_attrs(text)})
+
+
+class TableFriction:
+    """The friction of a table as a brush asks for it, one row a kind, bound and temperature.
+
+    Called with sliding speed, pressure and temperature rise over the temperature of the row.
+    """
+
+    def __init__(self, table: xr.DataArray, temperatures: Array) -> None:
+        speed, kelvin, pressure = (table[axis].values for axis in AXES)
+        self._axes = np.log(speed), kelvin, np.log(pressure)
+        flat = table.values.reshape(-1, *table.shape[2:])
+        self._values = np.repeat(flat, temperatures.size, axis=0)
+        self._base = np.tile(temperatures, flat.shape[0])
+        self.rows = (*table.shape[:2], temperatures.size)
+
+    def __call__(self, speed: Array, pressure: Array, warming: Array) -> Array:
+        """Return friction [-] of the shape (rows, ...) of arguments that may have rows or not."""
+        inner = speed.shape[-3:]  # speeds of the road, slips, points along the patch
+        shape = (self._base.size, *inner)
+        row = np.arange(self._base.size).reshape(-1, *[1] * len(inner))
+        kelvin = self._base.reshape(row.shape) + warming
+        places = [np.log(speed), kelvin, np.log(np.maximum(pressure, 1e-300))]
+        corners = [
+            self._position(axis, np.broadcast_to(at, shape))
+            for axis, at in zip(self._axes, places, strict=True)
+        ]
+        total = np.zeros(shape)
+        for choice in product((0, 1), repeat=3):
+            index = [at + step for (at, _), step in zip(corners, choice, strict=True)]
+            weight = np.ones(shape)
+            for (_, part), step in zip(corners, choice, strict=True):
+                weight = weight * (part if step else 1.0 - part)
+            total += weight * self._values[(row, *self._inside(index))]
+        return total
+
+    @staticmethod
+    def _position(axis: Array, at: Array) -> tuple[Array, Array]:
+        """Return the interval that a value lies in, and how far along it, within the ends."""
+        if axis.size == 1:
+            return np.zeros(at.shape, dtype=int), np.zeros(at.shape)
+        i = np.clip(np.searchsorted(axis, at) - 1, 0, axis.size - 2)
+        return i, np.clip((at - axis[i]) / (axis[i + 1] - axis[i]), 0.0, 1.0)
+
+    def _inside(self, index: Sequence[Array]) -> tuple[Array, ...]:
+        """Return indices within the axes; those beyond an axis of one value have no weight."""
+        return tuple(
+            np.minimum(i, axis.size - 1) for i, axis in zip(index, self._axes, strict=True)
+        )

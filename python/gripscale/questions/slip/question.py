@@ -1,0 +1,369 @@
+"""Braking force over slip: the friction of a case in the contact patch of a tread.
+
+result = gs.slip_curve(case, speed="80 km/h", temperature=["0 C", "20 C"])
+result.data.force
+
+The tread is a brush (`gripscale.theory.brush`) on the footprint and under the pressure of the case.
+It has no carcass, no pattern and no water: a slip curve shows what friction over speed, pressure
+and temperature does to braking, and is no prediction of a tyre.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from gripscale.case import Case, in_si
+from gripscale.charts import draw
+from gripscale.charts.draw import Sheet
+from gripscale.core import checks, provenance
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm
+from gripscale.experiment.design import variable_attributes
+from gripscale.experiment.solve import OnTask, bench_in
+from gripscale.io.table import Column, Table, on_page, significant
+from gripscale.questions.inputs import record
+from gripscale.questions.result import Result
+from gripscale.questions.slip.charts import slip_panels, slip_sheet
+from gripscale.questions.slip.friction_table import (
+    BOUNDS,
+    TABLE,
+    TableFriction,
+    friction_table,
+)
+from gripscale.questions.slip.vehicle_formulas import FORMULAS, fitted
+from gripscale.questions.vary.axis import axes_of
+from gripscale.report.again import case_name, rerun_section
+from gripscale.report.elements import Card, Page, Section
+from gripscale.theory.brush import Brush, brush_force
+
+STIFFNESS = 1.5e8
+"""Of a bristle [Pa/m]: on 100 mm under 3 bar a slip stiffness of 25 loads; tyres have 15 to 30."""
+_SLIPS = np.geomspace(0.003, 1.0, 30)
+_BRAKING = "80 km/h", "20 km/h"
+"""Speeds of wet braking tests of tyres (UN Regulation 117)."""
+_BRAKING_SPEEDS = 5
+"""Points of Gauss's quadrature over the speeds of braking."""
+_GRAVITY = 9.80665
+BRAKES = ("peak", "locked")
+"""An ideal control that holds the peak, and locked wheels."""
+_NO_TYRE = (
+    "A brush of bristles is no tyre: it has no carcass, pattern, wear or water. Compare compounds, "
+    "roads and temperatures with it, not tyres."
+)
+
+
+class SlipCurve(Result):
+    """Braking force over slip of a case, with its peak, its locked value and braking distances."""
+
+    kind = "slip"
+
+    @property
+    def lines(self) -> Sequence[str]:
+        data, kind = self.data, self.data.kind.values[-1]
+        first = data.sel(kind=kind).isel(temperature=0, speed=0)
+        low, peak, high = (float(first.peak.sel(bound=bound)) for bound in BOUNDS)
+        at = float(first.peak_slip.sel(bound="value"))
+        locked = float(first.locked.sel(bound="value"))
+        speed = f"{3.6 * float(first.speed):.3g} km/h"
+        warm = float(first.temperature)
+        where = f"{speed} and {celsius(warm)}" if math.isfinite(warm) else speed
+        distance = first.braking_distance.sel(brake="peak")
+        ends = [f"{float(distance.sel(bound=bound)):.3g}" for bound in BOUNDS]
+        fast, slow = (f"{3.6 * v:.3g}" for v in data.attrs["braking"])
+        return [
+            f"Answer: peak braking force {significant(peak)} ({significant(low)} to "
+            f"{significant(high)}) of the load at {at:.1%} slip, locked {significant(locked)}, "
+            f"at {where} (90 % intervals)",
+            f"  friction: {kind}; contact patch {in_mm(data.attrs['length'], 3)}, bristles "
+            f"{data.attrs['stiffness']:.3g} Pa/m",
+            f"  braking from {fast} to {slow} km/h at the peak: {ends[1]} m ({ends[0]} to "
+            f"{ends[2]} m)",
+        ]
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        findings = [Finding(Severity.WARNING, _NO_TYRE, topic=Topic.LOAD)]
+        room = float(self.data.rubber_temperature.max() - self.data.temperature.max())
+        warm = self.data.slip.where(self.data.warming > room)
+        if "effusivity" not in self.data.attrs:
+            text = (
+                "The rubber does not warm in the patch: the case states no thermal properties in "
+                "[conditions.heat]."
+            )
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
+        elif bool(warm.notnull().any()):
+            text = (
+                f"From {float(warm.min()):.1%} slip on sliding rubber warms by more than the "
+                f"{room:.0f} K for which friction was solved; it then has the last friction."
+            )
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
+        return (*findings, *super().findings)
+
+    def parts(self) -> Iterator[str | Table]:
+        yield self.table()
+        yield self.formulas_table()
+
+    def _conditions_columns(self) -> tuple[list[dict[str, Any]], list[Column]]:
+        """Return the curves by their coordinates, and columns that name them."""
+        data = self.data
+        every = [
+            {"kind": kind, "temperature": i, "speed": j}
+            for kind in data.kind.values
+            for i in range(data.sizes["temperature"])
+            for j in range(data.sizes["speed"])
+        ]
+        kelvin = [float(data.temperature[c["temperature"]]) - ZERO_CELSIUS for c in every]
+        speeds = [3.6 * float(data.speed[c["speed"]]) for c in every]
+        columns = [Column("friction", [str(c["kind"]) for c in every])]
+        if np.isfinite(kelvin).any():
+            columns.append(Column("temperature", kelvin, "T", "°C"))
+        return every, [*columns, Column("speed", speeds, "v", "km/h")]
+
+    def _curve(self, at: dict[str, Any]) -> xr.Dataset:
+        rest = {name: index for name, index in at.items() if name != "kind"}
+        return self.data.sel(kind=at["kind"]).isel(rest)
+
+    def table(self) -> Table:
+        """Return peak, slip at the peak, locked value and braking distances of each curve."""
+        every, columns = self._conditions_columns()
+        curves = [self._curve(at) for at in every]
+
+        def value(name: str, **at: str) -> list[float]:
+            return [float(c[name].sel(bound="value", **at)) for c in curves]
+
+        ends = [[float(c.peak.sel(bound=bound)) for bound in ("low", "high")] for c in curves]
+        columns += [
+            Column("peak", value("peak"), "peak"),
+            Column("peak_interval", np.array(ends), "90 %"),
+            Column("peak_slip", [100.0 * x for x in value("peak_slip")], "at slip", "%"),
+            Column("locked", value("locked"), "locked"),
+            *(
+                Column(f"distance_{brake}", value("braking_distance", brake=brake), brake, "m")
+                for brake in BRAKES
+            ),
+        ]
+        fast, slow = (f"{3.6 * v:.3g}" for v in self.data.attrs["braking"])
+        note = f"Forces over the load; distances from {fast} to {slow} km/h, at the peak or locked."
+        return Table("slip", columns, "Braking", [note], keys=1)
+
+    def formulas_table(self) -> Table:
+        """Return the parameters of Burckhardt's formula and of the Magic Formula."""
+        every, columns = self._conditions_columns()
+        for name, (_, parameters, *_) in FORMULAS.items():
+            for parameter in parameters:
+                at = {f"{name}_parameter": parameter}
+                values = [float(self._curve(c)[name].sel(at)) for c in every]
+                columns.append(Column(f"{name}_{parameter}", values, parameter))
+            misfits = [100.0 * float(self._curve(c)[f"{name}_misfit"]) for c in every]
+            columns.append(Column(f"{name}_misfit", misfits, "rms", "%"))
+        notes = [
+            "Burckhardt: c1 (1 - exp(-c2 s)) - c3 s. Magic Formula: "
+            "D sin(C atan(B s - E (B s - atan(B s)))). Misfit over the peak."
+        ]
+        return Table("formulas", columns, "Formulas of vehicle models", notes, keys=1)
+
+    def figures(self) -> Iterator[tuple[str, Sheet]]:
+        yield "slip", slip_sheet(self.data)
+
+    def page_content(self) -> Page:
+        lead, *basis = self.lines
+        kind = self.data.kind.values[-1]
+        first = self.data.sel(kind=kind, bound="value").isel(temperature=0, speed=0)
+        cards = [
+            Card("Peak", on_page(significant(float(first.peak))), "braking force over the load"),
+            Card("Slip at the peak", f"{100.0 * float(first.peak_slip):.3g} %", ""),
+            Card("Locked", on_page(significant(float(first.locked))), "of the load"),
+        ]
+        charts = draw.panels_on_page(slip_panels(self.data))
+        sections = [
+            Section("curves", "Force over slip", [*charts, self.table()]),
+            Section("formulas", "For vehicle models", [self.formulas_table()]),
+            rerun_section(self.data.attrs),
+        ]
+        title = f"Braking force over slip of {case_name(self.data.attrs) or 'a case'}"
+        return Page.of(title, lead, self.findings, cards, sections, basis)
+
+
+def slip_curve(
+    case: Case,
+    *,
+    slip: ArrayLike | None = None,
+    speed: Any = "80 km/h",
+    temperature: Any = None,
+    braking: Sequence[float | str] = _BRAKING,
+    stiffness: float = STIFFNESS,
+    tolerance: float | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    on_task: OnTask | None = None,
+) -> SlipCurve:
+    """Return the braking force of a tread over slip.
+
+    Parameters
+    ----------
+    case : Case
+        Its footprint is the length of the contact patch, its pressure the mean one there. Its
+        surface must be measured. With an area term there are curves with and without it.
+    slip : array_like, optional
+        s = 1 - (speed of the tread)/(speed of the road), above 0 and up to 1; 30 by default.
+    speed : float, str or list
+        Speeds of the road [m/s], or texts such as "80 km/h".
+    temperature : str, float or list, optional
+        Temperatures of the rubber before the patch [K], or texts such as "20 C"; that of the case
+        by default. Others need a rubber with a shift.
+    braking : pair
+        Speeds [m/s] from which and to which the braking distance goes.
+    stiffness : float
+        Shear stress of a bristle over its deflection [Pa/m].
+    tolerance : float, optional
+        Estimated relative error of each contact; that of its first full grid by default.
+    folder : path, optional
+        Keeps the friction as soon as it is there: what was interrupted resumes.
+    workers, on_task
+        As for `gripscale.experiment.Bench`.
+
+    Returns
+    -------
+    SlipCurve
+        `force` over `kind` of friction, `bound` of the 90 % interval, `temperature`, `speed` and
+        `slip`; `peak`, `peak_slip`, `locked` and `braking_distance` [m]; the largest temperature
+        rise `warming` [K]; the parameters `burckhardt` and `magic_formula`, and the friction they
+        rest on, `table_friction`.
+
+    Raises
+    ------
+    InputError, FileError
+        For what cannot be used; if a contact has no result.
+    """
+    slips = _slips(slip)
+    speeds = _values("speed", speed)
+    fast, slow = (in_si("braking", value, "speed") for value in braking)
+    if not fast > slow >= 0.0 or min(speeds) <= 0.0:
+        raise InputError(
+            "speed must be above zero and braking from a higher to a lower speed; got "
+            f"{min(speeds):g} m/s and {fast:g} to {slow:g} m/s"
+        )
+    heat = None if case.conditions is None else case.conditions.heat
+    effusivity = None
+    if heat is not None:
+        effusivity = math.sqrt(heat.conductivity * heat.density * heat.specific_heat)
+    brush = Brush(case.load.footprint, case.load.pressure, stiffness, effusivity)
+    kelvins = [] if temperature is None else _values("temperature", temperature)
+    if temperature is None and case.rubber.shift is not None:
+        kelvins = [case.rubber_before.reference_temperature or math.nan]
+    with bench_in(folder, workers, None, on_task) as bench:
+        table = friction_table(case, kelvins, max(*speeds, fast), bench, tolerance)
+    data = _curves(brush, table, np.array(kelvins or [math.nan]), speeds, slips, (fast, slow))
+    attrs: dict[str, Any] = {
+        "title": "Braking force over slip",
+        "case_file": case.origin.name,
+        "length": brush.length,
+        "mean_pressure": brush.pressure,
+        "stiffness": brush.stiffness,
+        "braking": [fast, slow],
+        **({} if effusivity is None else {"effusivity": effusivity}),
+        **provenance.version_attributes(),
+    }
+    return SlipCurve(data.assign_attrs(case.attributes, **attrs), record.inputs(case))
+
+
+def _slips(slip: ArrayLike | None) -> Array:
+    values = _SLIPS if slip is None else checks.increasing_vector("slip", slip)
+    if values.size < 5 or values[-1] > 1.0:
+        raise InputError(
+            f"slip must have at least 5 rising values up to 1; got {checks.short_repr(slip)}"
+        )
+    return values
+
+
+def _values(name: str, value: Any) -> list[float]:
+    """Return values of an input, single or several, in SI units."""
+    return [float(number) for number in axes_of({name: value})[0].values]
+
+
+def _curves(
+    brush: Brush,
+    table: xr.Dataset,
+    kelvins: Array,
+    speeds: Sequence[float],
+    slips: Array,
+    braking: tuple[float, float],
+) -> xr.Dataset:
+    """Return the curves of a table of friction, their peaks, distances and formulas."""
+    friction = TableFriction(table[TABLE], np.nan_to_num(kelvins))
+    nodes, weights = np.polynomial.legendre.leggauss(_BRAKING_SPEEDS)
+    fast, slow = braking
+    on_the_way = 0.5 * (fast + slow) + 0.5 * (fast - slow) * nodes
+    every = np.concatenate([np.array(speeds), on_the_way])
+    solved = brush_force(brush, friction, slips, every[:, None])
+    force = solved.force.reshape(*friction.rows, every.size, slips.size)
+    peak, peak_slip = _peaks(slips, force)
+    locked = force[..., -1]
+    dims = ("kind", "bound", "temperature", "speed")
+    count = len(speeds)
+    held = np.stack([peak, locked])[..., count:]
+    distance = (weights * on_the_way / held).sum(-1) * 0.5 * (fast - slow) / _GRAVITY
+    warming = np.broadcast_to(solved.warming, solved.force.shape).reshape(force.shape)
+    numbers = {
+        "force": ((*dims, "slip"), force[..., :count, :], "braking force over the load", "1"),
+        "warming": ((*dims, "slip"), warming[..., :count, :], "largest temperature rise", "K"),
+        "peak": (dims, peak[..., :count], "largest braking force over the load", "1"),
+        "peak_slip": (dims, peak_slip[..., :count], "slip at the largest force", "1"),
+        "locked": (dims, locked[..., :count], "force of the locked wheel over the load", "1"),
+        "braking_distance": (
+            ("brake", *dims[:3]),
+            distance[:, :, ::-1],  # the higher the friction, the shorter
+            "braking distance",
+            "m",
+        ),
+    }
+    data = xr.Dataset(
+        {
+            name: (at, x, variable_attributes(text, unit))
+            for name, (at, x, text, unit) in numbers.items()
+        },
+        {"temperature": kelvins, "speed": list(speeds), "slip": slips, "brake": list(BRAKES)},
+    )
+    return data.merge(table).assign(_formulas(data))
+
+
+def _peaks(slips: Array, force: Array) -> tuple[Array, Array]:
+    """Return the largest forces and their slips, by the parabola through three points in ln s."""
+    at = np.clip(np.argmax(force, axis=-1), 1, slips.size - 2)[..., None]
+    y = [np.take_along_axis(force, at + i, -1)[..., 0] for i in (-1, 0, 1)]
+    x = [np.log(slips)[at[..., 0] + i] for i in (-1, 0, 1)]
+    left, right = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
+    bend = (right - left) / (x[2] - x[0])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        top = 0.5 * (x[0] + x[1]) - 0.5 * left / bend
+    inside = (bend < 0.0) & (top > x[0]) & (top < x[2])
+    best = np.argmax(force, axis=-1)
+    top = np.where(inside, top, np.log(slips)[best])
+    peak = y[0] + left * (top - x[0]) + bend * (top - x[0]) * (top - x[1])
+    return np.where(inside, peak, force.max(-1)), np.exp(top)
+
+
+def _formulas(data: xr.Dataset) -> dict[str, Any]:
+    """Return the parameters of the formulas through the value of each curve, and their misfits."""
+    curves = data.force.isel(bound=1)
+    dims = curves.dims[:-1]
+    variables: dict[str, Any] = {}
+    for name, (_, parameters, *_) in FORMULAS.items():
+        values = np.empty((*curves.shape[:-1], len(parameters)))
+        misfits = np.empty(curves.shape[:-1])
+        for index in np.ndindex(misfits.shape):
+            values[index], misfits[index] = fitted(name, data.slip.values, curves.values[index])
+        along = f"{name}_parameter"
+        variables[along] = (along, list(parameters))
+        variables[name] = ((*dims, along), values, {"units": "1"})
+        variables[f"{name}_misfit"] = (dims, misfits, {"units": "1"})
+    return variables
