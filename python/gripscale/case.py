@@ -45,6 +45,7 @@ from gripscale.surface import (
     height_difference,
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
+from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
@@ -123,8 +124,11 @@ class Case:
         Nominal pressure [Pa], or a text with its unit such as "3 bar".
     speed : float or str
         Sliding speed [m/s]; zero is the relaxed rubber at rest.
-    footprint : float or str
-        Length of the nominal contact [m].
+    footprint : float or str, optional
+        Length of the nominal contact [m]; 0.1 m by default.
+    tester : str, optional
+        A tester of skid resistance, one of `gripscale.testers.TESTERS`: its pressure, speed and
+        footprint stand where none is given, and the answer has its number.
     thickness : float or str, optional
         Thickness of the rubber on a rigid base [m]; without it the rubber has no end.
     smallest_wavelength : float or str, optional
@@ -166,9 +170,10 @@ class Case:
         surface: SurfaceLike,
         rubber: RubberLike,
         *,
-        pressure: float | str,
-        speed: float | str,
-        footprint: float | str = 0.1,
+        pressure: float | str | None = None,
+        speed: float | str | None = None,
+        footprint: float | str | None = None,
+        tester: str | None = None,
         thickness: float | str | None = None,
         smallest_wavelength: float | str | None = None,
         waves: int = _WAVES,
@@ -184,10 +189,19 @@ class Case:
         origin: Origin | None = None,
     ) -> None:
         self.origin = origin or Origin()
+        self.tester = "" if tester is None else checks.one_of("tester", tester, TESTERS)
+        preset = TESTERS.get(self.tester)
+        if preset is None and (pressure is None or speed is None):
+            missing = "pressure" if pressure is None else "speed"
+            raise InputError(" must be given, or tester; got neither", key=missing)
+
+        def chosen(name: str, value: float | str | None, kind: str) -> float:
+            return in_si(name, getattr(preset, name, 0.1) if value is None else value, kind)
+
         self.load = Load(
-            in_si("pressure", pressure, "pressure"),
-            in_si("speed", speed, "speed"),
-            in_si("footprint", footprint, "length"),
+            chosen("pressure", pressure, "pressure"),
+            chosen("speed", speed, "speed"),
+            chosen("footprint", footprint, "length"),
             load_time,
             None if thickness is None else in_si("thickness", thickness, "length"),
         )
@@ -245,6 +259,7 @@ class Case:
     def attributes(self) -> dict[str, str]:
         """Attributes of every result: text and units of the case file, and the command."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
+        command |= {TESTER: self.tester} if self.tester else {}
         return {"case": self.origin.text, DISPLAY_UNITS: json.dumps(self.units)} | command
 
     @cached_property
@@ -321,6 +336,7 @@ class Case:
         surface = self.surface
         others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
         findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
+        findings += tester_findings(self.tester, self.rubber.name)
         fit = self.measured_rubber.fit
         texts = [] if fit is None else [f"Rubber: {text}." for text in fit.findings]
         findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER) for text in texts]

@@ -21,7 +21,7 @@ def constant(speed, pressure, warming):
 
 
 def by_speed(speed, pressure, warming):
-    """Return friction with a maximum at 1 m/s, higher under less pressure, constant below 1 cm/s."""
+    """Return friction largest at 1 m/s, higher under less pressure, constant below 1 cm/s."""
     return (
         0.9
         * np.exp(-0.1 * np.log10(np.maximum(speed, 0.01)) ** 2)

@@ -53,6 +53,8 @@ class TextureLengths(NamedTuple):
 
 def texture_lengths(surface: HeightMap) -> TextureLengths:
     """Return the autocorrelation lengths of a map; NaN where it is flat."""
+    from scipy.ndimage import map_coordinates  # slow to import
+
     z, (dx, dy) = _level(surface), surface.step
     nx, ny = z.shape
     # without wrapping round: with as many zeros beyond either end
@@ -65,13 +67,11 @@ def texture_lengths(surface: HeightMap) -> TextureLengths:
         relative = correlation / pairs * (z.size / correlation[0, 0])
     lengths = []
     for angle in np.linspace(0.0, np.pi, _WAYS, endpoint=False):
-        values = _between(relative, away * np.cos(angle) / dx, away * np.sin(angle) / dy)
-        at = int(np.argmax(values < _FALLEN))  # 0 where it stays above
-        if at:
-            fraction = (values[at - 1] - _FALLEN) / (values[at - 1] - values[at])
-            lengths.append(away[at - 1] + fraction * (away[at] - away[at - 1]))
-        else:
-            lengths.append(away[-1])
+        at = np.array([away * np.cos(angle) / dx, away * np.sin(angle) / dy])
+        values = map_coordinates(relative, at, order=1, mode="grid-wrap")
+        first = int(np.argmax(values < _FALLEN)) or away.size - 1
+        pair = slice(first, first - 2, -1)  # where it stays above, the last point
+        lengths.append(np.interp(_FALLEN, values[pair], away[pair]))
     return TextureLengths(float(min(lengths)), float(max(lengths)))
 
 
@@ -98,13 +98,3 @@ def texture_direction(surface: HeightMap) -> float:
 def _level(surface: HeightMap) -> Array:
     """Return the heights of a map over their plane [m], gaps filled."""
     return fill_gaps(subtract_form(surface, order=1)[0].z, surface.step)
-
-
-def _between(values: Array, i: Array, j: Array) -> Array:
-    """Return periodic values between grid points, linear along either axis."""
-    nx, ny = values.shape
-    i0, j0 = np.floor(i).astype(int), np.floor(j).astype(int)
-    a, b = i - i0, j - j0
-    corners = [values[(i0 + m) % nx, (j0 + n) % ny] for m in (0, 1) for n in (0, 1)]
-    weights = [(1 - a) * (1 - b), (1 - a) * b, a * (1 - b), a * b]
-    return np.asarray(sum(w * v for w, v in zip(weights, corners, strict=True)))

@@ -15,12 +15,14 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.slip import question
 from gripscale.questions.slip.friction_table import AXES, TABLE, TableFriction
-from gripscale.questions.slip.vehicle_formulas import DRY, FORMULAS, WET, fitted
+from gripscale.questions.slip.vehicle_formulas import FORMULAS
 from gripscale.theory import Brush
 from tests.questions.answer.test_answer_object import CASE
 from tests.samples import Shell
 
 AREA_TERM = '\n[conditions.shear_stress]\nkind = "constant"\nstress_0 = "6 MPa"\n'
+DRY, WET = (1.2801, 23.99, 0.52), (0.857, 33.82, 0.347)
+"""Burckhardt's parameters of a tyre on dry and on wet asphalt."""
 SLIPS = np.geomspace(0.003, 1.0, 30)
 
 
@@ -131,14 +133,13 @@ def test_table_is_read_between_its_points_and_kept_beyond() -> None:
 @pytest.mark.parametrize("parameters", [DRY, WET])
 def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
     """The Magic Formula follows Burckhardt's curves within 3 % of the peak, rms."""
-    force = FORMULAS["burckhardt"][0](SLIPS, *parameters)
-    found, misfit = fitted("burckhardt", SLIPS, force)
+    burckhardt, magic = FORMULAS["burckhardt"], FORMULAS["magic_formula"]
+    force = burckhardt.function(SLIPS, *parameters)
+    found, misfit = burckhardt.fit(SLIPS, force)
     assert found == pytest.approx(parameters, rel=1e-4)
     assert misfit < 1e-6
-    assert fitted("magic_formula", SLIPS, force)[1] < 0.03
-    magic = 12.0, 1.6, 1.0, 0.3
-    shape = FORMULAS["magic_formula"][0](SLIPS, *magic)
-    assert fitted("magic_formula", SLIPS, shape)[1] < 1e-3
+    assert magic.fit(SLIPS, force)[1] < 0.03
+    assert magic.fit(SLIPS, magic.function(SLIPS, 12.0, 1.6, 1.0, 0.3))[1] < 1e-3
 
 
 @pytest.mark.parametrize(

@@ -29,6 +29,7 @@ from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
+from gripscale.testers import TESTER, tester_reading
 
 _PICTURE = (
     "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
@@ -71,6 +72,12 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
         thick = f", rubber {thickness} thick on a rigid base"
     yield f"for {pressure} {motion}, roughness down to {end}{thick}"
+    friction, ends = (
+        reliance.answer_number(data, "friction"),
+        reliance.answer_interval(data, "friction"),
+    )
+    if reading := tester_reading(data.attrs.get(TESTER, ""), friction, *ends):
+        yield reading
     yield f"from {' × '.join(_factors(data, names))}"
     rests = list(_rests_on(data, names[0]))
     if rests:

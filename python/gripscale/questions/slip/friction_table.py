@@ -33,7 +33,7 @@ from gripscale.questions.vary.study import study_numbers
 TABLE = "table_friction"
 """Name of the friction over `kind`, `bound` and the three axes of the table."""
 AXES = ("sliding_speed", "rubber_temperature", "local_pressure")
-HYSTERESIS, WITH_AREA_TERM = "hysteresis", "with area term"
+KINDS_OF_FRICTION = "hysteresis", "with area term"
 BOUNDS = ("low", "value", "high")
 """Ends of the 90 % interval, and the value between."""
 
@@ -93,12 +93,12 @@ def _solved(
         speed, kelvin, pressure = (
             float(axis[i]) for axis, i in zip(values.values(), index, strict=True)
         )
-        known = math.isfinite(kelvin)
-        there = replace(conditions, temperature=kelvin) if known else conditions
+        shifted = math.isfinite(kelvin)
+        there = replace(conditions, temperature=kelvin) if shifted else conditions
         load = replace(case.load, speed=speed, pressure=pressure)
         model = DirectContact(tolerance=tolerance, conditions=there)
         label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
-        label += f", {kelvin - ZERO_CELSIUS:.3g} C" if known else ""
+        label += f", {kelvin - ZERO_CELSIUS:.3g} C" if shifted else ""
         points.append(Point(index, label, Task(case.rubber, case.surface, load, model)))
     design = Design({name: axis.size for name, axis in values.items()}, points)
     data = solve_design(design, bench, study_numbers).assign_coords(values)
@@ -135,55 +135,36 @@ def _of_kinds(best: xr.Dataset) -> xr.Dataset:
     if not np.isfinite(friction.sel(bound=1)).all():
         raise InputError("the direct contact of the case has no friction for a slip curve")
     table = xr.concat(kinds, "kind").transpose("kind", "bound", "speed", "temperature", "pressure")
-    named = {"kind": [HYSTERESIS, WITH_AREA_TERM][: len(kinds)], "bound": list(BOUNDS)}
+    named = {"kind": list(KINDS_OF_FRICTION[: len(kinds)]), "bound": list(BOUNDS)}
     text = variable_attributes("sliding friction with the interval of the answer")
     return xr.Dataset({TABLE: table.assign_coords(named).assign_attrs(text)})
 
 
 class TableFriction:
-    """The friction of a table as a brush asks for it, one row a kind, bound and temperature.
+    """The friction of a table as a brush asks for it, a row for each kind, bound and temperature.
 
     Called with sliding speed, pressure and temperature rise over the temperature of the row.
     """
 
     def __init__(self, table: xr.DataArray, temperatures: Array) -> None:
         speed, kelvin, pressure = (table[axis].values for axis in AXES)
-        self._axes = np.log(speed), kelvin, np.log(pressure)
+        self._axes = np.log(speed), np.nan_to_num(kelvin), np.log(pressure)
         flat = table.values.reshape(-1, *table.shape[2:])
         self._values = np.repeat(flat, temperatures.size, axis=0)
-        self._base = np.tile(temperatures, flat.shape[0])
+        self._before = np.tile(temperatures, flat.shape[0])
         self.rows = (*table.shape[:2], temperatures.size)
 
     def __call__(self, speed: Array, pressure: Array, warming: Array) -> Array:
-        """Return friction [-] of the shape (rows, ...) of arguments that may have rows or not."""
-        inner = speed.shape[-3:]  # speeds of the road, slips, points along the patch
-        shape = (self._base.size, *inner)
-        row = np.arange(self._base.size).reshape(-1, *[1] * len(inner))
-        kelvin = self._base.reshape(row.shape) + warming
-        places = [np.log(speed), kelvin, np.log(np.maximum(pressure, 1e-300))]
-        corners = [
-            self._position(axis, np.broadcast_to(at, shape))
-            for axis, at in zip(self._axes, places, strict=True)
+        """Return friction [-] of the shape (rows, ...) of arguments with or without rows."""
+        from scipy.ndimage import map_coordinates  # slow to import
+
+        # behind the rows: speeds of the road, slips, points along the patch
+        row = np.arange(self._before.size).reshape(-1, 1, 1, 1)
+        kelvin = self._before[row] + warming
+        places = np.log(speed), kelvin, np.log(np.maximum(pressure, 1.0))
+        at = [
+            np.interp(place, axis, np.arange(axis.size))  # kept beyond the ends
+            for place, axis in zip(places, self._axes, strict=True)
         ]
-        total = np.zeros(shape)
-        for choice in product((0, 1), repeat=3):
-            index = [at + step for (at, _), step in zip(corners, choice, strict=True)]
-            weight = np.ones(shape)
-            for (_, part), step in zip(corners, choice, strict=True):
-                weight = weight * (part if step else 1.0 - part)
-            total += weight * self._values[(row, *self._inside(index))]
-        return total
-
-    @staticmethod
-    def _position(axis: Array, at: Array) -> tuple[Array, Array]:
-        """Return the interval that a value lies in, and how far along it, within the ends."""
-        if axis.size == 1:
-            return np.zeros(at.shape, dtype=int), np.zeros(at.shape)
-        i = np.clip(np.searchsorted(axis, at) - 1, 0, axis.size - 2)
-        return i, np.clip((at - axis[i]) / (axis[i + 1] - axis[i]), 0.0, 1.0)
-
-    def _inside(self, index: Sequence[Array]) -> tuple[Array, ...]:
-        """Return indices within the axes; those beyond an axis of one value have no weight."""
-        return tuple(
-            np.minimum(i, axis.size - 1) for i, axis in zip(index, self._axes, strict=True)
-        )
+        points = np.stack(np.broadcast_arrays(row, *at))
+        return np.asarray(map_coordinates(self._values, points, order=1, mode="nearest"))

@@ -27,7 +27,6 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm
-from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, on_page, significant
 from gripscale.questions.inputs import record
@@ -39,7 +38,7 @@ from gripscale.questions.slip.friction_table import (
     TableFriction,
     friction_table,
 )
-from gripscale.questions.slip.vehicle_formulas import FORMULAS, fitted
+from gripscale.questions.slip.vehicle_formulas import FORMULAS
 from gripscale.questions.vary.axis import axes_of
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Page, Section
@@ -78,15 +77,13 @@ class SlipCurve(Result):
         where = f"{speed} and {celsius(warm)}" if math.isfinite(warm) else speed
         distance = first.braking_distance.sel(brake="peak")
         ends = [f"{float(distance.sel(bound=bound)):.3g}" for bound in BOUNDS]
-        fast, slow = (f"{3.6 * v:.3g}" for v in data.attrs["braking"])
         return [
             f"Answer: peak braking force {significant(peak)} ({significant(low)} to "
             f"{significant(high)}) of the load at {at:.1%} slip, locked {significant(locked)}, "
             f"at {where} (90 % intervals)",
             f"  friction: {kind}; contact patch {in_mm(data.attrs['length'], 3)}, bristles "
             f"{data.attrs['stiffness']:.3g} Pa/m",
-            f"  braking from {fast} to {slow} km/h at the peak: {ends[1]} m ({ends[0]} to "
-            f"{ends[2]} m)",
+            f"  braking from {self._braking} at the peak: {ends[1]} m ({ends[0]} to {ends[2]} m)",
         ]
 
     @property
@@ -112,63 +109,59 @@ class SlipCurve(Result):
         yield self.table()
         yield self.formulas_table()
 
-    def _conditions_columns(self) -> tuple[list[dict[str, Any]], list[Column]]:
-        """Return the curves by their coordinates, and columns that name them."""
-        data = self.data
-        every = [
-            {"kind": kind, "temperature": i, "speed": j}
-            for kind in data.kind.values
-            for i in range(data.sizes["temperature"])
-            for j in range(data.sizes["speed"])
-        ]
-        kelvin = [float(data.temperature[c["temperature"]]) - ZERO_CELSIUS for c in every]
-        speeds = [3.6 * float(data.speed[c["speed"]]) for c in every]
-        columns = [Column("friction", [str(c["kind"]) for c in every])]
-        if np.isfinite(kelvin).any():
-            columns.append(Column("temperature", kelvin, "T", "°C"))
-        return every, [*columns, Column("speed", speeds, "v", "km/h")]
+    @property
+    def _rows(self) -> xr.Dataset:
+        """The curves over `row`."""
+        data = self.data.drop_vars(TABLE).assign_coords(
+            temperature=self.data.temperature.fillna(0.0)
+        )
+        return data.stack(row=("kind", "temperature", "speed"))
 
-    def _curve(self, at: dict[str, Any]) -> xr.Dataset:
-        rest = {name: index for name, index in at.items() if name != "kind"}
-        return self.data.sel(kind=at["kind"]).isel(rest)
+    def _names(self) -> list[Column]:
+        """Return columns that name the curves."""
+        rows = self._rows
+        kelvin = np.where(rows.temperature > 0.0, rows.temperature, np.nan)
+        return [
+            Column("friction", rows.kind.values.tolist()),
+            Column("temperature", kelvin - ZERO_CELSIUS, "T", "°C"),
+            Column("speed", rows.speed.values, "v", "km/h", 1.0 / 3.6),
+        ]
 
     def table(self) -> Table:
         """Return peak, slip at the peak, locked value and braking distances of each curve."""
-        every, columns = self._conditions_columns()
-        curves = [self._curve(at) for at in every]
-
-        def value(name: str, **at: str) -> list[float]:
-            return [float(c[name].sel(bound="value", **at)) for c in curves]
-
-        ends = [[float(c.peak.sel(bound=bound)) for bound in ("low", "high")] for c in curves]
-        columns += [
-            Column("peak", value("peak"), "peak"),
-            Column("peak_interval", np.array(ends), "90 %"),
-            Column("peak_slip", [100.0 * x for x in value("peak_slip")], "at slip", "%"),
-            Column("locked", value("locked"), "locked"),
-            *(
-                Column(f"distance_{brake}", value("braking_distance", brake=brake), brake, "m")
-                for brake in BRAKES
-            ),
+        rows = self._rows.transpose("row", ...)
+        value, ends = rows.sel(bound="value"), rows.peak.sel(bound=["low", "high"])
+        columns = [
+            *self._names(),
+            Column("peak", value.peak.values, "peak"),
+            Column("peak_interval", ends.values, "90 %"),
+            Column("peak_slip", value.peak_slip.values, "at slip", "%", 0.01),
+            Column("locked", value.locked.values, "locked"),
         ]
-        fast, slow = (f"{3.6 * v:.3g}" for v in self.data.attrs["braking"])
-        note = f"Forces over the load; distances from {fast} to {slow} km/h, at the peak or locked."
+        for brake in BRAKES:
+            distance = value.braking_distance.sel(brake=brake).values
+            columns.append(Column(f"distance_{brake}", distance, brake, "m"))
+        note = f"Forces over the load; distances from {self._braking}, at the peak or locked."
         return Table("slip", columns, "Braking", [note], keys=1)
+
+    @property
+    def _braking(self) -> str:
+        """From which speed to which the distances go."""
+        fast, slow = (f"{3.6 * v:.3g}" for v in self.data.attrs["braking"])
+        return f"{fast} to {slow} km/h"
 
     def formulas_table(self) -> Table:
         """Return the parameters of Burckhardt's formula and of the Magic Formula."""
-        every, columns = self._conditions_columns()
-        for name, (_, parameters, *_) in FORMULAS.items():
-            for parameter in parameters:
-                at = {f"{name}_parameter": parameter}
-                values = [float(self._curve(c)[name].sel(at)) for c in every]
+        rows, columns = self._rows, self._names()
+        for name, formula in FORMULAS.items():
+            for parameter in formula.parameters:
+                values = rows[name].sel({f"{name}_parameter": parameter}).values
                 columns.append(Column(f"{name}_{parameter}", values, parameter))
-            misfits = [100.0 * float(self._curve(c)[f"{name}_misfit"]) for c in every]
-            columns.append(Column(f"{name}_misfit", misfits, "rms", "%"))
-        notes = [
-            "Burckhardt: c1 (1 - exp(-c2 s)) - c3 s. Magic Formula: "
-            "D sin(C atan(B s - E (B s - atan(B s)))). Misfit over the peak."
-        ]
+            columns.append(
+                Column(f"{name}_misfit", rows[f"{name}_misfit"].values, "rms", "%", 0.01)
+            )
+        texts = [f"{formula.text}." for formula in FORMULAS.values()]
+        notes = [*texts, "The misfit is over the peak."]
         return Table("formulas", columns, "Formulas of vehicle models", notes, keys=1)
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
@@ -176,11 +169,10 @@ class SlipCurve(Result):
 
     def page_content(self) -> Page:
         lead, *basis = self.lines
-        kind = self.data.kind.values[-1]
-        first = self.data.sel(kind=kind, bound="value").isel(temperature=0, speed=0)
+        first = self.data.sel(bound="value").isel(kind=-1, temperature=0, speed=0)
         cards = [
             Card("Peak", on_page(significant(float(first.peak))), "braking force over the load"),
-            Card("Slip at the peak", f"{100.0 * float(first.peak_slip):.3g} %", ""),
+            Card("Slip at the peak", f"{float(first.peak_slip):.1%}", ""),
             Card("Locked", on_page(significant(float(first.locked))), "of the load"),
         ]
         charts = draw.panels_on_page(slip_panels(self.data))
@@ -307,32 +299,23 @@ def _curves(
     solved = brush_force(brush, friction, slips, every[:, None])
     force = solved.force.reshape(*friction.rows, every.size, slips.size)
     peak, peak_slip = _peaks(slips, force)
-    locked = force[..., -1]
     dims = ("kind", "bound", "temperature", "speed")
     count = len(speeds)
-    held = np.stack([peak, locked])[..., count:]
+    held = np.stack([peak, force[..., -1]])[..., count:]
     distance = (weights * on_the_way / held).sum(-1) * 0.5 * (fast - slow) / _GRAVITY
     warming = np.broadcast_to(solved.warming, solved.force.shape).reshape(force.shape)
-    numbers = {
-        "force": ((*dims, "slip"), force[..., :count, :], "braking force over the load", "1"),
-        "warming": ((*dims, "slip"), warming[..., :count, :], "largest temperature rise", "K"),
-        "peak": (dims, peak[..., :count], "largest braking force over the load", "1"),
-        "peak_slip": (dims, peak_slip[..., :count], "slip at the largest force", "1"),
-        "locked": (dims, locked[..., :count], "force of the locked wheel over the load", "1"),
-        "braking_distance": (
-            ("brake", *dims[:3]),
-            distance[:, :, ::-1],  # the higher the friction, the shorter
-            "braking distance",
-            "m",
-        ),
-    }
     data = xr.Dataset(
         {
-            name: (at, x, variable_attributes(text, unit))
-            for name, (at, x, text, unit) in numbers.items()
+            "force": ((*dims, "slip"), force[..., :count, :], {"units": "1"}),
+            "warming": ((*dims, "slip"), warming[..., :count, :], {"units": "K"}),
+            "peak": (dims, peak[..., :count], {"units": "1"}),
+            "peak_slip": (dims, peak_slip[..., :count], {"units": "1"}),
+            "locked": (dims, force[..., :count, -1], {"units": "1"}),
+            # the higher the friction, the shorter
+            "braking_distance": (("brake", *dims[:3]), distance[:, :, ::-1], {"units": "m"}),
         },
         {"temperature": kelvins, "speed": list(speeds), "slip": slips, "brake": list(BRAKES)},
-    )
+    ).assign_coords(table[["kind", "bound"]].coords)
     return data.merge(table).assign(_formulas(data))
 
 
@@ -341,29 +324,31 @@ def _peaks(slips: Array, force: Array) -> tuple[Array, Array]:
     at = np.clip(np.argmax(force, axis=-1), 1, slips.size - 2)[..., None]
     y = [np.take_along_axis(force, at + i, -1)[..., 0] for i in (-1, 0, 1)]
     x = [np.log(slips)[at[..., 0] + i] for i in (-1, 0, 1)]
-    left, right = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
-    bend = (right - left) / (x[2] - x[0])
+    before, behind = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
+    bend = (behind - before) / (x[2] - x[0])
     with np.errstate(divide="ignore", invalid="ignore"):
-        top = 0.5 * (x[0] + x[1]) - 0.5 * left / bend
+        top = 0.5 * (x[0] + x[1]) - 0.5 * before / bend
     inside = (bend < 0.0) & (top > x[0]) & (top < x[2])
     best = np.argmax(force, axis=-1)
     top = np.where(inside, top, np.log(slips)[best])
-    peak = y[0] + left * (top - x[0]) + bend * (top - x[0]) * (top - x[1])
+    peak = y[0] + before * (top - x[0]) + bend * (top - x[0]) * (top - x[1])
     return np.where(inside, peak, force.max(-1)), np.exp(top)
 
 
 def _formulas(data: xr.Dataset) -> dict[str, Any]:
     """Return the parameters of the formulas through the value of each curve, and their misfits."""
-    curves = data.force.isel(bound=1)
-    dims = curves.dims[:-1]
-    variables: dict[str, Any] = {}
-    for name, (_, parameters, *_) in FORMULAS.items():
-        values = np.empty((*curves.shape[:-1], len(parameters)))
-        misfits = np.empty(curves.shape[:-1])
-        for index in np.ndindex(misfits.shape):
-            values[index], misfits[index] = fitted(name, data.slip.values, curves.values[index])
+    curves = data.force.sel(bound="value", drop=True)
+    dims, variables = curves.dims[:-1], dict[str, Any]()
+    for name, formula in FORMULAS.items():
         along = f"{name}_parameter"
-        variables[along] = (along, list(parameters))
-        variables[name] = ((*dims, along), values, {"units": "1"})
-        variables[f"{name}_misfit"] = (dims, misfits, {"units": "1"})
+        fits = [
+            formula.fit(data.slip.values, curve)
+            for curve in curves.values.reshape(-1, data.slip.size)
+        ]
+        parameters, misfits = (
+            np.array(x).reshape(*curves.shape[:-1], -1) for x in zip(*fits, strict=True)
+        )
+        variables[along] = (along, list(formula.parameters))
+        variables[name] = ((*dims, along), parameters, {"units": "1"})
+        variables[f"{name}_misfit"] = (dims, misfits[..., 0], {"units": "1"})
     return variables
