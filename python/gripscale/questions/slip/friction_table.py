@@ -161,10 +161,10 @@ class TableFriction:
         # behind the rows: speeds of the road, slips, points along the patch
         row = np.arange(self._before.size).reshape(-1, 1, 1, 1)
         kelvin = self._before[row] + warming
-        places = np.log(speed), kelvin, np.log(np.maximum(pressure, 1.0))
+        values = np.log(speed), kelvin, np.log(np.maximum(pressure, 1.0))
         at = [
-            np.interp(place, axis, np.arange(axis.size))  # kept beyond the ends
-            for place, axis in zip(places, self._axes, strict=True)
+            np.interp(value, axis, np.arange(axis.size))  # kept beyond the ends
+            for value, axis in zip(values, self._axes, strict=True)
         ]
         points = np.stack(np.broadcast_arrays(row, *at))
         return np.asarray(map_coordinates(self._values, points, order=1, mode="nearest"))
