@@ -98,7 +98,7 @@ def test_slip_stiffness_is_that_of_the_bristles(curve: gs.SlipCurve) -> None:
 def test_braking_distance_of_constant_friction() -> None:
     """(v_1^2 - v_2^2)/(2 g mu); the peak of a constant friction is its plateau.
 
-    The parabola through the last point that sticks and two of the plateau is 0.06 % too high.
+    The cubics overshoot by some 1 % where the plateau begins.
     """
     shape = (1, 3, 2, 1, 2)
     values = np.full(shape, 0.8) * np.array([0.5, 1.0, 2.0]).reshape(1, 3, 1, 1, 1)
@@ -112,7 +112,15 @@ def test_braking_distance_of_constant_friction() -> None:
     found = data.braking_distance.isel(kind=0, temperature=0)
     assert found.sel(bound="value", brake="locked") == pytest.approx(expected, rel=1e-6)
     assert found.sel(bound="low", brake="locked") == pytest.approx(0.5 * expected, rel=1e-6)
-    assert found.sel(bound="value", brake="peak") == pytest.approx(expected, rel=1e-3)
+    assert found.sel(bound="value", brake="peak") == pytest.approx(expected, rel=2e-2)
+
+
+def test_road_without_an_interval_has_a_value() -> None:
+    """Ends that are not known stay unknown: the peak of the value does not."""
+    force = np.array([np.full(30, np.nan), np.linspace(0.1, 1.0, 30)])
+    peak, slip = question._peaks(SLIPS, force)
+    assert np.isnan([peak[0], slip[0]]).all()
+    assert (peak[1], slip[1]) == pytest.approx((1.0, 1.0))
 
 
 def test_table_is_read_between_its_points_and_kept_beyond() -> None:
@@ -135,11 +143,11 @@ def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
     """The Magic Formula follows Burckhardt's curves within 3 % of the peak, rms."""
     burckhardt, magic = FORMULAS["burckhardt"], FORMULAS["magic_formula"]
     force = burckhardt.function(SLIPS, *parameters)
-    found, misfit = burckhardt.fit(SLIPS, force)
+    *found, misfit = burckhardt.fit(SLIPS, force)
     assert found == pytest.approx(parameters, rel=1e-4)
     assert misfit < 1e-6
-    assert magic.fit(SLIPS, force)[1] < 0.03
-    assert magic.fit(SLIPS, magic.function(SLIPS, 12.0, 1.6, 1.0, 0.3))[1] < 1e-3
+    assert magic.fit(SLIPS, force)[-1] < 0.03
+    assert magic.fit(SLIPS, magic.function(SLIPS, 12.0, 1.6, 1.0, 0.3))[-1] < 1e-3
 
 
 @pytest.mark.parametrize(

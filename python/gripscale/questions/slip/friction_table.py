@@ -49,11 +49,7 @@ _WARMER = 47.0
 
 
 def friction_table(
-    case: Case,
-    temperatures: Sequence[float],
-    fastest: float,
-    bench: Bench,
-    tolerance: float | None = None,
+    case: Case, temperatures: Sequence[float], fastest: float, bench: Bench
 ) -> xr.Dataset:
     """Return the friction of a case up to a sliding speed [m/s], at temperatures [K] and above.
 
@@ -63,23 +59,17 @@ def friction_table(
     """
     if case.surface.measured is None:
         raise InputError("a slip curve needs a measured surface; got sine waves")
-    asked = json.dumps([software(), case.key, list(temperatures), fastest, tolerance])
+    asked = json.dumps([software(), case.key, list(temperatures), fastest])
     key = hashlib.sha256(asked.encode()).hexdigest()[:KEY_LENGTH]
     stored = None if bench.store is None else bench.store.get(key)
     if stored is None:
-        stored = _solved(case, temperatures, fastest, bench, tolerance)
+        stored = _solved(case, temperatures, fastest, bench)
         if bench.store is not None:
             bench.store.put(key, stored.assign_attrs(prediction_key=key))
     return stored.drop_attrs()
 
 
-def _solved(
-    case: Case,
-    temperatures: Sequence[float],
-    fastest: float,
-    bench: Bench,
-    tolerance: float | None,
-) -> xr.Dataset:
+def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Bench) -> xr.Dataset:
     """Solve the contacts of a table and return it."""
     conditions = replace(case.conditions or Conditions(), heat=None)
     warms = case.conditions is not None and case.conditions.heat is not None
@@ -96,7 +86,7 @@ def _solved(
         shifted = math.isfinite(kelvin)
         there = replace(conditions, temperature=kelvin) if shifted else conditions
         load = replace(case.load, speed=speed, pressure=pressure)
-        model = DirectContact(tolerance=tolerance, conditions=there)
+        model = DirectContact(tolerance=None, conditions=there)
         label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
         label += f", {kelvin - ZERO_CELSIUS:.3g} C" if shifted else ""
         points.append(Point(index, label, Task(case.rubber, case.surface, load, model)))

@@ -32,13 +32,8 @@ from gripscale.io.table import Column, Table, on_page, significant
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.slip.charts import slip_panels, slip_sheet
-from gripscale.questions.slip.friction_table import (
-    BOUNDS,
-    TABLE,
-    TableFriction,
-    friction_table,
-)
-from gripscale.questions.slip.vehicle_formulas import FORMULAS
+from gripscale.questions.slip.friction_table import BOUNDS, TABLE, TableFriction, friction_table
+from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT
 from gripscale.questions.vary.axis import axes_of
 from gripscale.report.again import case_name, rerun_section
 from gripscale.report.elements import Card, Page, Section
@@ -52,6 +47,8 @@ _BRAKING = "80 km/h", "20 km/h"
 _BRAKING_SPEEDS = 5
 """Points of Gauss's quadrature over the speeds of braking."""
 _GRAVITY = 9.80665
+_FINE = 1000
+"""Slips at which a peak is sought."""
 BRAKES = ("peak", "locked")
 """An ideal control that holds the peak, and locked wheels."""
 _NO_TYRE = (
@@ -153,15 +150,12 @@ class SlipCurve(Result):
     def formulas_table(self) -> Table:
         """Return the parameters of Burckhardt's formula and of the Magic Formula."""
         rows, columns = self._rows, self._names()
-        for name, formula in FORMULAS.items():
-            for parameter in formula.parameters:
+        for name in FORMULAS:
+            for parameter in self.data[f"{name}_parameter"].values:
                 values = rows[name].sel({f"{name}_parameter": parameter}).values
-                columns.append(Column(f"{name}_{parameter}", values, parameter))
-            columns.append(
-                Column(f"{name}_misfit", rows[f"{name}_misfit"].values, "rms", "%", 0.01)
-            )
-        texts = [f"{formula.text}." for formula in FORMULAS.values()]
-        notes = [*texts, "The misfit is over the peak."]
+                as_percent = ("%", 0.01) if parameter == MISFIT else ()
+                columns.append(Column(f"{name}_{parameter}", values, parameter, *as_percent))
+        notes = [*(f"{formula.text}." for formula in FORMULAS.values()), "rms: over the peak."]
         return Table("formulas", columns, "Formulas of vehicle models", notes, keys=1)
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
@@ -193,7 +187,6 @@ def slip_curve(
     temperature: Any = None,
     braking: Sequence[float | str] = _BRAKING,
     stiffness: float = STIFFNESS,
-    tolerance: float | None = None,
     folder: str | Path | None = None,
     workers: int | None = None,
     on_task: OnTask | None = None,
@@ -216,8 +209,6 @@ def slip_curve(
         Speeds [m/s] from which and to which the braking distance goes.
     stiffness : float
         Shear stress of a bristle over its deflection [Pa/m].
-    tolerance : float, optional
-        Estimated relative error of each contact; that of its first full grid by default.
     folder : path, optional
         Keeps the friction as soon as it is there: what was interrupted resumes.
     workers, on_task
@@ -236,7 +227,11 @@ def slip_curve(
     InputError, FileError
         For what cannot be used; if a contact has no result.
     """
-    slips = _slips(slip)
+    slips = _SLIPS if slip is None else checks.increasing_vector("slip", slip)
+    if slips.size < 5 or slips[-1] > 1.0:
+        raise InputError(
+            f"slip must have at least 5 rising values up to 1; got {checks.short_repr(slip)}"
+        )
     speeds = _values("speed", speed)
     fast, slow = (in_si("braking", value, "speed") for value in braking)
     if not fast > slow >= 0.0 or min(speeds) <= 0.0:
@@ -253,7 +248,7 @@ def slip_curve(
     if temperature is None and case.rubber.shift is not None:
         kelvins = [case.rubber_before.reference_temperature or math.nan]
     with bench_in(folder, workers, None, on_task) as bench:
-        table = friction_table(case, kelvins, max(*speeds, fast), bench, tolerance)
+        table = friction_table(case, kelvins, max(*speeds, fast), bench)
     data = _curves(brush, table, np.array(kelvins or [math.nan]), speeds, slips, (fast, slow))
     attrs: dict[str, Any] = {
         "title": "Braking force over slip",
@@ -266,15 +261,6 @@ def slip_curve(
         **provenance.version_attributes(),
     }
     return SlipCurve(data.assign_attrs(case.attributes, **attrs), record.inputs(case))
-
-
-def _slips(slip: ArrayLike | None) -> Array:
-    values = _SLIPS if slip is None else checks.increasing_vector("slip", slip)
-    if values.size < 5 or values[-1] > 1.0:
-        raise InputError(
-            f"slip must have at least 5 rising values up to 1; got {checks.short_repr(slip)}"
-        )
-    return values
 
 
 def _values(name: str, value: Any) -> list[float]:
@@ -320,35 +306,25 @@ def _curves(
 
 
 def _peaks(slips: Array, force: Array) -> tuple[Array, Array]:
-    """Return the largest forces and their slips, by the parabola through three points in ln s."""
-    at = np.clip(np.argmax(force, axis=-1), 1, slips.size - 2)[..., None]
-    y = [np.take_along_axis(force, at + i, -1)[..., 0] for i in (-1, 0, 1)]
-    x = [np.log(slips)[at[..., 0] + i] for i in (-1, 0, 1)]
-    before, behind = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
-    bend = (behind - before) / (x[2] - x[0])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        top = 0.5 * (x[0] + x[1]) - 0.5 * before / bend
-    inside = (bend < 0.0) & (top > x[0]) & (top < x[2])
-    best = np.argmax(force, axis=-1)
-    top = np.where(inside, top, np.log(slips)[best])
-    peak = y[0] + before * (top - x[0]) + bend * (top - x[0]) * (top - x[1])
-    return np.where(inside, peak, force.max(-1)), np.exp(top)
+    """Return the largest forces and their slips, by cubics through the curves over ln s."""
+    from scipy.interpolate import CubicSpline  # slow to import
+
+    fine = np.geomspace(slips[0], slips[-1], _FINE)
+    curves = CubicSpline(np.log(slips), np.nan_to_num(force), axis=-1)(np.log(fine))
+    unknown = np.isnan(force).any(-1)  # an end without an interval
+    best = fine[np.argmax(curves, axis=-1)]
+    return np.where(unknown, np.nan, curves.max(-1)), np.where(unknown, np.nan, best)
 
 
 def _formulas(data: xr.Dataset) -> dict[str, Any]:
     """Return the parameters of the formulas through the value of each curve, and their misfits."""
     curves = data.force.sel(bound="value", drop=True)
-    dims, variables = curves.dims[:-1], dict[str, Any]()
+    variables: dict[str, Any] = {}
     for name, formula in FORMULAS.items():
         along = f"{name}_parameter"
-        fits = [
-            formula.fit(data.slip.values, curve)
-            for curve in curves.values.reshape(-1, data.slip.size)
-        ]
-        parameters, misfits = (
-            np.array(x).reshape(*curves.shape[:-1], -1) for x in zip(*fits, strict=True)
+        fits = np.apply_along_axis(
+            lambda y, f=formula: f.fit(data.slip.values, y), -1, curves.values
         )
-        variables[along] = (along, list(formula.parameters))
-        variables[name] = ((*dims, along), parameters, {"units": "1"})
-        variables[f"{name}_misfit"] = (dims, misfits[..., 0], {"units": "1"})
+        variables[along] = (along, [*formula.parameters, MISFIT])
+        variables[name] = ((*curves.dims[:-1], along), fits, {"units": "1"})
     return variables

@@ -34,8 +34,8 @@ class VehicleFormula(NamedTuple):
     high: tuple[float, ...]
     text: str
 
-    def fit(self, slip: Array, force: Array) -> tuple[Array, float]:
-        """Return the parameters through a slip curve, and the rms misfit over its peak."""
+    def fit(self, slip: Array, force: Array) -> Array:
+        """Return the parameters through a slip curve, then the rms misfit over its peak."""
         from scipy.optimize import least_squares  # slow to import
 
         peak, slope = float(force.max()), float(force[0] / slip[0])
@@ -46,9 +46,11 @@ class VehicleFormula(NamedTuple):
             return self.function(slip, *values) - force
 
         fit = least_squares(misfit, guess, bounds=(self.low, self.high))
-        return fit.x, float(np.sqrt(np.mean(fit.fun**2))) / peak
+        return np.append(fit.x, np.sqrt(np.mean(fit.fun**2)) / peak)
 
 
+MISFIT = "rms"
+"""What the misfit is called among the parameters."""
 FORMULAS = {
     "burckhardt": VehicleFormula(
         burckhardt, ("c1", "c2", "c3"), (0, 0.1, -2), (5, 500, 5), "c1 (1 - exp(-c2 s)) - c3 s"
