@@ -41,8 +41,8 @@ SlidingFriction = Callable[[Array, Array, Array], Array]
 """mu [-] of sliding speed [m/s], pressure [Pa] and temperature rise [K], of one shape."""
 
 _NODES = 12
-"""Points of a quadrature along the sliding part. With a smooth friction over speed the force is that
-of 64 points within 1e-4."""
+"""Points of a quadrature along the sliding part. With a friction that is smooth over speed they are
+within 1e-4 of 64 points."""
 _HALVINGS = 7
 """Of the interval in which a sliding speed lies, in its logarithm, before a secant through what is
 left, some 15 %."""
@@ -126,7 +126,7 @@ def brush_force(
     u, weights = _unit_gauss(_NODES)
     y = edge + (1.0 - edge) * u**2  # temperature rises with the square root from the edge
     warming = patch.warming(edge, y)
-    stress = patch.stress(y, warming)
+    stress = patch.friction_at(y, warming)[0] * brush.pressure_at(y)
     sliding = (1.0 - edge[..., 0]) * (stress * (2.0 * u * weights)).sum(-1)
     with np.errstate(divide="ignore", invalid="ignore"):
         sheared = np.where(
@@ -166,10 +166,6 @@ class _Patch(NamedTuple):
         part = np.where(below < 0.0, below / np.where(below < above, below - above, 1.0), 0.0)
         sliding = np.exp(low + np.clip(part, 0.0, 1.0) * (high - low))
         return self.friction(sliding, pressure, warming), sliding
-
-    def stress(self, y: Array, warming: Array) -> Array:
-        """Return the shear stress of bristles that slide [Pa]."""
-        return self.friction_at(y, warming)[0] * self.brush.pressure_at(y)
 
     def edge(self) -> Array:
         """Return y where bristles begin to slide: k sigma L y = mu p, cold; 0 where all slide."""

@@ -322,9 +322,8 @@ def _formulas(data: xr.Dataset) -> dict[str, Any]:
     variables: dict[str, Any] = {}
     for name, formula in FORMULAS.items():
         along = f"{name}_parameter"
-        fits = np.apply_along_axis(
-            lambda y, f=formula: f.fit(data.slip.values, y), -1, curves.values
-        )
+        fits = [formula.fit(data.slip.values, y) for y in curves.values.reshape(-1, data.slip.size)]
         variables[along] = (along, [*formula.parameters, MISFIT])
-        variables[name] = ((*curves.dims[:-1], along), fits, {"units": "1"})
+        values = np.reshape(fits, (*curves.shape[:-1], -1))
+        variables[name] = ((*curves.dims[:-1], along), values, {"units": "1"})
     return variables
