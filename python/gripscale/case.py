@@ -21,6 +21,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
+from gripscale.core import checks
 from gripscale.core.arrays import Quantity
 from gripscale.core.described import Described
 from gripscale.core.errors import GripscaleError, InputError
@@ -46,6 +47,7 @@ from gripscale.surface import (
     height_difference,
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
+from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
@@ -130,8 +132,11 @@ class Case(Described):
         Nominal pressure [Pa], or a text with its unit such as "3 bar".
     speed : float or str
         Sliding speed [m/s]; zero is the relaxed rubber at rest.
-    footprint : float or str
-        Length of the nominal contact [m].
+    footprint : float or str, optional
+        Length of the nominal contact [m]; 0.1 m by default.
+    tester : str, optional
+        A tester of skid resistance, one of `gripscale.testers.TESTERS`: its pressure, speed and
+        footprint stand where none is given, and the answer has its number.
     thickness : float or str, optional
         Thickness of the rubber on a rigid base [m]; without it the rubber has no end.
     smallest_wavelength : float or str, optional
@@ -167,9 +172,10 @@ class Case(Described):
         surface: SurfaceLike,
         rubber: RubberLike,
         *,
-        pressure: Quantity,
-        speed: Quantity,
-        footprint: Quantity = 0.1,
+        pressure: Quantity | None = None,
+        speed: Quantity | None = None,
+        footprint: Quantity | None = None,
+        tester: str | None = None,
         thickness: Quantity | None = None,
         smallest_wavelength: Quantity | None = None,
         waves: int = _WAVES,
@@ -185,7 +191,17 @@ class Case(Described):
         origin: Origin | None = None,
     ) -> None:
         self.origin = origin or Origin()
-        self.load = Load(pressure, speed, footprint, load_time, thickness)
+        self.tester = "" if tester is None else checks.one_of("tester", tester, TESTERS)
+        preset = TESTERS.get(self.tester)
+        if preset is None and (pressure is None or speed is None):
+            missing = "pressure" if pressure is None else "speed"
+            raise InputError(" must be given, or tester; got neither", key=missing)
+        chosen = {"pressure": pressure, "speed": speed, "footprint": footprint}
+        values: dict[str, Any] = {
+            name: getattr(preset, name, 0.1) if value is None else value
+            for name, value in chosen.items()
+        }
+        self.load = Load(**values, load_time=load_time, thickness=thickness)
         self.static = static
         self.chain = replace(chain or Chain(), conditions=conditions)
         if isinstance(rubber, Rubber):
@@ -255,6 +271,7 @@ class Case(Described):
     def attributes(self) -> dict[str, str]:
         """Attributes of every result: text and units of the case file, and the command."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
+        command |= {TESTER: self.tester} if self.tester else {}
         text = {"case": self.origin.text, CASE_TITLE: self.title}
         return text | {DISPLAY_UNITS: json.dumps(self.units)} | command
 
@@ -323,6 +340,7 @@ class Case(Described):
         surface = self.surface
         others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
         findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
+        findings += tester_findings(self.tester, self.rubber.name)
         fit = self.measured_rubber.fit
         if fit is not None and fit.findings:
             text = f"Rubber, doubts of its measurement and series: {'; '.join(fit.findings)}."

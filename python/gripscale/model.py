@@ -275,13 +275,13 @@ SAMPLING_ERRORS = {
     "total_friction_sampling_error": "relative standard error of the friction coefficient",
 }
 """Names of how well the measured surface stands for its road, where a model tells it."""
-_FREEDOM = "total_freedom"
+SAMPLING_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
 UPPER_HEIGHT, RELATIVE_LOAD = "total_upper_height", "total_relative_load"
 BASIS = SAMPLING_ERRORS | {
     UPPER_HEIGHT: "height that 1 % of the measured lines exceed, over the rms height",
     RELATIVE_LOAD: "pressure times largest wave, over modulus times rms height of the lines",
-    _FREEDOM: "degrees of freedom of the sampling errors",
+    SAMPLING_FREEDOM: "degrees of freedom of the sampling errors",
     STEEP_SHARE: "share of the friction from contact on slopes above 1",
     MISSING_SHARE: "share of the contact on heights that were missing and interpolated",
 }

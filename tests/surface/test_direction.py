@@ -11,11 +11,11 @@ import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding
 from gripscale.questions.answer.direct_contact import each_measured
+from gripscale.surface.autocorrelation import texture_lengths
 from gripscale.surface.direction import (
     area_over_truth,
     direction_of_map,
     direction_of_profiles,
-    texture_aspect_ratio,
 )
 from tests.samples import ZENER
 from tests.verification.known_surfaces import LARGEST, SMALLEST, surface, two_lines
@@ -83,16 +83,18 @@ def test_texture_aspect_ratio_of_stretched_waves():
     for ratio in (2.0, 3.0, 6.0):
         for way in ("along", "across"):
             whole = surface(f"{ratio:g}:1 {way}", 1)
-            assert texture_aspect_ratio(whole) == pytest.approx(1.0 / ratio, rel=0.15)
+            assert texture_lengths(whole).aspect_ratio == pytest.approx(1.0 / ratio, rel=0.15)
     isotropic = surface("gauss", 0)
-    assert texture_aspect_ratio(isotropic) > 0.8
+    assert texture_lengths(isotropic).aspect_ratio > 0.8
     assert direction_of_map(isotropic) is None
     told = direction_of_map(whole)
     assert told is not None
     assert "its direct contact holds" in told.sentence
     tilted = replace(whole, z=whole.z + 0.1 * whole.x[:, None])
-    assert texture_aspect_ratio(tilted) == pytest.approx(texture_aspect_ratio(whole), rel=1e-6)
-    assert np.isnan(texture_aspect_ratio(replace(whole, z=np.zeros(whole.z.shape))))
+    assert texture_lengths(tilted).aspect_ratio == pytest.approx(
+        texture_lengths(whole).aspect_ratio, rel=1e-6
+    )
+    assert np.isnan(texture_lengths(replace(whole, z=np.zeros(whole.z.shape))).aspect_ratio)
 
 
 def test_a_profile_across_is_compared_and_never_solved():

@@ -451,6 +451,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 pressure=load.pressure,
                 speed=load.speed,
                 footprint=load.footprint,
+                tester=load.tester,
                 load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 static=load.static,

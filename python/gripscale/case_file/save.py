@@ -160,6 +160,7 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
     tables["rubber"]["thickness"] = load.thickness
     tables["rubber"]["extrapolate"] = case.chain.extrapolate
     tables["load"] |= {"static": case.static, "load_time": load.load_time}
+    tables["load"]["tester"] = case.tester or None
     return {
         name: {key: value for key, value in keys.items() if value not in (None, [], {})}
         for name, keys in tables.items()

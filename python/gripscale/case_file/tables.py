@@ -32,6 +32,7 @@ from gripscale.questions.uncertainty.options import (
     pressure_error,
 )
 from gripscale.rubber.strain_energy import NeoHookean
+from gripscale.testers import TESTERS
 
 _CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
 
@@ -271,6 +272,17 @@ class LoadTable(CaseTable):
     """The relaxed rubber at rest, too."""
     load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
+    tester: (
+        Literal["pendulum", "dynamic_friction_tester", "reference_tyre", "locked_wheel"] | None
+    ) = None
+    """A tester, whose pressure, speed and footprint then need not be stated."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_tester(cls, values: Any) -> Any:
+        preset = TESTERS.get(str(values.get("tester"))) if isinstance(values, dict) else None
+        keys = ("pressure", "speed", "footprint")
+        return values if preset is None else {k: getattr(preset, k) for k in keys} | values
 
     @property
     def nominal(self) -> Load:

@@ -202,6 +202,8 @@ def fit_surface(
     ]
     if prepared.measured is not None:
         parts.append(page.texture_table(prepared.measured.texture))
+        if (levels := prepared.measured.texture_levels) is not None:
+            parts.append(page.texture_levels_table(levels))
         if slopes:
             parts.append(page.rms_slopes_table(prepared.measured.slopes))
     print_parts(console, parts)

@@ -42,6 +42,7 @@ from .inputs.charts_of_surface import surface_figure as surface_figure
 from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity
+from .slip.question import SlipCurve as SlipCurve
 from .uncertainty.first_order import first_order as first_order
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
 from .uncertainty.propagation import of_same_inputs as of_same_inputs

@@ -28,6 +28,7 @@ ROOMS = [
     "gripscale.questions.sensitivity",
     "gripscale.questions.design",
     "gripscale.questions.cut_off",
+    "gripscale.questions.slip",
     "gripscale.questions.calibration",
 ]
 """Rooms in the order of the command line."""

@@ -22,7 +22,7 @@ from gripscale.questions.answer.estimate import ANSWER_NUMBERS, DIRECT
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
 SUMMARY_FILE = "summary.xlsx"
-ROWS = (STATUS, "status", "gain")
+ROWS = (STATUS, "status", "gain", "force")
 """Numbers of which a result has a row for each value: the first that is in it counts."""
 OF_MODELS = ("model", "model")
 """Dimensions of models side by side."""

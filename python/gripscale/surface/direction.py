@@ -9,8 +9,7 @@ from the height difference correlations C. `AREA_OVER_TRUTH` holds how much: Gau
 3 and 6 times as long one way, four maps each, 3 bar and 0.3 m/s
 (`python -m tests.verification.known_surfaces --ridges`). Frictions err by less than 20 %.
 
-The texture aspect ratio of a map, ISO 25178-2:2021, is that of the shortest and the longest way
-from the middle of its autocorrelation to where that falls to 0.2; 1 without a direction.
+A map tells it by its texture aspect ratio (`gripscale.surface.autocorrelation`).
 """
 
 from __future__ import annotations
@@ -25,10 +24,9 @@ from gripscale.core import checks
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.core.units import in_mm
 from gripscale.core.wording import CaseKey, Words
-from gripscale.surface.cleaning import subtract_form
+from gripscale.surface.autocorrelation import texture_lengths
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import HeightMap, Profile
-from gripscale.surface.resampling import fill_gaps
 
 _SLOPE_RATIO = np.array([0.201, 0.393, 0.567, 0.725, 1.0, 1.38, 1.76, 2.54, 4.91])
 AREA_OVER_TRUTH = np.array([2.55, 1.52, 1.29, 1.11, 1.0, 0.87, 0.86, 0.73, 0.68])
@@ -43,14 +41,8 @@ _HARMLESS = 1.1
 _WIDEST = math.log(10.0)
 """Half width of the band of a profile that is too short for one."""
 
-_FALLEN = 0.2
-"""Autocorrelation to which the texture aspect ratio is measured."""
-
 _NO_DIRECTION = 0.5
 """Texture aspect ratio above which a map counts as without direction."""
-
-_WAYS = 180
-"""Directions in which the autocorrelation is followed."""
 
 
 def area_over_truth(slope_ratio: float) -> float:
@@ -84,7 +76,7 @@ def direction_of_profiles(
 
 def direction_of_map(surface: HeightMap) -> Finding | None:
     """Return that lines of a map do not stand for it, where its texture has a direction."""
-    aspect = texture_aspect_ratio(surface)
+    aspect = texture_lengths(surface).aspect_ratio
     if not aspect < _NO_DIRECTION:
         return None
     text = (
@@ -92,30 +84,6 @@ def direction_of_map(surface: HeightMap) -> Finding | None:
         "contact holds, chain and theories take its lines for those of an isotropic surface."
     )
     return Finding(Severity.WARNING, text, topic=Topic.SURFACE)
-
-
-def texture_aspect_ratio(surface: HeightMap) -> float:
-    """Return the texture aspect ratio Str [-] of a map; NaN where it is flat or too small.
-
-    The autocorrelation is that of the heights over their plane, without wrapping round. Where it
-    does not fall to 0.2 within half the map, the way ends there.
-    """
-    level = subtract_form(surface, order=1)[0]
-    z, (dx, dy) = fill_gaps(level.z, level.step), level.step
-    nx, ny = z.shape
-    # without wrapping round: with as many zeros beyond either end
-    correlation = np.fft.irfft2(np.abs(np.fft.rfft2(z, [2 * nx, 2 * ny])) ** 2, [2 * nx, 2 * ny])
-    if not correlation[0, 0] > 0.0:
-        return math.nan
-    away = np.linspace(0.0, min((nx // 2 - 1) * dx, (ny // 2 - 1) * dy), max(nx, ny))
-    lengths = []
-    for angle in np.linspace(0.0, np.pi, _WAYS, endpoint=False):
-        i = np.rint(away * np.cos(angle) / dx).astype(int)
-        j = np.rint(away * np.sin(angle) / dy).astype(int)
-        pairs = (nx - np.abs(i)) * (ny - np.abs(j))
-        fallen = correlation[i, j] / pairs < _FALLEN * correlation[0, 0] / z.size
-        lengths.append(away[np.argmax(fallen)] if fallen.any() else away[-1])
-    return float(min(lengths) / max(lengths))
 
 
 class _SlopeRatio(NamedTuple):

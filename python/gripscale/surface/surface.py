@@ -33,6 +33,7 @@ from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.texture import Heights, textures
+from gripscale.surface.texture_levels import texture_levels
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -153,6 +154,14 @@ class Measured(Described):
         if len(named) > 1:
             named["all profiles"] = self.cleaned
         return textures(named, "texture_of")
+
+    @property
+    def texture_levels(self) -> xr.Dataset | None:
+        """Texture levels of all profiles together, or of the map; None if they are too short."""
+        try:
+            return texture_levels(self.heights)
+        except InputError:
+            return None
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:

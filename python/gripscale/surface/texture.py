@@ -23,6 +23,10 @@ backwards, annex D), segments of 100 mm cut and the least-squares line of each s
 segment depth is the mean of the highest points of its two halves over its mean height; the mean
 profile depth is the mean of the segment depths. Steep steps are
 taken out first by the rule of the standard, whatever rule cleaned the profile.
+
+The g-factor (ISO 13473-2:2002; ISO 10844:2021, annex B) is the share of the heights of a segment
+above the middle between its highest and lowest point, without the filter, mean of the segments:
+large where stones form a plateau with gaps between them, small where single stones stand out.
 """
 
 from __future__ import annotations
@@ -33,7 +37,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gripscale.core.arrays import Array
-from gripscale.core.units import in_mm
+from gripscale.core.units import MILLI, in_mm
+from gripscale.surface.autocorrelation import texture_direction, texture_lengths
 from gripscale.surface.cleaning import mark_steep_steps, subtract_form, subtract_trend
 from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.resampling import fill_gaps, without_line
@@ -59,6 +64,7 @@ dropouts and 5 % of spikes."""
 
 TEXTURE_NUMBERS = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
+    "g_factor": ("g", "1", "share of the heights above the middle, ISO 13473-2"),
     "depth_segments": ("segments", "1", "segments of 100 mm in the mean profile depth"),
     "rms_height": ("Pq, Sq", "m", "root mean square height"),
     "mean_deviation": ("Pa, Sa", "m", "mean absolute height"),
@@ -70,6 +76,9 @@ TEXTURE_NUMBERS = {
     "rms_slope": ("Pdq", "1", "root mean square slope of lines"),
     "rms_gradient": ("Sdq", "1", "root mean square gradient of the surface"),
     "developed_area_ratio": ("Sdr", "1", "area of the surface over its projection, less one"),
+    "autocorrelation_length": ("Sal", "m", "shortest length to an autocorrelation of 0.2"),
+    "texture_aspect_ratio": ("Str", "1", "that length over the longest, 1 without a direction"),
+    "texture_direction": ("Std", "rad", "angle of the ridges to x"),
 }
 """Symbols of profiles and maps, unit and meaning of each number."""
 
@@ -81,10 +90,10 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     """Return the texture of a profile, of several together, or of a map.
 
     The result has scalars by the names of `TEXTURE_NUMBERS` in SI units, with attributes `units`,
-    `symbol` and `long_name`. Profiles have no `rms_gradient` and `developed_area_ratio`, a map has
-    no `rms_slope`: NaN. The mean profile depth of a map is that of its lines along x. It is NaN
-    without a whole segment of 100 mm; the text `depth_note` then says why. Raises `InputError` if
-    `surface` is none of these.
+    `symbol` and `long_name`. Profiles have none of the numbers with S alone in their symbol, a
+    map has no `rms_slope`: NaN. The mean profile depth of a map is that of its lines along x. It is
+    NaN without a whole segment of 100 mm; the text `depth_note` then says why. Raises `InputError`
+    if `surface` is none of these.
 
     Parameters
     ----------
@@ -103,6 +112,10 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
             "rms_gradient": _mean(squares) ** 0.5,
             "developed_area_ratio": _mean(np.sqrt(1.0 + squares) - 1.0),
         }
+        lengths = texture_lengths(surface)
+        values["autocorrelation_length"] = lengths.shortest
+        values["texture_aspect_ratio"] = lengths.aspect_ratio
+        values["texture_direction"] = texture_direction(surface)
     else:
         lines = profile_list(surface)
         levels = [subtract_trend(line)[0] for line in lines]
@@ -111,6 +124,7 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
         values["rms_slope"] = _mean(slopes**2) ** 0.5
     depths = np.concatenate([segment_depths(line) for line in lines])
     values |= {"mean_profile_depth": _mean(depths), "depth_segments": depths.size}
+    values["g_factor"] = _mean(np.concatenate([_shares_above_middle(line) for line in lines]))
     note = ""
     if not depths.size:
         if max(line.length for line in lines) < _SEGMENT:
@@ -148,21 +162,55 @@ def _dataset(values: Mapping[str, float], note: str) -> xr.Dataset:
 
 def segment_depths(profile: Profile) -> Array:
     """Return the mean segment depths [m] of the whole segments; none with steps above 1 mm."""
+    halves = np.array_split(_segments(profile), 2, axis=1)
+    return np.asarray(np.mean([half.max(axis=1) for half in halves], axis=0))
+
+
+def _shares_above_middle(profile: Profile) -> Array:
+    """Return the g-factor of each whole segment [-]."""
+    segments = _segments(profile, smooth=False)
+    middle = 0.5 * (segments.max(axis=1) + segments.min(axis=1))
+    return np.asarray((segments > middle[:, None]).mean(axis=1))
+
+
+def _segments(profile: Profile, *, smooth: bool = True) -> Array:
+    """Return the whole segments of a profile about their lines [m], (segments, samples).
+
+    None with steps above 1 mm. Without `smooth` short waves stay.
+    """
     step = max(profile.step, _SAMPLE)
     if step > _COARSEST or len(profile) * profile.step < _SEGMENT:
-        return np.zeros(0)
+        return np.zeros((0, 2))
     sample = np.floor(np.arange(len(profile)) * (profile.step / step) + 1e-6).astype(int)
     samples = int(_SEGMENT / step + 1e-6)
     whole = (sample[-1] + 1) // samples
     counts = np.bincount(sample)
     steady, _ = mark_steep_steps(profile)
     heights = np.bincount(sample, fill_gaps(steady.z)) / counts
-    smooth = _without_short_waves(heights, step / _SHORTEST_WAVE)
+    if smooth:
+        heights = _without_short_waves(heights, step / _SHORTEST_WAVE)
     missing = np.bincount(sample, np.isnan(steady.z)) / counts
-    segments, gaps = (part[: whole * samples].reshape(whole, -1) for part in (smooth, missing))
-    halves = np.array_split(without_line(segments), 2, axis=1)
-    depths = np.mean([half.max(axis=1) for half in halves], axis=0)
-    return np.asarray(depths[gaps.mean(axis=1) <= _MOST_MISSING])
+    segments, gaps = (part[: whole * samples].reshape(whole, -1) for part in (heights, missing))
+    return np.asarray(without_line(segments)[gaps.mean(axis=1) <= _MOST_MISSING])
+
+
+ESTIMATED_DEPTH = 1.1
+"""Estimated texture depth, which a patch of sand would show, over the mean profile depth
+(ISO 13473-1:2019)."""
+LABEL_DEPTH = 0.4e-3, 1.0e-3
+"""Texture depth of the asphalt on which tyres are labelled [m] (ISO 23671:2021: 0.7 +- 0.3 mm)."""
+
+
+def beside_label(depth: float) -> str:
+    """Return that a mean profile depth [m] is not that of the tyre label; empty if it is."""
+    estimated = ESTIMATED_DEPTH * depth
+    low, high = LABEL_DEPTH
+    if np.isnan(depth) or low <= estimated <= high:
+        return ""
+    return (
+        f"Texture depth {in_mm(estimated, 2)} ({ESTIMATED_DEPTH} MPD); the asphalt of the tyre "
+        f"label has {low / MILLI:.1f} to {high / MILLI:.1f} mm (ISO 23671): no wet grip of a label."
+    )
 
 
 def _without_short_waves(heights: Array, frequency: float) -> Array:

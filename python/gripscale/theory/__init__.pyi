@@ -1,3 +1,6 @@
+from .brush import Brush as Brush
+from .brush import BrushForce as BrushForce
+from .brush import brush_force as brush_force
 from .elastic import contact_fraction as contact_fraction
 from .elastic import contact_half_width as contact_half_width
 from .elastic import contact_pressure as contact_pressure

@@ -36,6 +36,7 @@ from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
 from gripscale.surface.direction import ERROR_OF_RIDGES
+from gripscale.testers import TESTER, tester_reading
 
 _SHORT = {"friction": "μ", "contact_fraction": "area"}
 _WORDS = {"friction": "friction", "contact_fraction": "area"}
@@ -97,6 +98,8 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
         thick = f", rubber {thickness} thick on a rigid base"
     yield f"For {pressure} {motion}, roughness down to {end}{thick}."
+    if reading := tester_reading(data.attrs.get(TESTER, ""), *reliance.headline(data, "friction")):
+        yield f"{reading}."
     if MEASURED_FRICTION in data:
         yield f"Measured: μ = {measured_words(data)}."
     if not reliance.is_measured(data):

@@ -26,6 +26,7 @@ from gripscale.charts.chart import (
     Series,
     ShadedBand,
     ValueMap,
+    wavelength_axis,
 )
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
@@ -322,3 +323,19 @@ def surface_figures(prepared: Surface, figures: Figures) -> None:
     fit = prepared.measured.self_affine
     figure = correlation_sheet(prepared.correlation, waves, fit)
     figures.save(figure, "correlation")
+    if (levels := prepared.measured.texture_levels) is not None:
+        figures.save(texture_levels_sheet(levels), "texture_levels")
+
+
+def texture_levels_sheet(levels: xr.Dataset) -> Sheet:
+    """Describe texture levels over the wavelength."""
+    lengths = levels.wavelength.values / MILLI
+    panel = Panel(
+        wavelength_axis(lengths),
+        PlotAxis("texture level re 1 µm [dB]"),
+        [Series(lengths, levels.level.values, BLUE, marker="o", size=3.5)],
+        name="texture-levels",
+        caption="Third-octave texture levels, ISO 13473-4.",
+        alt="Texture level in decibels against texture wavelength.",
+    )
+    return Sheet([panel], 1, NARROW, 3.4)

@@ -27,7 +27,7 @@ from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, End, fast_end, slow_end
-from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS
+from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS, beside_label
 
 if TYPE_CHECKING:
     from gripscale.conditions.conditions import Conditions
@@ -69,15 +69,31 @@ def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") 
     """Return the texture of surfaces along `dim`, without the numbers that none of them has."""
     columns = [Column(dim, data[dim].values.astype(str).tolist(), heading)]
     for name, (symbol, unit, _) in TEXTURE_NUMBERS.items():
-        values = data[name].values.astype(float)
+        values = data[name].values.astype(float) if name in data else np.full(1, np.nan)
         if np.nan_to_num(values).any():
-            printed, size = ("mm", MILLI) if unit == "m" else ("", 1.0)
+            printed, size = _TEXTURE_UNITS.get(unit, ("", 1.0))
             form = whole_number if name == "depth_segments" else significant
             columns.append(Column(name, values, symbol, printed, size, format=form))
     notes = [str(text) for text in data[DEPTH_NOTE].values]
     if any(notes):
         columns.append(Column(DEPTH_NOTE, notes, "no MPD", words=True))
-    return Table("texture", columns, "Texture: ISO 13473-1, ISO 21920-2 and ISO 25178-2")
+    title = "Texture: ISO 13473-1 and -2, ISO 21920-2 and ISO 25178-2"
+    other_road = "" if heading else beside_label(float(data["mean_profile_depth"][-1]))
+    return Table("texture", columns, title, [other_road] if other_road else [])
+
+
+_TEXTURE_UNITS = {"m": ("mm", MILLI), "rad": ("°", math.radians(1.0))}
+"""Units in which texture is shown, with their sizes."""
+
+
+def texture_levels_table(data: xr.Dataset) -> Table:
+    """Return texture levels by wavelength, as `gripscale.surface.texture_levels`."""
+    columns = [
+        Column("wavelength", data.wavelength.values, "λ", "mm", MILLI, format=digits(3)),
+        Column("level", data.level.values, "L_tx", "dB", format=fixed(1)),
+    ]
+    title = "Third-octave texture levels re 1 µm: ISO 13473-4"
+    return Table("levels", columns, title, keys=1)
 
 
 def prony_table(times: ArrayLike, moduli: ArrayLike) -> Table:

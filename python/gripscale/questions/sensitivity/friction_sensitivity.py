@@ -26,7 +26,12 @@ import xarray as xr
 from gripscale.core import checks
 from gripscale.core.checks import checked
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.experiment.design import CONVERGED, surface_numbers, variable_attributes
+from gripscale.experiment.design import (
+    CONVERGED,
+    basis_numbers,
+    surface_numbers,
+    variable_attributes,
+)
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import contact_trace, trace_variables, with_traces
 from gripscale.half_space.model import DirectContact
@@ -160,7 +165,8 @@ def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
     names = [name for name in answer if name in _DERIVATIVES]
     kept = answer[[*names, *trace_variables(answer)]]
-    return surface_numbers(answer, task).assign(kept.variables)
+    numbers = surface_numbers(answer, task).assign(basis_numbers(answer))
+    return numbers.assign(kept.variables)
 
 
 def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:

@@ -40,6 +40,7 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     derivatives_of_answer,
     with_rules_of_thumb,
 )
+from gripscale.questions.sensitivity.next_measurement import next_measurements
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
 from gripscale.questions.uncertainty.page import as_elements, not_stated
 from gripscale.questions.uncertainty.sampling import stated_options
@@ -137,6 +138,8 @@ class Sensitivity(Result):
         yield self.decades_table()
         if CARRIED.format("friction") in self.data:
             yield _carried_table(self.data)
+            if (table := next_measurements(self.data)) is not None:
+                yield table
         if "rule" not in self.data.dims:
             yield (
                 "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place "

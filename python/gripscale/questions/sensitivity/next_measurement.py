@@ -1,0 +1,100 @@
+"""What to measure next: how much of the interval of the answer each measurement would take.
+
+The interval is that of the answer with the errors of its inputs by first order. A measurement
+leaves a share of the standard error of one source: another of the same kind 1/sqrt(2), one that
+decides it nothing.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from gripscale.half_space import line_to_map
+from gripscale.io.table import Column, Table, percent
+from gripscale.model import RELATIVE_LOAD, SAMPLING_FREEDOM, UPPER_HEIGHT
+from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
+from gripscale.questions.answer.intervals import LogError, combined, half_width
+from gripscale.questions.sensitivity.friction_sensitivity import CARRIED, LOSS, STORAGE
+from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES
+from gripscale.questions.uncertainty.sampled_answer import ROAD
+from gripscale.questions.words import SYMBOLS
+
+AGAIN = 1.0 / math.sqrt(2.0)
+"""Share of a standard error that an equal, independent measurement leaves."""
+MEASUREMENTS = {
+    ROAD: ("as much of the road once more", AGAIN),
+    "modulus": ("moduli once more, {}", AGAIN),
+    "cut_off": ("a finer profile, to where the roughness ends", 0.0),
+    "cleaning": ("the profiles once more: spikes do not repeat", 0.0),
+    "height_noise": ("each profile twice, averaged", AGAIN**2),
+    "bulk_modulus": ("bulk modulus of the compound", 0.0),
+    "equilibrium_modulus": ("relaxation, to the equilibrium modulus", 0.0),
+    "temperature": ("temperature of the rubber, twice", AGAIN),
+    "pressure": ("nominal pressure, twice", AGAIN),
+    LINES_TO_SURFACE: ("a map in place of lines; it shows a direction, too", 0.0),
+}
+"""What measures each source, and the share of its standard error that it leaves. Noise of heights
+counts by its square."""
+
+
+def next_measurements(data: xr.Dataset) -> Table | None:
+    """Return measurements by how much of the interval of the friction they would take.
+
+    `data` is a result of `gripscale.sensitivity` at one point; None without an interval.
+    """
+    point = data.isel(dict.fromkeys(data["total_friction"].dims, 0))
+    if not math.isfinite(float(point.get(SAMPLING_FREEDOM, math.nan))):
+        return None
+    sources = [*map(str, point.source.values), *_factor_errors(point, "friction")]
+    listed = ["", *(name for name in sources if name in MEASUREMENTS)]
+    widths = {of: [_width(point, of, name) for name in listed] for of in CARRIED_QUANTITIES}
+    order = np.argsort([0.0, *widths["friction"][1:]], kind="stable")  # without any comes first
+    now = widths["friction"][0]
+    texts = [MEASUREMENTS[name][0] if name else "none" for name in listed]
+    columns = [
+        Column("measurement", [texts[i].format(_frequencies(point)) for i in order]),
+        *(
+            Column(f"{of}_width", [width[i] for i in order], f"± of {SYMBOLS[of]}", format=percent)
+            for of, width in widths.items()
+        ),
+        Column("takes", [1.0 - widths["friction"][i] / now for i in order], format="{:.0%}".format),
+    ]
+    notes = ["Half widths of the 90 % interval with the errors of the inputs, by first order."]
+    return Table("next", columns, "What to measure next", notes, keys=1)
+
+
+def _width(point: xr.Dataset, quantity: str, measured: str) -> float:
+    """Return the half width of an interval once a source is measured again [-]."""
+    carried = point[CARRIED.format(quantity)].fillna(0.0).values
+    sigmas = dict(zip(map(str, point.source.values), carried, strict=True))
+    errors = []
+    for name, sigma in (sigmas | _factor_errors(point, quantity)).items():
+        share = MEASUREMENTS[name][1] if name == measured else 1.0
+        road = float(point[SAMPLING_FREEDOM]) / share**2 if name == ROAD else math.inf
+        errors.append(LogError(xr.DataArray(share * sigma), xr.DataArray(road)))
+    return float(half_width(combined(errors)))
+
+
+def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
+    """Return the relative standard errors of the factors of the answer, by label."""
+    errors = {ASSUMED_FINITE_STRAIN.label: getattr(ASSUMED_FINITE_STRAIN, quantity).uncertainty}
+    if math.isfinite(float(point[UPPER_HEIGHT])):  # lines
+        laws = {
+            "friction": line_to_map.friction_ratio,
+            "contact_fraction": line_to_map.contact_fraction_ratio,
+        }
+        line = line_to_map.LineUnderLoad(point[UPPER_HEIGHT].values, point[RELATIVE_LOAD].values)
+        law = laws[quantity](line, point["total_contact_fraction"].values)
+        errors[LINES_TO_SURFACE] = float(law.uncertainty)
+    return errors
+
+
+def _frequencies(point: xr.Dataset) -> str:
+    """Return where nine tenths of the effect of the moduli lie."""
+    effect = (abs(point[LOSS]) + abs(point[STORAGE])).fillna(0.0).values
+    within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
+    low, high = np.exp(np.interp([0.05, 0.95], within, np.log(point.frequency.values)))
+    return f"{low:.1g} to {high:.1g} rad/s"

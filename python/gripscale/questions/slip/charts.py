@@ -1,0 +1,56 @@
+"""Chart of braking force over slip, with its band."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from gripscale.charts import style
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
+from gripscale.charts.style import WIDE
+from gripscale.core.units import celsius
+
+
+def slip_sheet(data: xr.Dataset) -> Sheet:
+    """Describe the braking force over slip, a panel for each kind of friction."""
+    panels = slip_panels(data)
+    return Sheet(panels, len(panels), WIDE, 3.6, layout={"sharey": True})
+
+
+def slip_panels(data: xr.Dataset) -> list[Panel]:
+    """Return the braking force over slip, a panel for each kind of friction."""
+    highest = 1.08 * float(data.force.max())
+    return [
+        Panel(
+            PlotAxis("slip [%]", low=0.0, high=100.0),
+            PlotAxis("braking force over load [-]", low=0.0, high=highest),
+            _marks(data.sel(kind=kind)),
+            name=f"slip-{number}",
+            title=str(kind),
+            caption=f"Braking force over slip, friction: {kind}. Bands: 90 % interval of it.",
+            alt="Braking force over load against slip.",
+        )
+        for number, kind in enumerate(data.kind.values, start=1)
+    ]
+
+
+def _marks(data: xr.Dataset) -> list[Mark]:
+    """Return a curve with its band for each temperature and speed."""
+    every = [(i, j) for i in range(data.sizes["temperature"]) for j in range(data.sizes["speed"])]
+    colours = style.colours(len(every), ordered=len(every) > 1)
+    slip = np.concatenate([[0.0], 100.0 * data.slip.values])
+    bands: list[Mark] = []
+    curves: list[Mark] = []
+    for (i, j), colour in zip(every, colours, strict=True):
+        curve = data.isel(temperature=i, speed=j)
+        low, value, high = (np.concatenate([[0.0], row]) for row in curve.force.values)
+        kelvin = float(curve.temperature)
+        words = [celsius(kelvin)] if math.isfinite(kelvin) else []
+        if data.sizes["speed"] > 1 or not words:
+            words.append(f"{3.6 * float(curve.speed):.3g} km/h")
+        bands.append(ShadedBand(slip, low, high, colour))
+        curves.append(Series(slip, value, colour, ", ".join(words)))
+    return [*bands, *curves]

@@ -1,0 +1,151 @@
+"""Friction of a case over sliding speed, temperature and pressure, with the interval of its answer.
+
+The contacts are solved on their first full grid under the conditions of the case, but for heat: how
+the rubber warms depends on its way through the patch. Between points friction is linear in ln v, T
+and ln p; beyond them it is that of the last point.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import xarray as xr
+
+from gripscale.case import Case
+from gripscale.conditions import Conditions
+from gripscale.core.arrays import Array
+from gripscale.core.errors import InputError
+from gripscale.core.provenance import software
+from gripscale.core.units import ZERO_CELSIUS
+from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
+from gripscale.experiment.solve import Bench
+from gripscale.experiment.task import KEY_LENGTH, Task
+from gripscale.questions.answer.estimate import TOTAL
+from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.study import study_numbers
+
+TABLE = "table_friction"
+"""Name of the friction over `kind`, `bound` and the three axes of the table."""
+AXES = ("sliding_speed", "rubber_temperature", "local_pressure")
+KINDS_OF_FRICTION = "hysteresis", "with area term"
+BOUNDS = ("low", "value", "high")
+"""Ends of the 90 % interval, and the value between."""
+
+_SLOWEST = 0.01
+"""Lowest sliding speed of the table [m/s]."""
+_SPEEDS = 6
+_PRESSURES = 0.375, 1.5
+"""Pressures over the mean one: the highest of a parabola, and a quarter of it."""
+_WARMEST = 80.0
+"""Rise of the temperature up to which friction is solved where the rubber warms [K]."""
+_WARMER = 47.0
+"""Largest step of the temperatures [K]."""
+
+
+def friction_table(
+    case: Case, temperatures: Sequence[float], fastest: float, bench: Bench
+) -> xr.Dataset:
+    """Return the friction of a case up to a sliding speed [m/s], at temperatures [K] and above.
+
+    `TABLE` over `kind` (hysteresis, and with the area term of the case), `bound` and `AXES`. The
+    store of the bench keeps it. Raises `InputError` if no surface was measured, or a contact has no
+    result.
+    """
+    if case.surface.measured is None:
+        raise InputError("a slip curve needs a measured surface; got sine waves")
+    asked = json.dumps([software(), case.key, list(temperatures), fastest])
+    key = hashlib.sha256(asked.encode()).hexdigest()[:KEY_LENGTH]
+    stored = None if bench.store is None else bench.store.get(key)
+    if stored is None:
+        stored = _solved(case, temperatures, fastest, bench)
+        if bench.store is not None:
+            bench.store.put(key, stored.assign_attrs(prediction_key=key))
+    return stored.drop_attrs()
+
+
+def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Bench) -> xr.Dataset:
+    """Solve the contacts of a table and return it."""
+    conditions = replace(case.conditions or Conditions(), heat=None)
+    warms = case.conditions is not None and case.conditions.heat is not None
+    values = {
+        "speed": np.geomspace(_SLOWEST, max(fastest, 10.0 * _SLOWEST), _SPEEDS),
+        "temperature": _temperatures(case, temperatures, warms),
+        "pressure": case.load.pressure * np.array(_PRESSURES),
+    }
+    points = []
+    for index in product(*(range(axis.size) for axis in values.values())):
+        speed, kelvin, pressure = (
+            float(axis[i]) for axis, i in zip(values.values(), index, strict=True)
+        )
+        shifted = math.isfinite(kelvin)
+        there = replace(conditions, temperature=kelvin) if shifted else conditions
+        load = replace(case.load, speed=speed, pressure=pressure)
+        model = AnswerModel(None, there, case.below_measurement)
+        label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
+        label += f", {kelvin - ZERO_CELSIUS:.3g} C" if shifted else ""
+        points.append(Point(index, label, Task(case.rubber, case.surface, load, model)))
+    design = Design({name: axis.size for name, axis in values.items()}, points)
+    data = solve_design(design, bench, study_numbers).assign_coords(values)
+    failed = [str(word) for word in data.prediction_status.values.flat if word != "converged"]
+    if failed:
+        raise InputError(f"the friction of the case has no result at every speed: {failed[0]}")
+    return _of_kinds(data).rename(dict(zip(values, AXES, strict=True)))
+
+
+def _temperatures(case: Case, asked: Sequence[float], warms: bool) -> Array:
+    """Return the temperatures of the table [K]; one that is NaN for a rubber without one."""
+    if not asked:
+        return np.array([math.nan])
+    low, high = min(asked), max(asked) + (_WARMEST if warms else 0.0)
+    if case.rubber.shift is not None:
+        high = max(min(high, case.rubber.shift.limits[1]), low)
+    return np.linspace(low, high, 1 + math.ceil((high - low) / _WARMER - 1e-9))
+
+
+def _of_kinds(data: xr.Dataset) -> xr.Dataset:
+    """Return the friction of the answer with its interval: hysteresis, and with the area term."""
+    numbers = ["answer_friction", *([TOTAL] if TOTAL in data else [])]
+    ends = ("_low", "", "_high")
+    kinds = [xr.concat([data[f"{name}{end}"] for end in ends], "bound") for name in numbers]
+    if not np.isfinite(kinds[0].sel(bound=1)).all():
+        raise InputError("the direct contact of the case has no friction for a slip curve")
+    table = xr.concat(kinds, "kind").transpose("kind", "bound", "speed", "temperature", "pressure")
+    coords = {"kind": list(KINDS_OF_FRICTION[: len(kinds)]), "bound": list(BOUNDS)}
+    text = variable_attributes("sliding friction with the interval of the answer")
+    return xr.Dataset({TABLE: table.assign_coords(coords).assign_attrs(text)})
+
+
+class TableFriction:
+    """The friction of a table as a brush asks for it, a row for each kind, bound and temperature.
+
+    Called with sliding speed, pressure and temperature rise over the temperature of the row.
+    """
+
+    def __init__(self, table: xr.DataArray, temperatures: Array) -> None:
+        speed, kelvin, pressure = (table[axis].values for axis in AXES)
+        self._axes = np.log(speed), np.nan_to_num(kelvin), np.log(pressure)
+        flat = table.values.reshape(-1, *table.shape[2:])
+        self._values = np.repeat(flat, temperatures.size, axis=0)
+        self._before = np.tile(temperatures, flat.shape[0])
+        self.rows = (*table.shape[:2], temperatures.size)
+
+    def __call__(self, speed: Array, pressure: Array, warming: Array) -> Array:
+        """Return friction [-] of the shape (rows, ...) of arguments with or without rows."""
+        from scipy.ndimage import map_coordinates  # slow to import
+
+        # behind the rows: speeds of the road, slips, points along the patch
+        row = np.arange(self._before.size).reshape(-1, 1, 1, 1)
+        kelvin = self._before[row] + warming
+        values = np.log(speed), kelvin, np.log(np.maximum(pressure, 1.0))
+        at = [
+            np.interp(value, axis, np.arange(axis.size))  # kept beyond the ends
+            for value, axis in zip(values, self._axes, strict=True)
+        ]
+        points = np.stack(np.broadcast_arrays(row, *at))
+        return np.asarray(map_coordinates(self._values, points, order=1, mode="nearest"))
