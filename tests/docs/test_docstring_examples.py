@@ -17,8 +17,8 @@ from tests.public_objects import public_objects, write_files
 SLOW = {"calibrate", "uncertainty"}
 """Seconds each."""
 MADE_BY_FUNCTIONS = {
-    *("BelowMeasurement", "ChainResult", "HeightDifference", "RoughContact", "ScaleResult"),
-    *("SelfAffineFit", "TransientResult"),
+    *("BelowMeasurement", "ChainResult", "GapFlow", "HeightDifference", "RoughContact"),
+    *("ScaleResult", "SelfAffineFit", "TransientResult"),
 }
 """Classes whose objects functions return, which have the example."""
 

@@ -13,7 +13,10 @@ from gripscale.io import netcdf
 from gripscale.questions.chain import page as waves
 from tests.samples import ROOT, case_text, write_short_road
 
-PAGE = (ROOT / "docs" / "reading-results.md").read_text(encoding="utf-8")
+PAGE = "".join(
+    (ROOT / "docs" / name).read_text(encoding="utf-8")
+    for name in ("reading-results.md", "reference/result-files.md")
+)
 
 CASE = case_text(
     'files = ["road.txt"]\nscales = 2\nsmallest_wavelength = "2 mm"',

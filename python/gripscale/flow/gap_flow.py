@@ -20,7 +20,7 @@ four times finer, solved anew, in 131.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -32,8 +32,10 @@ from scipy.sparse import csr_array
 import gripscale
 from gripscale.core import checks, provenance
 from gripscale.core.arrays import Array, Mask
+from gripscale.core.described import Pictured
 from gripscale.core.errors import InputError
 from gripscale.core.labels import labelled
+from gripscale.core.units import readable
 from gripscale.flow.multigrid import Multigrid, laplacian
 from gripscale.half_space.regions import periodic_regions
 from gripscale.half_space.result import RoughContact
@@ -60,8 +62,8 @@ class Junction:
     gap: float
 
 
-@dataclass(frozen=True)
-class GapFlow:
+@dataclass(frozen=True, repr=False)
+class GapFlow(Pictured):
     """Flow through a gap, along x and along y."""
 
     flow_factor: tuple[float, float]
@@ -104,20 +106,20 @@ class GapFlow:
         along_x, along_y = (phi * self.mean_gap**3 / 12.0 * share for phi in self.flow_factor)
         return along_x, along_y
 
-    def __str__(self) -> str:
-        lines = [f"Mean gap {self.mean_gap * 1e6:.4g} um, {self.contact_fraction:.1%} closed."]
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield gap and closed share, and what flows along each axis."""
+        yield "mean_gap", readable(self.mean_gap, "m")
+        yield "contact_fraction", f"{self.contact_fraction:.3g}"
         for axis, name in enumerate("xy"):
-            junction = self.junction[axis]
-            if junction is None:
-                lines.append(f"Along {name}: no open path, flow factor 0.")
-                continue
-            low, high = self.flow_factor_interval[axis]
-            lines.append(
-                f"Along {name}: flow factor {self.flow_factor[axis]:.4g} "
-                f"({low:.3g} to {high:.3g}); critical junction {junction.gap * 1e6:.3g} um high "
-                f"at x = {junction.x * 1e3:.4g} mm, y = {junction.y * 1e3:.4g} mm."
-            )
-        return "\n".join(lines)
+            junction, text = self.junction[axis], "no open path, flow factor 0"
+            if junction is not None:
+                low, high = self.flow_factor_interval[axis]
+                text = (
+                    f"flow factor {self.flow_factor[axis]:.4g} ({low:.3g} to {high:.3g}); critical "
+                    f"junction {readable(junction.gap, 'm')} high at x = "
+                    f"{readable(junction.x, 'm')}, y = {readable(junction.y, 'm')}"
+                )
+            yield f"along {name}", text
 
     def to_dataset(self) -> xr.Dataset:
         """Return numbers and fields as a labelled Dataset."""
@@ -156,6 +158,12 @@ def gap_flow(
     """Return the flow of a fluid through the gap of a contact.
 
     The gap is that of the dry contact: the pressure of the fluid does not widen it.
+
+        >>> gap = 1e-6 * (1.0 + 0.5 * np.sin(2.0 * np.pi * np.arange(64) / 64))
+        >>> flow = gs.gap_flow(np.tile(gap[:, None], (1, 64)), spacing=(1e-6, 1e-6))
+        >>> across, along = flow.flow_factor  # of the waves
+        >>> f"{across:.3f}, {along:.3f}"
+        '0.433, 1.375'
 
     Parameters
     ----------

@@ -193,6 +193,10 @@ def slip_curve(
 ) -> SlipCurve:
     """Return the braking force of a tread over slip.
 
+        >>> curve = gs.slip_curve(case, speed="50 km/h").data
+        >>> f"{curve.peak.sel(bound='value').item():.4f}"
+        '0.0402'
+
     Parameters
     ----------
     case : Case
