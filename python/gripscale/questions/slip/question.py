@@ -35,7 +35,7 @@ from gripscale.questions.slip.charts import slip_panels, slip_sheet
 from gripscale.questions.slip.friction_table import BOUNDS, TABLE, TableFriction, friction_table
 from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT
 from gripscale.questions.vary.axis import axes_of
-from gripscale.report.again import case_name, rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section
 from gripscale.theory.brush import Brush, brush_force
 
@@ -76,11 +76,11 @@ class SlipCurve(Result):
         ends = [f"{float(distance.sel(bound=bound)):.3g}" for bound in BOUNDS]
         return [
             f"Answer: peak braking force {significant(peak)} ({significant(low)} to "
-            f"{significant(high)}) of the load at {at:.1%} slip, locked {significant(locked)}, "
-            f"at {where} (90 % intervals)",
-            f"  friction: {kind}; contact patch {in_mm(data.attrs['length'], 3)}, bristles "
-            f"{data.attrs['stiffness']:.3g} Pa/m",
-            f"  braking from {self._braking} at the peak: {ends[1]} m ({ends[0]} to {ends[2]} m)",
+            f"{significant(high)}) of the load at {100.0 * at:.3g} % slip, locked "
+            f"{significant(locked)}, at {where} (90 % intervals).",
+            f"  Friction: {kind}; contact patch {in_mm(data.attrs['length'], 3)}, bristles "
+            f"{data.attrs['stiffness']:.3g} Pa/m.",
+            f"  Braking from {self._braking} at the peak: {ends[1]} m ({ends[0]} to {ends[2]} m).",
         ]
 
     @property
@@ -163,11 +163,11 @@ class SlipCurve(Result):
 
     def page_content(self) -> Page:
         lead, *basis = self.lines
-        first = self.data.sel(bound="value").isel(kind=-1, temperature=0, speed=0)
+        first = self.data.isel(kind=-1, temperature=0, speed=0)
+        slip = 100.0 * float(first.peak_slip.sel(bound="value"))
         cards = [
-            Card("Peak", on_page(significant(float(first.peak))), "braking force over the load"),
-            Card("Slip at the peak", f"{float(first.peak_slip):.1%}", ""),
-            Card("Locked", on_page(significant(float(first.locked))), "of the load"),
+            _card(first.peak, "Peak braking force", f"over the load, at {slip:.3g} % slip"),
+            _card(first.locked, "Locked", "over the load"),
         ]
         charts = draw.panels_on_page(slip_panels(self.data))
         sections = [
@@ -175,8 +175,14 @@ class SlipCurve(Result):
             Section("formulas", "For vehicle models", [self.formulas_table()]),
             rerun_section(self.data.attrs),
         ]
-        title = f"Braking force over slip of {case_name(self.data.attrs) or 'a case'}"
+        title = f"Braking force over slip of {case_title(self.data.attrs)}"
         return Page.of(title, lead, self.findings, cards, sections, basis)
+
+
+def _card(force: xr.DataArray, title: str, detail: str) -> Card:
+    """Return a force with its interval at the head of the page."""
+    low, value, high = (on_page(significant(float(force.sel(bound=bound)))) for bound in BOUNDS)
+    return Card(title, value, detail, interval=f"{low} to {high} (90 %)")
 
 
 def slip_curve(
