@@ -187,7 +187,7 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
     whole_way.tab("5 Results")
     frame = whole_way.page.frame_locator("iframe")
     frame.locator("html[data-drawn]").wait_for(timeout=PATIENCE, state="attached")
-    assert frame.locator("h1").inner_text() == "Contact and friction: case-2.toml"
+    assert frame.locator("h1").inner_text() == "Contact and friction: dma on road"
     box = whole_way.page.locator("iframe").bounding_box()
     assert box["width"] >= 0.95 * 1400
     assert box["height"] >= 600
@@ -195,10 +195,10 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
     inside = "e => e.open && e.getBoundingClientRect().top < innerHeight"
     place = frame.locator("#rubber")
     whole_way.look(lambda: place.evaluate(inside), "the chapter on the rubber")
-    assert frame.locator("h1").inner_text() == "Contact and friction: case-2.toml"
+    assert frame.locator("h1").inner_text() == "Contact and friction: dma on road"
     with whole_way.page.context.expect_page() as opened:
         whole_way.page.get_by_text("Open this page alone").click()
-    assert opened.value.locator("h1").inner_text() == "Contact and friction: case-2.toml"
+    assert opened.value.locator("h1").inner_text() == "Contact and friction: dma on road"
     opened.value.close()
 
 

@@ -100,7 +100,7 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     assert "has finished" in run_status(run).text
     numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
-    assert numbers.basis[0].startswith("Answer: 1 % more E''")
+    assert numbers.basis[0].startswith("Answer: 1 % more E″")
     page = run.write_page()
     assert page == run.folder / "report.html"
     text = page.read_text(encoding="utf-8")

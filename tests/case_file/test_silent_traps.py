@@ -274,8 +274,7 @@ def test_a_contact_without_result_says_the_doubt_of_its_inputs() -> None:
         attrs={INPUT_DOUBTS: to_json([doubt("Is the unit right?")])},
     )
     assert no_answer(data) == (
-        "none. Is the unit right? The direct contact of the measured surface has no result: "
-        "contact too narrow."
+        "none. Is the unit right? The chain of waves has no result: contact too narrow."
     )
 
 

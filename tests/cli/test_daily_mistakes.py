@@ -86,7 +86,7 @@ MISTAKES: list[tuple[Callable[[Place], list[str]], str]] = [
     (lambda at: ["report", str(at.case)], "case.toml is a case, not a result: `gripscale run` sol"),
     (lambda at: ["report", str(at.folder / "dma.txt")], "netCDF result: it is of another format"),
     (old_excel, "expected a text file; got an old Office file (.xls), to be saved as .xlsx"),
-    (two_sheets, "--sheet must be given, because 2 sheets hold rows of numbers (20 C, 40 C)"),
+    (two_sheets, "--reference-temperature must be given, such as \"20 C\", for sweeps at 2 te"),
     # the case
     (lambda at: at.put("case.toml", ""), "an empty case; expected at least [surface], [rubber] an"),
     (lambda at: at.say("scales = 3", "scale = 3"), "unknown key [surface] scale; did you mean sca"),

@@ -26,7 +26,9 @@ def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Pat
     texture = result.stdout[result.stdout.index("Texture: ISO 13473-1") :]
     assert texture.index("MPD") < texture.index("profile 1")
     assert {p.name for p in target.iterdir()} == {
-        f"{name}.{kind}" for name in ("profile", "correlation") for kind in ("png", "pdf")
+        f"{name}.{kind}"
+        for name in ("profile", "correlation", "texture_levels")
+        for kind in ("png", "pdf")
     }
 
 
@@ -110,7 +112,7 @@ def test_surface_half_says_where_the_waves_end(shell: Shell, inputs: Path) -> No
     below = notes("--scales", 2, "--smallest-wavelength", "0.05 mm")
     assert "note: the smallest wave, 0.05 mm, is shorter than the measurement resolves" in below
     measured = notes("--scales", 2, "--smallest-wavelength", "1 mm")
-    assert "note: Profiles of one direction do not show ridges" in measured
+    assert "note: Profiles in one direction do not show ridges" in measured
     assert measured.count("note:") == 1
 
 

@@ -91,7 +91,8 @@ def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
         "(90 % intervals)"
     )
     friction, _ = answer_cards(data)
-    assert (friction.value, friction.detail) == ("0.900", f"answer; 0.700 to 1.20 (90 %); {parts}")
+    assert (friction.value, friction.detail) == ("0.900", f"answer; {parts}")
+    assert friction.interval == "0.700 to 1.20 (90 %)"
 
 
 def test_measured_friction_stands_beside_the_answer_and_is_the_first_finding() -> None:
@@ -124,7 +125,7 @@ def test_no_answer_says_why() -> None:
         ({"answer_friction_high": 0.41}, "The ends of the interval are more than a factor"),
         (
             dict.fromkeys(("answer_friction_low", "answer_contact_fraction_low"), math.nan),
-            "The measured surface is too small to tell how well it represents its road:",
+            "The measured surface is too small to tell whether it stands for the whole:",
         ),
         ({"answer_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
         (

@@ -348,7 +348,7 @@ def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path, speed: 
 def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
     with visit(browser, write_report(study_file, tmp_path / "study.html")) as seen:
         opened(seen)
-        assert check_figures(seen) == 6
+        assert check_figures(seen) == 5
         assert seen.page.title() == "Study of <contact>"
         assert seen.said == []
         assert seen.asked == []

@@ -108,6 +108,7 @@ def test_every_public_name_has_its_entry(site):
         "charts",
         "conditions",
         "continuation",
+        "flow",
         "half_space",
         "questions",
         "report",

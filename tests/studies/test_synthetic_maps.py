@@ -206,7 +206,7 @@ def test_maps_say_that_they_are_synthetic(matched):
         ({"profile": 3}, "profile must be a Profile"),
         ({"profile": []}, "profile must be a Profile"),
         ({"smallest_wavelength": 1e-4}, "smallest_wavelength must be at least 4 steps"),
-        ({"smallest_wavelength": "0.4 mm"}, "smallest_wavelength must be a finite number"),
+        ({"smallest_wavelength": "0.4 bar"}, "smallest_wavelength = '0.4 bar': "),
         ({"points": 200}, "points must be a multiple of 16"),
         ({"points": 16}, "points must be a whole number from 128"),
         ({"points": 4096}, "profiles must be 4 times as long as a map"),

@@ -122,6 +122,7 @@ def free_target(
 _FIGURES = (
     "profile",
     "correlation",
+    "texture_levels",
     "master_curve",
     "contact_and_friction",
     "summary",
