@@ -168,11 +168,10 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     ),
     "compare_rubbers": (
         "compare-rubbers", "plain.toml", "styrene_butadiene", "--output", "compare_rubbers",
-        "--no-uncertainty",
     ),
     "compare_surfaces": (
         "compare-surfaces", "road.txt", "lane.txt", "--case", "plain.toml",
-        "--output", "compare_surfaces", "--samples", "10",
+        "--output", "compare_surfaces",
     ),
     "fit_surface": (
         "fit-surface", "road.txt", "lane.txt", "--scales", "4", "--smallest-wavelength", "1 mm",
@@ -190,7 +189,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "refused_axis_of_models": ("compare", "plain.toml", "--vary", "colour=red,blue"),
     "refused_model": ("study", "plain.toml", "--vary", "speed=0.1,1", "--model", "zebra"),
     "refused_effects": ("study", "warm.toml", "--vary", "effects=all,zebra"),
-    "refused_rung": ("compare", "plain.toml", "--models", "zebra"),
+    "refused_model": ("compare", "plain.toml", "--models", "zebra"),
     "refused_source": ("uncertainty", "plain.toml", "--without", "zebra"),
     "refused_given": ("uncertainty", "plain.toml", "--range", "zebra=1:2"),
     "refused_uncertain_model": ("uncertainty", "plain.toml", "--model", "zebra"),

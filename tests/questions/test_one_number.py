@@ -134,7 +134,7 @@ def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
     yield "summary", [float(row[f"{column} [-]"]) for column in columns]
     table = {column.name: column for column in asked.answer.table().columns}
     if asked.case.load.speed:
-        assert next(name for name in table if name.startswith("best_")) == columns[0]
+        assert next(name for name in table if name.startswith("answer_")) == columns[0]
     yield "table", [float(table[column].values[0]) for column in columns]
     varied = gs.vary(asked.case, pressure=[asked.case.load.pressure]).data
     yield "vary", [float(varied[believed(varied, name)][0]) for name in asked.names]
