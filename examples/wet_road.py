@@ -67,7 +67,7 @@ def main(folder: str = "results/examples") -> None:
         ),
         chart.Panel(
             speed,
-            chart.PlotAxis("share of load on asperities [-]", low=0.0),
+            chart.PlotAxis("share of load on asperities [-]", low=0.0, high=1.0),
             [chart.Series(SPEEDS, share, BLUE, marker="o")],
         ),
     ]

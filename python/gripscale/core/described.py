@@ -118,5 +118,5 @@ def with_figure(html: str, drawn: Any) -> str:
     return f'<div style="display:flex;flex-wrap:wrap;gap:1.5em"><div>{html}</div>{image}</div>'
 
 
-_IMAGE = "width:24em;max-width:100%;height:auto;align-self:flex-start;background:white"
+_IMAGE = "width:30em;max-width:100%;height:auto;align-self:flex-start;background:white"
 """A figure has dark lines: its ground stays white on a dark page."""

@@ -116,10 +116,10 @@ class Answer(NumbersWithIntervals):
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         for name, trace in named_traces(self.data, self.inputs)[:1]:
+            yield "direct_contact", trace_sheet(trace, name)
             if "series_omega" in self.inputs:
                 cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
                 yield "summary", summary_sheet(trace, self.inputs, cards, words)
-            yield "direct_contact", trace_sheet(trace, name)
 
     def page_content(self) -> Page:
         return answer_page(self.data, InputRecord(self.inputs), self.findings)

@@ -17,7 +17,7 @@ from gripscale.core.units import celsius
 def slip_sheet(data: xr.Dataset) -> Sheet:
     """Describe the braking force over slip, a panel for each kind of friction."""
     panels = slip_panels(data)
-    return Sheet(panels, len(panels), WIDE, 3.6, layout={"sharey": True})
+    return Sheet(panels, len(panels), WIDE, 3.6, legend_columns=4, layout={"sharey": True})
 
 
 def slip_panels(data: xr.Dataset) -> list[Panel]:
