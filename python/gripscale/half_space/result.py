@@ -102,7 +102,7 @@ _NUMBERS = {
 
 SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Lower ends of the classes of |dh/dx|; the last has no upper end."""
-WATER = {
+TRAPPED_WATER = {
     "water_load_share": "share of the load on water",
     "dry_contact_fraction": "contact fraction without water",
     "dry_friction": "friction without water",
@@ -489,7 +489,7 @@ class RoughContact(Pictured):
         if (water := self.water) is not None:
             add("water_film", (), water.film, "m", "mean thickness of the water; inf if flooded")
             carried = (self.water_load_share, water.dry_contact_fraction, water.dry_friction)
-            for (name, text), share in zip(WATER.items(), carried, strict=True):
+            for (name, text), share in zip(TRAPPED_WATER.items(), carried, strict=True):
                 add(name, (), share, "1", text)
             add("pool_pressure", "pool", water.pool_pressure, "Pa", "pressure of each pool")
             add("pool_volume", "pool", water.pool_volume, "m3", "water in each pool")
