@@ -192,7 +192,7 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
     asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
     effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
     if asked.get("water") is not None:
-        yield "Water: in the direct contact of the measured map. All other models are dry."
+        yield "Water: in the direct contacts of maps. All other models are dry."
     if effects:
         yield (
             f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts. "
