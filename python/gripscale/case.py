@@ -144,7 +144,10 @@ class Case(Described):
     waves : int
         Number of sine waves that are fitted to measured heights.
     conditions : Conditions, optional
-        Temperature, softening, heat and area term.
+        Temperature, softening, heat, area term and water.
+    water : bool, float or str, optional
+        Water of the conditions: True floods a map, a thickness [m] is a film. The direct contact
+        then has trapped water (`gripscale.solve_rough_contact`).
     load_time : float or "passage"
         How long a wave is loaded [s]: while the contact above it passes, or a time.
     static : bool
@@ -180,6 +183,7 @@ class Case(Described):
         smallest_wavelength: Quantity | None = None,
         waves: int = _WAVES,
         conditions: Conditions | None = None,
+        water: bool | Quantity | None = None,
         load_time: LoadTime = "passage",
         static: bool = False,
         chain: Chain | None = None,
@@ -203,7 +207,11 @@ class Case(Described):
         }
         self.load = Load(**values, load_time=load_time, thickness=thickness)
         self.static = static
-        self.chain = replace(chain or Chain(), conditions=conditions)
+        if water is not None:
+            conditions = replace(conditions or Conditions(), water=water)
+        self.conditions = conditions
+        """What changes the rubber or the contact, or None where nothing was asked for."""
+        self.chain = replace(chain or Chain(), conditions=conditions and conditions.dry)
         if isinstance(rubber, Rubber):
             rubber = MeasuredRubber(rubber, rubber.source)
         elif not isinstance(rubber, MeasuredRubber):
@@ -217,6 +225,12 @@ class Case(Described):
         self.klueppel_heinrich = klueppel_heinrich
         self.friction = friction
         self.options = dict(options or {})
+        measured = self.surface.measured
+        if conditions is not None and conditions.water and (measured is None or not measured.map):
+            raise InputError(
+                "water needs a map: what closes a pool lies beside a line; got "
+                f"{self.surface.source or 'a surface without one'}"
+            )
         _ = self.rubber_before  # refuses a temperature without a shift
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
@@ -235,11 +249,6 @@ class Case(Described):
     def rubber(self) -> Rubber:
         """The rubber at the temperature of its master curve."""
         return self.measured_rubber.rubber
-
-    @property
-    def conditions(self) -> Conditions | None:
-        """What changes the rubber, or None where nothing was asked for."""
-        return self.chain.conditions
 
     @property
     def rubber_before(self) -> Rubber:
@@ -279,6 +288,7 @@ class Case(Described):
     def key(self) -> str:
         """Hash of everything that an answer depends on, but for the software."""
         parts = [self.surface, self.measured_rubber, self.load, self.static, self.chain]
+        parts += [] if self.conditions is None else [self.conditions.water]
         parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]
         content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
         return hashlib.sha256(content.encode()).hexdigest()

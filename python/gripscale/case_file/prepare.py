@@ -370,7 +370,9 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     else:
         softening = source
     norm = table.strain_norm or "slope"
-    return Conditions(table.temperature, softening, norm, table.heat, table.shear_stress)
+    return Conditions(
+        table.temperature, softening, norm, table.heat, table.shear_stress, table.water
+    )
 
 
 @about_keys("below_measurement")
@@ -396,11 +398,12 @@ def case_chain(file: CaseFile) -> Chain:
     Raises `FileError` and `InputError` for conditions that cannot be used.
     """
     case = file.case
+    conditions = prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
-        conditions=prepare_conditions(case.conditions, file.resolve),
+        conditions=conditions and conditions.dry,
     )
 
 
@@ -456,7 +459,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 thickness=file.case.rubber.thickness,
                 static=load.static,
                 chain=chain,
-                conditions=chain.conditions,
+                conditions=prepare_conditions(file.case.conditions, file.resolve),
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,
                 friction=friction,

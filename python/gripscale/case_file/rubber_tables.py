@@ -6,6 +6,7 @@ those of the package: their fields say which keys a case states them with.
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, InstanceOf, model_validator
@@ -26,7 +27,9 @@ from gripscale.case_file.schema import (
     unit_of_file,
 )
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
+from gripscale.conditions.conditions import FLOODED
 from gripscale.conditions.flash_temperature import ThermalProperties
+from gripscale.core.units import parse_quantity
 from gripscale.io.text_table import MOST_LINES
 from gripscale.rubber.shift import SHIFTS, Shift, ShiftTable
 from gripscale.rubber.softening import Kraus
@@ -162,6 +165,16 @@ SOFTENING: dict[str, type] = {"kraus": Kraus, "table": StrainSweeps}
 """How a case states softening: a law with its numbers, or where one was measured."""
 
 
+def _film(value: Any) -> Any:
+    """Accept "flooded" or a length."""
+    if value is None or value == FLOODED:
+        return value
+    film = parse_quantity(value, "length")
+    if not 0.0 < film < math.inf:
+        raise ValueError(f'expected "{FLOODED}" or a length above zero')
+    return film
+
+
 class ConditionsTable(CaseTable):
     """Effects beside the rubber as measured, each off unless asked for."""
 
@@ -177,6 +190,8 @@ class ConditionsTable(CaseTable):
         None
     )
     """The area term: the real contact area sheared at this stress."""
+    water: Annotated[Any, Reading('"flooded" or a length', _film)] = None
+    """Water on a measured map that contact can trap: flooded, or a film of this thickness."""
 
     @model_validator(mode="after")
     def _norm_of_softening(self) -> ConditionsTable:

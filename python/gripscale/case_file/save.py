@@ -300,4 +300,5 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
     for name in ("heat", "shear_stress"):
         effect = getattr(conditions, name)
         keys[name] = None if effect is None else law_keys(effect)
+    keys["water"] = conditions.to_dict()["water"]
     return keys

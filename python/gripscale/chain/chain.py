@@ -215,6 +215,11 @@ class Chain(Checked, model.Model):
             raise InputError(
                 "rubber_at must be None with conditions, which give the rubber; got both"
             )
+        if self.conditions is not None and self.conditions.water is not None:
+            raise InputError(
+                f"water of the chain must be left out: waves have no pools; got "
+                f"{self.conditions.water:g} m. The direct contact of a map has them"
+            )
 
     def with_conditions(self, conditions: Conditions | None) -> Chain:
         """Return the chain under other conditions."""

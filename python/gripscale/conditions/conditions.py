@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -26,7 +26,7 @@ from gripscale.conditions.area_term import (
     shear_stress_to_dict,
 )
 from gripscale.conditions.flash_temperature import ThermalProperties
-from gripscale.core import checks
+from gripscale.core import checks, units
 from gripscale.core.arrays import Array, ComplexArray, Mask
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
@@ -47,8 +47,30 @@ def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
     return value
 
 
+FLOODED = "flooded"
+
+
+def water_film(water: object) -> float:
+    """Return the film that `water` asks for [m]: infinite if flooded, zero if dry."""
+    if isinstance(water, bool | np.bool_):
+        return math.inf if water else 0.0
+    if water in (FLOODED, math.inf):
+        return math.inf
+    try:
+        film = units.parse_quantity(water, "length")
+    except ValueError as error:
+        raise InputError(
+            f'water must be True, False, "{FLOODED}" or the thickness of a film: {error}'
+        ) from error
+    return checks.positive("water", film, unit="m")
+
+
+def _film_or_none(name: str, value: object) -> float | None:
+    return water_film(value) or None
+
+
 class Conditions(Checked):
-    """Effects on the rubber as measured, and the area term; each is off by default.
+    """Effects on the rubber as measured, the area term and water; each is off by default.
 
     Raises `InputError` if a value cannot be used.
 
@@ -66,6 +88,9 @@ class Conditions(Checked):
         Warm the rubber by its friction.
     shear_stress : InterfacialShearStress, optional
         Interfacial shear stress of the area term.
+    water : float, str or bool, optional
+        Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
+        Only the direct contact has it, and not together with softening or heat.
     """
 
     temperature: float | None = checked(checks.positive, unit="K", default=None)
@@ -79,6 +104,16 @@ class Conditions(Checked):
     shear_stress: InterfacialShearStress | None = checked(
         _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
+    water: float | None = checked(_film_or_none, default=None)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.water is not None and self.iterated:
+            effect = "heat" if self.softening is None else "softening"
+            raise InputError(
+                f"water must be left out with {effect}, which is iterated with a dry contact; "
+                "got both"
+            )
 
     def to_dict(self) -> dict[str, Any]:
         """Return every effect as plain values, None where it is off."""
@@ -88,6 +123,7 @@ class Conditions(Checked):
             "strain_norm": self.strain_norm,
             "heat": self.heat and asdict(self.heat),
             "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
+            "water": FLOODED if self.water == math.inf else self.water,
         }
 
     @classmethod
@@ -117,6 +153,11 @@ class Conditions(Checked):
         kelvin = self.temperature if temperature is None else temperature
         stress = float(self.shear_stress.stress(speed, kelvin))
         return adhesive_friction(stress, contact_fraction, pressure)
+
+    @property
+    def dry(self) -> Conditions:
+        """The same without water, for models that have no pools."""
+        return replace(self, water=None)
 
     @property
     def iterated(self) -> bool:

@@ -102,6 +102,12 @@ _NUMBERS = {
 
 SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Lower ends of the classes of |dh/dx|; the last has no upper end."""
+TRAPPED_WATER = {
+    "water_load_share": "share of the load on water",
+    "dry_contact_fraction": "contact fraction without water",
+    "dry_friction": "friction without water",
+}
+"""Numbers of a contact with trapped water."""
 SHARES_BY_SLOPE = {
     "friction_by_slope": "share of the friction from contact on slopes of the class",
     "load_by_slope": "share of the load carried on slopes of the class",
@@ -482,9 +488,9 @@ class RoughContact(Pictured):
             add("layer_thickness", "layer", self.layers.thicknesses, "m", "thickness of the layer")
         if (water := self.water) is not None:
             add("water_film", (), water.film, "m", "mean thickness of the water; inf if flooded")
-            add("water_load_share", (), self.water_load_share, "1", "share of the load on water")
-            for name in ("dry_contact_fraction", "dry_friction"):
-                add(name, (), getattr(water, name), "1", f"{name[4:]} without water")
+            carried = (self.water_load_share, water.dry_contact_fraction, water.dry_friction)
+            for (name, text), share in zip(TRAPPED_WATER.items(), carried, strict=True):
+                add(name, (), share, "1", text)
             add("pool_pressure", "pool", water.pool_pressure, "Pa", "pressure of each pool")
             add("pool_volume", "pool", water.pool_volume, "m3", "water in each pool")
         pressures = self.pressure_quantiles(_SHARES)

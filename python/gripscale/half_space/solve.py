@@ -16,7 +16,7 @@ from functools import partial
 
 import numpy as np
 
-from gripscale.conditions.conditions import Conditions, RubberByScale
+from gripscale.conditions.conditions import Conditions, RubberByScale, water_film
 from gripscale.core import checks
 from gripscale.core.arrays import Quantity
 from gripscale.core.errors import ConvergenceError, InputError
@@ -38,7 +38,7 @@ from gripscale.half_space.grid_sequence import (
 )
 from gripscale.half_space.response import HalfSpace, OutOfTime, check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
-from gripscale.half_space.water import water_film, with_water
+from gripscale.half_space.water import with_water
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -191,7 +191,7 @@ def solve_rough_contact(
             f"{heights.smallest_wavelength:.4g} m; got {most}: raise it, take a larger "
             "smallest_wavelength or a part of the surface"
         )
-    film = _checked_water(water, heights, effects, start)
+    film = _checked_water(effects.water or water, heights, effects, start)
     threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1
     iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
     for name, hook in (("on_grid", on_grid), ("on_iteration", on_iteration)):

@@ -19,9 +19,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from gripscale.core import checks, units
 from gripscale.core.arrays import Array, Mask
-from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.half_space.active_set import START_TOLERANCE, solve_grid
 from gripscale.half_space.grid import Grid, resampled
@@ -47,19 +45,6 @@ a map by up to 3 %, where the contact percolates."""
 
 
 _ERRORS = ("contact_fraction_error", "friction_error")
-
-
-def water_film(water: object) -> float:
-    """Return the film that `water` asks for [m]: infinite if flooded, zero if dry."""
-    if isinstance(water, bool | np.bool_):
-        return np.inf if water else 0.0
-    try:
-        film = units.parse_quantity(water, "length")
-    except ValueError as error:
-        raise InputError(
-            f"water must be True, False or the thickness of a film: {error}"
-        ) from error
-    return checks.positive("water", film, unit="m")
 
 
 def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -> RoughContact:

@@ -25,6 +25,7 @@ from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import trace_variables
 from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.estimate import (
@@ -225,6 +226,10 @@ def direct_contact_totals(
     for finding in case.surface.direction:
         if finding.severity == Severity.GOOD:
             totals.attrs[ISOTROPIC] = finding.sentence
+    for name, text in TRAPPED_WATER.items():
+        if name in samples:  # of a map, the only sample
+            attrs = {"units": "1", "long_name": text}
+            totals[name] = xr.Variable((), float(samples[name][0]), attrs)
     if traces := trace_variables(samples):
         totals = totals.assign(traces.variables)
     area_term = reduce.mean(samples, "adhesive_friction")

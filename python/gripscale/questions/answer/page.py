@@ -106,6 +106,10 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         yield "Solved on sine waves by the chain of waves; no measured surface judges it."
         return
     yield _corrections(data)
+    if "water_load_share" in data:
+        wet = float(data.total_friction_from_dissipation / data.dry_friction)
+        ratio = f"friction wet over dry ×{wet:.2f}, " if math.isfinite(wet) else ""
+        yield f"With trapped water: {ratio}load on water {float(data.water_load_share):.1%}."
     yield from (f"{line[0].upper()}{line[1:]}." for line in _in_interval(data))
 
 

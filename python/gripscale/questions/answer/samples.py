@@ -24,7 +24,7 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.cut_off_exponents import NOT_TOLD
 from gripscale.experiment.design import CONVERGED, error_of_total
 from gripscale.experiment.task import Task
-from gripscale.half_space.result import SHARES_BY_SLOPE
+from gripscale.half_space.result import SHARES_BY_SLOPE, TRAPPED_WATER
 from gripscale.questions.answer.intervals import LogError
 
 SAMPLED_QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
@@ -50,6 +50,7 @@ def sample_numbers(
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
     for name in model.BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
+    numbers |= {name: float(answer[name].item()) for name in TRAPPED_WATER if name in answer}
     for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]

@@ -128,7 +128,7 @@ def solved_ladder(
             case.klueppel_heinrich,
             chain.pressure_classes,
             continuation=case.continuation(),
-            conditions=chain.conditions,
+            conditions=case.conditions,
         )
         setups.append(setup)
     if case.chain.extrapolate == "refuse":

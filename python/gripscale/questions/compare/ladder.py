@@ -80,7 +80,8 @@ class ComparisonSetup(Described):
 
     def chain(self, solver: WaveSolver) -> Chain:
         """Return the chain of the case with a solver."""
-        return Chain(solver, pressure_classes=self.pressure_classes, conditions=self.conditions)
+        conditions = self.conditions and self.conditions.dry
+        return Chain(solver, pressure_classes=self.pressure_classes, conditions=conditions)
 
     @property
     def direct(self) -> DirectContact:
@@ -187,7 +188,8 @@ def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     if sines is None:
         return []
     solver = HalfPlane(points=POINTS_OF_A_CLASS)
-    chain = Chain(solver, pressure_classes=CLASSES, conditions=setup.conditions)
+    conditions = setup.conditions and setup.conditions.dry
+    chain = Chain(solver, pressure_classes=CLASSES, conditions=conditions)
     return [SampleSpec(chain, Surface(sines, "waves of the upper half"))]
 
 
@@ -221,7 +223,8 @@ def _of_sines(sines: SineStack, seed: int) -> Profile:
 )
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
-    in_full = replace(setup.direct, periodic=True)
+    dry = setup.conditions and setup.conditions.dry  # lines have no pools
+    in_full = replace(setup.direct, periodic=True, conditions=dry)
     return [SampleSpec(in_full, with_single_measurement(setup.surface, x)) for x in lines]
 
 

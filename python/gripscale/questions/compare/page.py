@@ -191,6 +191,8 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
     """Yield which models leave effects out, where strain or heat change the rubber."""
     asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
     effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
+    if asked.get("water") is not None:
+        yield "Water: in the direct contacts of maps. All other models are dry."
     if effects:
         yield (
             f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts. "

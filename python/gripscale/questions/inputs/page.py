@@ -267,6 +267,11 @@ def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
         yield f"strain of a wave: {conditions.strain_norm}"
     if conditions.shear_stress is not None:
         yield f"area term, as stated: {_numbers(conditions.shear_stress)}"
+    if conditions.water is not None:
+        film = (
+            "flooded" if math.isinf(conditions.water) else f"a film of {in_mm(conditions.water, 3)}"
+        )
+        yield f"water: {film}, trapped where contact surrounds it"
 
 
 def _numbers(law: Any) -> str:

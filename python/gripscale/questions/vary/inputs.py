@@ -73,8 +73,8 @@ def identity(value: Any) -> Any:
     return value if isinstance(value, str) else canonical_json(value)
 
 
-_EFFECTS = ("temperature", "softening", "heat")
-"""What conditions do to the rubber; the area term does nothing to it."""
+_EFFECTS = ("temperature", "softening", "heat", "water")
+"""What conditions do to the contact; the area term does nothing to it."""
 
 ALL_EFFECTS, NO_EFFECTS = "all", "none"
 
