@@ -34,9 +34,8 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array
 from gripscale.core.checks import MOST, short_repr, shortened, whole
-from gripscale.core.errors import FileError, InputError, using_extra
+from gripscale.core.errors import FileError, InputError, unstated, using_extra
 from gripscale.core.units import spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.cells import (
     COMMA_NUMBER,
     COMMENT,
@@ -107,15 +106,8 @@ def _sheet_lines(path: Path, sheet: str | int | None, header: int | None) -> lis
     if sheet is None:
         full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
         if len(full) > 1:
-            raise InputError(
-                Words(
-                    f"{path}: ",
-                    CaseKey("sheet"),
-                    f" must be given, because {len(full)} sheets hold rows of numbers "
-                    f"({', '.join(full)})",
-                ),
-                missing="sheet",
-            )
+            hold = f"{len(full)} sheets hold rows of numbers ({', '.join(full)})"
+            raise unstated(f"{path}: ", "sheet", f" must be given, because {hold}")
         return sheets[full[0]] if full else next(iter(sheets.values()))
     if isinstance(sheet, str):
         return sheets[checks.one_of(f"{path}: sheet", sheet, sheets)]

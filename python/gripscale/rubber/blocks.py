@@ -17,7 +17,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, InputError, unstated
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io import text_table
@@ -71,14 +71,8 @@ def read_blocks(
     chosen = {name: blocks for name, blocks in with_moduli.items() if blocks} or sheets
     every = [block for blocks in chosen.values() for block in blocks]
     if len(chosen) > 1 and not all(block.states_temperature(layout) for block in every):
-        raise InputError(
-            Words(
-                f"{path}: ",
-                CaseKey("sheet"),
-                f" must be given, because {len(chosen)} sheets hold numbers ({', '.join(chosen)})",
-            ),
-            missing="sheet",
-        )
+        hold = f"{len(chosen)} sheets hold numbers ({', '.join(chosen)})"
+        raise unstated(f"{path}: ", "sheet", f" must be given, because {hold}")
     if not every:
         raise FileError(f"{path}: expected {_ROWS}; got none in {len(every_sheet)} sheets")
     return every
@@ -182,15 +176,8 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
         value, written = statement
         chosen = unit if spelled(written, "temperature") is None else written
         if chosen is None:
-            raise InputError(
-                Words(
-                    f"{path}, line {number}: ",
-                    CaseKey("temperature_unit"),
-                    f" must be given ({listed('temperature')}), because the line states none with "
-                    f"{value}",
-                ),
-                missing="temperature_unit",
-            )
+            why = f"({listed('temperature')}), because the line states none with {value}"
+            raise unstated(f"{path}, line {number}: ", "temperature_unit", f" must be given {why}")
         degrees = float(value.replace(",", "."))
         return float(quantity_in_si(degrees, chosen, "temperature", "temperature_unit"))
     return None

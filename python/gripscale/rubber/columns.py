@@ -37,8 +37,8 @@ import numpy as np
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask
 from gripscale.core.checks import Checked, checked, shortened
-from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import listed, parse_quantity, quantity_in_si, spelled
+from gripscale.core.errors import FileError, InputError, unstated
+from gripscale.core.units import listed, quantity_in_si, spelled
 from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import TextTable
 
@@ -183,14 +183,6 @@ def unit_name(name: str, value: object) -> str:
     return str(value)
 
 
-def _hertz(name: str, value: object) -> float:
-    """Return a frequency [Hz] above zero; raise `InputError` for what is none."""
-    try:
-        return checks.positive(name, parse_quantity(value, "frequency"), unit="Hz")
-    except ValueError as error:
-        raise InputError(f"{name} = {checks.short_repr(value)}: {error}") from error
-
-
 class FileLayout(Checked):
     """Where the numbers of a file of moduli stand and what they are, as far as a caller states it.
 
@@ -215,7 +207,7 @@ class FileLayout(Checked):
     """Unit of the strains: 1 or %."""
     modulus: str | None = checked(checks.one_of, choices=("E", "G"), default=None)
     """Whether they are Young's (E) or shear moduli (G, multiplied by 3)."""
-    frequency: Any = checked(_hertz, default=None)
+    frequency: Any = checked(checks.positive, unit="Hz", default=None)
     """Frequency of all rows, as of a temperature ramp, where no column holds it: a number [Hz], or
     a text such as "10 Hz"."""
     titles_first: bool = False
@@ -264,15 +256,9 @@ class FileLayout(Checked):
         titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
         hits = [at for at in titled if at not in taken]
         if not all(_agree(table, hits[0], at) for at in hits[1:]):
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey("columns"),
-                    f" must say which is the {wanted}, because {len(hits)} titles mean it "
-                    f"({shortened(', '.join(table.columns[at].name for at in hits))})",
-                ),
-                missing="columns",
-            )
+            titles = shortened(", ".join(table.columns[at].name for at in hits))
+            why = f"because {len(hits)} titles mean it ({titles})"
+            raise unstated(f"{table.path}: ", "columns", f" must say which is the {wanted}, {why}")
         return hits[0] if hits else None
 
     def needed_column(self, table: TextTable, wanted: str) -> int:
@@ -298,14 +284,8 @@ class FileLayout(Checked):
         if unit is None:
             what = "no unit" if header is None else checks.short_repr(header)
             title = shortened(table.columns[column].name) or f"column {column + 1}"
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey(f"{kind}_unit"),
-                    f" must be given ({listed(kind)}), because the header states {what} of {title}",
-                ),
-                missing=f"{kind}_unit",
-            )
+            why = f"({listed(kind)}), because the header states {what} of {title}"
+            raise unstated(f"{table.path}: ", f"{kind}_unit", f" must be given {why}")
         return unit
 
     def modulus_of(self, table: TextTable, chosen: Sequence[int]) -> str:
@@ -315,15 +295,8 @@ class FileLayout(Checked):
         if self.modulus is not None and not (self.titles_first and title):
             return self.modulus
         if title is None:
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey("modulus"),
-                    " must be given (E for Young's or G for shear), because the header does not "
-                    "tell",
-                ),
-                missing="modulus",
-            )
+            why = "(E for Young's or G for shear), because the header does not tell"
+            raise unstated(f"{table.path}: ", "modulus", f" must be given {why}")
         return title
 
 
@@ -364,10 +337,7 @@ def missing(table: TextTable, what: str) -> InputError:
     if any(_COMPLIANCE.match(name) for name in table.names):
         header += "; compliances are not read, moduli are"
     words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
-    if what != "frequency":
-        return InputError(words, missing="columns")
-    ramp = any(quantity(name) == "temperature" for name in table.names)
-    if not ramp:
+    if what != "frequency" or all(quantity(name) != "temperature" for name in table.names):
         return InputError(words, missing="columns")
     key, where = CaseKey("frequency"), "; where all rows are at the same frequency, "
     return InputError(Words(words, where, key, ' states it, such as "10 Hz"'), missing="frequency")

@@ -60,9 +60,8 @@ class UniaxialTest(Checked, eq=False):
         super().__post_init__()
         name = self.name
         checks.same_length(2, time=self.time, stretch=self.stretch, stress=self.stress)
-        if (np.diff(self.time) <= 0.0).any():
-            at = int(np.argmax(np.diff(self.time) <= 0.0)) + 1
-            raise InputError(f"{name}: time must rise [s]; got {self.time[at]:g} at index {at}")
+        falls = np.diff(self.time, prepend=-np.inf) <= 0.0
+        checks.refuse_entries(self.time, falls, f"{name}: time must rise [s]")
         if self.peak <= 0.0:
             raise InputError(f"{name}: stress must be above zero [Pa] somewhere")
 
@@ -180,10 +179,8 @@ def _times(time: ArrayLike, driven: Array, name: str) -> Array:
             f"time and {name} must have the same length, at least 1; "
             f"got {len(elapsed)} and {len(driven)}"
         )
-    falls = np.diff(elapsed) < 0.0
-    if falls.any():
-        at = int(np.argmax(falls)) + 1
-        raise InputError(f"time must not fall [s]; got {elapsed[at]:g} at index {at}")
+    falls = np.diff(elapsed, prepend=-np.inf) < 0.0
+    checks.refuse_entries(elapsed, falls, "time must not fall [s]")
     return elapsed
 
 
@@ -266,11 +263,7 @@ def fit_finite_strain(
     if band is None:
         durations = [test.duration for test in tests]
         band = _FASTEST * min(durations), max(durations)
-    ends = checks.positive_vector("band", band, unit="s")
-    if len(ends) != 2 or ends[0] >= ends[1]:
-        got = checks.short_repr(band)
-        raise InputError(f"band [s] must be a shorter and a longer time; got {got}")
-    low, high = ends
+    low, high = checks.interval("band", band, unit="s")
     times = np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
     # Nominal stress per unit of each coefficient; the squares of a test sum to its rms_error^2.
     columns, measured = [], []

@@ -36,10 +36,10 @@ class MasterCurve(Checked, Pictured, eq=False):
         array([0.2 , 0.25])
     """
 
-    frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    frequency: Vector = checked(checks.positive_vector, unit="Hz", repr=False)
     """Frequency [Hz], shape (rows,), in any order; it may repeat where sets overlap."""
-    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    storage: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    loss: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
     """Temperature the curve holds for [K]."""

@@ -89,9 +89,9 @@ _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
 class AdmissibleSeries(Checked, eq=False):
     """Prony series on common relaxation times, one a row; `InputError` for other shapes."""
 
-    relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
+    relaxation_times: Vector = checked(checks.positive_vector, unit="s", repr=False)
     """Relaxation times [s], shape (terms,), above zero."""
-    equilibrium_moduli: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    equilibrium_moduli: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E_inf of each series [Pa], shape (series,), above zero."""
     moduli: Vector = field(repr=False)
     """Moduli of their Maxwell elements [Pa], shape (series, terms), not negative."""
@@ -190,11 +190,6 @@ def warn_once(sentence: str) -> None:
     warnings.warn(sentence, RubberWarning, stacklevel=4)
 
 
-def check_modulus(name: str, value: float) -> float:
-    """Return one modulus [Pa] within reason."""
-    return float(checks.in_limits(name, [checks.number(name, value, unit="Pa")], unit="Pa")[0])
-
-
 def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
     """Return `value`; raise `InputError` if it is something else."""
     if isinstance(value, StrainEnergy):
@@ -214,13 +209,13 @@ class Rubber(Checked, Pictured, eq=False):
         array(15000000.+10000000.j)
     """
 
-    equilibrium_modulus: float = checked(check_modulus)
+    equilibrium_modulus: float = checked(checks.positive, unit="Pa")
     """Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero."""
-    moduli: Vector = checked(checks.in_limits, unit="Pa", default=(), repr=False)
+    moduli: Vector = checked(checks.positive_vector, unit="Pa", default=(), repr=False)
     """Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], shape (terms,). Empty: elastic."""
-    relaxation_times: Vector = checked(checks.in_limits, unit="s", default=(), repr=False)
+    relaxation_times: Vector = checked(checks.positive_vector, unit="s", default=(), repr=False)
     """Their relaxation times [s], shape (terms,), above zero."""
-    bulk_modulus: float = checked(check_modulus, default=BULK_MODULUS)
+    bulk_modulus: float = checked(checks.positive, unit="Pa", default=BULK_MODULUS)
     """Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio is positive."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")

@@ -258,13 +258,9 @@ _FEWEST_ROWS = _NEIGHBOURS + 3
 
 @dataclass(frozen=True)
 class Screening:
-    """Which rows are kept, and how far each is from its neighbours."""
+    """Which rows are kept, and how the data scatter."""
 
     kept: Mask
-    storage_deviation: Array
-    """Log deviation of E' from the local trend [-], shape (rows,)."""
-    loss_deviation: Array
-    """The same of E''."""
     storage_scatter: float
     """Robust relative scatter of E' about its local trend [-]."""
     loss_scatter: float
@@ -294,7 +290,7 @@ def screen_outliers(curve: Curve, times: Array, prior: Prior, threshold: float) 
         if len(kept) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
             break
         kept = new
-    return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
+    return Screening(kept, *(_spread(deviation[kept]) for deviation in raw))
 
 
 def _deviation(position: Array, value: Array, kept: Mask) -> Array:

@@ -220,7 +220,7 @@ def fit_prony_report(
     beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
-    bulk = material.check_modulus("bulk_modulus", bulk_modulus)
+    bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
     swapped = report.swapped_moduli(master)
     if swapped.certain and not likely_reading(master, swapped):
         raise InputError(str(swapped))

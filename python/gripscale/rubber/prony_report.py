@@ -269,10 +269,6 @@ class PronyFit(Described):
     """Numbers of terms tried and their cross-validation error; empty if the number was given."""
     outlier_frequency: Array
     """Frequencies of the rows left out [Hz]."""
-    outlier_storage_deviation: Array = field(repr=False)
-    """Their log deviation in E' from the local trend [-]."""
-    outlier_loss_deviation: Array = field(repr=False)
-    """The same in E''."""
     rms_storage: float
     """Root mean square of E'_fit/E' - 1 [-]."""
     rms_loss: float
@@ -345,8 +341,6 @@ def report_prony(
         terms=len(rubber.moduli),
         candidates=candidates,
         outlier_frequency=master.frequency[left_out],
-        outlier_storage_deviation=screening.storage_deviation[left_out],
-        outlier_loss_deviation=screening.loss_deviation[left_out],
         rms_storage=root_mean_square(errors[0]),
         rms_loss=root_mean_square(errors[1]),
         rms_loss_factor=root_mean_square(loss_factor_error),

@@ -261,8 +261,7 @@ def arrhenius(activation_energy: float, temperature: Array) -> Array:
 def standard_errors(name: str, value: ArrayLike) -> Array:
     """Return standard errors, NaN where unknown; raise `InputError` if one is negative."""
     errors = checks.vector(name, value, missing=True)
-    if (errors < 0.0).any():
-        raise InputError(f"{name} must not be negative; got {np.nanmin(errors):g}")
+    checks.refuse_entries(errors, errors < 0.0, f"{name} must not be negative")
     return errors
 
 
@@ -273,7 +272,7 @@ class ShiftTable(Shift, eq=False):
     there is none.
     """
 
-    temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    temperature: Vector = checked(checks.positive_vector, unit="K", repr=False)
     """In any order [K], shape (rows,), no two alike."""
     horizontal: Vector = checked(checks.vector, repr=False)
     """log10 a_T [-], shape (rows,); what counts is the difference of two."""
@@ -319,13 +318,6 @@ class ShiftTable(Shift, eq=False):
     def limits(self) -> tuple[float, float]:
         """The lowest and the highest temperature of the table [K]."""
         return float(self.temperature[0]), float(self.temperature[-1])
-
-    def horizontal_error_at(self, temperature: ArrayLike) -> Array:
-        """Return the standard error of log10 a_T [-] at `temperature` [K], same shape.
-
-        Straight lines between those of the table; `InputError` beyond it.
-        """
-        return np.interp(self._in_limits(temperature), self.temperature, self.horizontal_error)
 
     def bound(self, reference_temperature: float) -> Self:
         """Return the table as it is: its factors need no reference temperature."""

@@ -39,8 +39,7 @@ from numpy.typing import ArrayLike
 from gripscale.core import checks
 from gripscale.core.arrays import Array, Mask, Quantity, Vector
 from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import FileError, InputError
-from gripscale.core.wording import CaseKey, Words
+from gripscale.core.errors import FileError, InputError, unstated
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import MODULI, RATIOS, FileLayout, young_moduli
@@ -93,8 +92,6 @@ class SoftenedSeries:
     rubber: Rubber
     misfit: float
     """Largest relative difference from f E' and g E'' at the lowest frequency asked for [-]."""
-    misfit_of_all: float
-    """The same at all frequencies asked for [-]."""
 
 
 def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> SoftenedSeries:
@@ -107,7 +104,7 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
     f, g = checks.positive("storage", storage), checks.positive("loss", loss)
     at = checks.positive_vector("omega", omega, unit="rad/s") if np.size(omega) else np.empty(0)
     if f == g or at.size == 0 or rubber.moduli.size == 0:
-        return SoftenedSeries(_multiplied(rubber, np.full(rubber.moduli.size + 1, f)), 0.0, 0.0)
+        return SoftenedSeries(_multiplied(rubber, np.full(rubber.moduli.size + 1, f)), 0.0)
     from scipy.optimize import nnls  # half a second, which reading a case does not pay
 
     at = np.sort(at)
@@ -128,11 +125,10 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
     least = np.zeros(count)
     least[0] = _LEAST * f
     multiplier = nnls(system, right - system @ least)[0] + least
-    misfit = np.abs(rows @ multiplier - 1.0).reshape(2, -1)
+    misfit = np.abs(rows @ multiplier - 1.0).reshape(2, -1)[:, 0]
     in_order = np.empty(count)
     in_order[0], in_order[1 + slowest_first] = multiplier[0], multiplier[1:]
-    softer = _multiplied(rubber, in_order)
-    return SoftenedSeries(softer, float(misfit[:, 0].max()), float(misfit.max()))
+    return SoftenedSeries(_multiplied(rubber, in_order), float(misfit.max()))
 
 
 def _multiplied(rubber: Rubber, multiplier: Array) -> Rubber:
@@ -315,10 +311,10 @@ class StrainSweep(Checked, eq=False):
     lengths differ.
     """
 
-    strain: Vector = checked(checks.in_limits, repr=False)
+    strain: Vector = checked(checks.positive_vector, repr=False)
     """Single amplitude of strain [-], shape (rows,), above zero."""
-    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    storage: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    loss: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     deformation: str = checked(checks.one_of, choices=("uniaxial", "shear"))
     """What the strain is: of length (uniaxial), or shear."""
@@ -422,15 +418,9 @@ def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | Non
         patterns = {"peak-to-peak": _DOUBLE, "single": _SINGLE}
         meanings = [word for word, pattern in patterns.items() if pattern.search(title)]
         if len(meanings) != 1:
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey("amplitude"),
-                    " must be given (single or peak-to-peak), because the title "
-                    f"{title or 'of the strain'} does not tell",
-                ),
-                missing="amplitude",
-            )
+            why = f"because the title {title or 'of the strain'} does not tell"
+            words = f" must be given (single or peak-to-peak), {why}"
+            raise unstated(f"{table.path}: ", "amplitude", words)
         amplitude = meanings[0]
     size = AMPLITUDES[checks.one_of("amplitude", amplitude, AMPLITUDES)]
     return size * layout.read(table, "strain")

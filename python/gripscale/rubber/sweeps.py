@@ -59,12 +59,12 @@ class Sweeps(Checked, eq=False):
     lengths differ, there is no row, or temperatures run on without a gap, as on a ramp.
     """
 
-    temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    temperature: Vector = checked(checks.positive_vector, unit="K", repr=False)
     """Temperature as measured [K], shape (rows,)."""
-    frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    frequency: Vector = checked(checks.positive_vector, unit="Hz", repr=False)
     """Frequency [Hz], shape (rows,)."""
-    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    storage: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    loss: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     tolerance: float = checked(
         checks.not_negative,
@@ -242,7 +242,7 @@ def sweeps_from_ramps(
     """
     units = ("K", "Hz", "Pa", "Pa")
     columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)
-    rows = {name: checks.in_limits(name, values, unit=unit) for name, values, unit in columns}
+    rows = {name: checks.positive_vector(name, values, unit=unit) for name, values, unit in columns}
     checks.same_length(1, **rows)
     step = checks.positive("step", si_value("step", step, "K", "temperature difference"), unit="K")
     if step < _LEAST_STEP:
