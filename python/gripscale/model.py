@@ -15,6 +15,7 @@ from gripscale.core import checks
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
+from gripscale.core.labels import labelled
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit
 from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
@@ -301,12 +302,10 @@ def with_area_term(data: xr.Dataset, adhesive_friction: float) -> xr.Dataset:
 
     `total_friction` stays that of the hysteresis.
     """
-    import xarray as xr
-
     if math.isnan(adhesive_friction):
         return data
-    attrs = {"units": "1", "long_name": "friction coefficient of the area term", "source": "input"}
-    return data.assign({ADHESIVE_FRICTION: xr.Variable((), adhesive_friction, attrs)})
+    text = "friction coefficient of the area term"
+    return data.assign({ADHESIVE_FRICTION: labelled((), adhesive_friction, "1", text, "input")})
 
 
 def predicted_answer(
@@ -327,11 +326,9 @@ def predicted_answer(
     rests on the rubber beyond its measured frequencies, `cut_off_exponents` how it changes with
     the smallest wavelength; a model that does not know leaves them out.
     """
-    import xarray as xr
 
     def number(value: Any, unit: str, long_name: str) -> xr.Variable:
-        attrs = {"units": unit, "long_name": long_name, "source": model}
-        return xr.Variable((), value, attrs)
+        return labelled((), value, unit, long_name, model)
 
     if set(totals) != set(TOTALS):
         raise ValueError(f"totals must be {', '.join(TOTALS)}; got {', '.join(totals)}")

@@ -40,11 +40,11 @@ def finding(family: str, seed: int, share: float = 1.0) -> Finding:
 @pytest.mark.parametrize(
     ("family", "starts", "area"),
     [
-        ("gauss", "The road is isotropic: the rms slope over 0.2 mm", None),
-        ("2:1 along", "The road has ridges", 1.0 / 1.29),
-        ("2:1 across", "The road has ridges", 1.0 / 0.86),
-        ("3:1 along", "The road has ridges", 1.0 / 1.52),
-        ("6:1 across", "The road has ridges", 1.0 / 0.68),
+        ("gauss", "The surface is isotropic: the rms slope over 0.2 mm", None),
+        ("2:1 along", "The surface has ridges", 1.0 / 1.29),
+        ("2:1 across", "The surface has ridges", 1.0 / 0.86),
+        ("3:1 along", "The surface has ridges", 1.0 / 1.52),
+        ("6:1 across", "The surface has ridges", 1.0 / 0.68),
     ],
 )
 def test_two_profiles_across_each_other_decide(family: str, starts: str, area: float | None):
@@ -105,7 +105,7 @@ def test_a_profile_across_is_compared_and_never_solved():
     alone, both = (gs.Case(lines, ZENER, **load) for lines in ([along], [across, along]))
     assert both.surface.sines.wavelength.tolist() == alone.surface.sines.wavelength.tolist()
     assert [part.measured.cleaned for _, part in each_measured(both.surface)] == [[along]]
-    assert any("The road has ridges" in f.sentence for f in both.findings())
+    assert any("The surface has ridges" in f.sentence for f in both.findings())
     assert any("Profiles of one direction" in f.sentence for f in alone.findings())
     with pytest.raises(InputError, match="must have a profile along sliding; got all of them"):
         gs.Case([across], ZENER, **load)

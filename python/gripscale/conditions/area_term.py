@@ -84,21 +84,17 @@ class GaussianStress(Checked):
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together."""
         with np.errstate(divide="ignore"):
-            decades = np.log10(_speeds(speed) / self.speed_0)
-        shifted = decades + self._log_shift(temperature)
+            shifted = np.log10(_speeds(speed) / self.speed_0)
+        if self.reference_temperature is not None and self.activation_energy > 0.0:
+            if temperature is None:
+                raise InputError("temperature must be given [K] for an area term with it")
+            kelvin = checks.real("temperature", temperature, unit="K")
+            if (kelvin < checks.LEAST).any():
+                raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
+            difference = 1.0 / kelvin - 1.0 / self.reference_temperature
+            shift = self.activation_energy / BOLTZMANN * difference / math.log(10.0)
+            shifted = shifted + shift
         return np.asarray(self.stress_0 * np.exp(-self.width * shifted**2))
-
-    def _log_shift(self, temperature: ArrayLike | None) -> Array:
-        """Return log10 a_T [-]; zero without an activation energy."""
-        if self.reference_temperature is None or self.activation_energy == 0.0:
-            return np.zeros(())
-        if temperature is None:
-            raise InputError("temperature must be given for an area term that depends on it [K]")
-        kelvin = checks.real("temperature", temperature, unit="K")
-        if (kelvin < checks.LEAST).any():
-            raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
-        difference = 1.0 / kelvin - 1.0 / self.reference_temperature
-        return np.asarray(self.activation_energy / BOLTZMANN * difference / math.log(10.0))
 
 
 class LeGalKlueppelStress(Checked):

@@ -275,6 +275,8 @@ def _passing(
     *distances: Distances,
 ) -> ComplexArray:
     """Return the steady values, and E r over the `distances` of harmonics that still change."""
+    from scipy.special import wofz
+
     length = _diffusion_length(time, thermal)
     changing = m.real * (0.5 * length) < STEADY
     if not changing.any():
@@ -284,20 +286,17 @@ def _passing(
         out[changing] = 0.0
         return out
     different, inverse = np.unique(m[changing], return_inverse=True)
-    means = [
-        depth.average(of, lambda z: _rise_in_time(z, different, length), length) for of in distances
-    ]
+
+    def rise(z: Array) -> ComplexArray:
+        """Return r at depths, by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
+        at, half = (z / length)[:, None], (0.5 * length * different)[None, :]
+        scale = np.exp(-(at**2) - half**2)
+        faddeeva = wofz(1j * (at - half)) - wofz(1j * (at + half))
+        return np.asarray(scale * faddeeva / (2.0 * different))
+
+    means = [depth.average(of, rise, length) for of in distances]
     out[changing] = (sum(means) / (len(means) * thermal.conductivity))[inverse]
     return out
-
-
-def _rise_in_time(z: Array, m: ComplexArray, length: float) -> ComplexArray:
-    """Return r at depths of shape (n,), shape (n, m), by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
-    from scipy.special import wofz
-
-    at, half = (z / length)[:, None], (0.5 * length * m)[None, :]
-    scale = np.exp(-(at**2) - half**2)
-    return np.asarray(scale * (wofz(1j * (at - half)) - wofz(1j * (at + half))) / (2.0 * m))
 
 
 @dataclass(frozen=True)

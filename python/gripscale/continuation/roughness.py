@@ -211,11 +211,7 @@ class OwnFaces(Checked):
 class HurstExponent(Checked):
     """Continue the slopes of the faces that touch as a power law with this exponent."""
 
-    hurst: float = checked(checks.positive)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        checks.at_most_one("hurst", self.hurst)
+    hurst: float = checked(checks.fraction)
 
 
 class FinerMeasurement(Checked):

@@ -66,19 +66,12 @@ def _column(name: str, array: ArrayLike) -> Array:
     """Return a column; raise `InputError` if a value is out of its range."""
     unit = _OPTIONAL.get(name, "")
     values = checks.vector(name, array, unit=unit, missing=name in _OPTIONAL)
-    beyond, low = np.abs(values) > _MOST[name], np.zeros(values.size, dtype=bool)
-    if beyond.any():
-        at = int(np.argmax(beyond))
-        raise InputError(
-            f"{name} must be at most {_MOST[name]:g}; got {values[at]:g} at index {at}: a missing "
-            "value is nan or an empty cell"
-        )
-    if name in _OPTIONAL:
-        low = values < 0.0 if name == "spread" else values <= 0.0
-    if low.any():
-        limit = "not be negative" if name == "spread" else f"be above zero [{unit}]"
-        at = int(np.argmax(low))
-        raise InputError(f"{name} must {limit}; got {values[at]:g} at index {at}")
+    most = f"{name} must be at most {_MOST[name]:g}, missing values nan or an empty cell"
+    checks.refuse_entries(values, np.abs(values) > _MOST[name], most)
+    if name == "spread":
+        checks.refuse_entries(values, values < 0.0, f"{name} must not be negative")
+    elif name in _OPTIONAL:
+        checks.refuse_entries(values, values <= 0.0, f"{name} must be above zero [{unit}]")
     return values
 
 

@@ -150,18 +150,12 @@ def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
         )
     )
     before = same_surface[-2]
-    area += _new_borders(before, last) * abs(last.contact_fraction - before.contact_fraction)
+    # of a map the share of new borders is zero: `border_error` times the points falls there
+    borders = [(grid.border_error * grid.points) ** 2 for grid in (before, last)]
+    new = max(0.0, 1.0 - borders[0] / borders[1]) if borders[1] > 0.0 else 0.0
+    area += new * abs(last.contact_fraction - before.contact_fraction)
     difference = abs(last.friction - last.friction_from_dissipation)
     return math.hypot(area, last.border_error), max(traction, difference + dissipation)
-
-
-def _new_borders(before: GridRecord, last: GridRecord) -> float:
-    """Return the share of the borders of a line that the grid before did not have.
-
-    Of a map it is zero: there, `border_error` times the points falls from grid to grid.
-    """
-    borders = [(grid.border_error * grid.points) ** 2 for grid in (before, last)]
-    return max(0.0, 1.0 - borders[0] / borders[1]) if borders[1] > 0.0 else 0.0
 
 
 @dataclass(frozen=True)

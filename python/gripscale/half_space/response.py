@@ -83,21 +83,15 @@ class HalfSpace:
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
-        value = self._modulus_of_waves(grid)
+        if self.layers is not None:
+            value = np.asarray(2.0 / (_without_mean(grid) * self._stack(grid)[0]))
+        else:
+            value = plane_strain_modulus_of(self.young_modulus(grid), self.rubber.bulk_modulus)
+        if self.thickness is not None:
+            value = value / self._thickness_factor(grid)[0]
         if self.loss != 1.0:
             value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
         return np.where(grid.own_opposite, np.abs(value), value)
-
-    def _modulus_of_waves(self, grid: Grid) -> ComplexArray:
-        """Return M [Pa] of every wave as if none were its own opposite."""
-        if self.layers is not None:
-            number = _without_mean(grid)
-            return np.asarray(2.0 / (number * self._stack(grid)[0]))
-        modulus = self.young_modulus(grid)
-        value = plane_strain_modulus_of(modulus, self.rubber.bulk_modulus)
-        if self.thickness is None:
-            return value
-        return np.asarray(value / self._thickness_factor(grid)[0])
 
     def _thickness_factor(self, grid: Grid) -> tuple[ComplexArray, ComplexArray]:
         """Return K over that of the half-space [-], and the derivative of its logarithm by nu."""

@@ -330,9 +330,7 @@ def crop_map(
 
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
     """Cut off border lines with more than a share of missing heights, the barest line first."""
-    most = checks.not_negative("trim", share)
-    if most > 1.0:
-        raise InputError(f"trim must be a share of the heights, from 0 to 1; got {most:g}")
+    most = checks.share("trim", share)
     missing = np.isnan(surface.z)
     (start, stop), (low, high) = (0, surface.x.size), (0, surface.y.size)
     while True:

@@ -61,11 +61,20 @@ def direction_of_profiles(
     that changes the area less than the step from lines to a surface errs does not.
     """
     if not across:
-        return _unknown_direction()
+        sentence = Words(
+            f"Profiles in one direction do not show ridges: ridges 3:1 make the area up to "
+            f"{ERROR_OF_RIDGES:.1f} times too large or too small. A second profile, with ",
+            CaseKey("lay", "across"),
+            ", decides.",
+        )
+        error = 1.0 / ERROR_OF_RIDGES - 1.0
+        topic, key = Topic.SURFACE, "surface.lay"
+        return Finding(Severity.WARNING, sentence, area=error, topic=topic, key=key)
     ratios = [_SlopeRatio.over(lag, along, across) for lag in lags]
     counting = [ratio for ratio in ratios if abs(math.log(ratio.value)) > ratio.half_width]
     slopes = ratios[0]
-    if all(map(_harmless, (*slopes.ends, *(ratio.value for ratio in counting)))):
+    errors = map(area_over_truth, (*slopes.ends, *(ratio.value for ratio in counting)))
+    if all(abs(math.log(error)) < math.log(_HARMLESS) for error in errors):
         return Finding(Severity.GOOD, f"The surface is isotropic: {slopes}.", topic=Topic.SURFACE)
     if counting:
         worst = max(counting, key=lambda ratio: abs(math.log(area_over_truth(ratio.value))))
@@ -121,26 +130,6 @@ class _SlopeRatio(NamedTuple):
             f"the rms slope over {in_mm(self.lag, 2)} along sliding is {self.value:.3g} "
             f"({low:.3g} to {high:.3g}) times that across"
         )
-
-
-def _harmless(slope_ratio: float) -> bool:
-    return abs(math.log(area_over_truth(slope_ratio))) < math.log(_HARMLESS)
-
-
-def _unknown_direction() -> Finding:
-    sentence = Words(
-        f"Profiles in one direction do not show ridges: ridges 3:1 make the area up to "
-        f"{ERROR_OF_RIDGES:.1f} times too large or too small. A second profile, with ",
-        CaseKey("lay", "across"),
-        ", decides.",
-    )
-    return Finding(
-        Severity.WARNING,
-        sentence,
-        area=1.0 / ERROR_OF_RIDGES - 1.0,
-        topic=Topic.SURFACE,
-        key="surface.lay",
-    )
 
 
 def _warning(sentence: str, error: float) -> Finding:

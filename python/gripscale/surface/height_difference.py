@@ -244,8 +244,7 @@ def block_sums(
             f"max_lag must be at least one step, {step:g} m, and within the profile, "
             f"{longest:g} m; got {limit:g} m"
         )
-    share = checks.positive("top_height_fraction", top_height_fraction)
-    checks.at_most_one("top_height_fraction", share)
+    share = checks.fraction("top_height_fraction", top_height_fraction)
     # the distinct whole numbers of steps nearest to evenly spaced log lags
     most = int(np.floor(limit / step + 1e-6))
     count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1

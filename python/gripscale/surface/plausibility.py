@@ -205,7 +205,9 @@ def _flat_warnings(z: Array) -> Iterator[str]:
     """Warn of parts that bend much less than the others: filled or held, not measured."""
     count = min(_STRETCHES, z.size // (2 * _SHORTEST_STRETCH))
     parts = [part[np.isfinite(part)] for part in np.array_split(z, max(count, 1))]
-    bends = np.array([_rms(np.diff(part, 2)) for part in parts if part.size >= _SHORTEST_STRETCH])
+    bends = np.array(
+        [np.sqrt(np.mean(np.diff(p, 2) ** 2)) for p in parts if p.size >= _SHORTEST_STRETCH]
+    )
     flat = bends < _FLAT * np.median(bends) if bends.size else np.zeros(0, dtype=bool)
     if flat.any():
         yield (
@@ -217,7 +219,8 @@ def _flat_warnings(z: Array) -> Iterator[str]:
 def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
     """Warn of lengths that no texture has."""
     rms = float(np.nanstd(z))
-    slopes = _between_neighbours(z) / profile.step
+    changes = np.abs(np.diff(z))  # between neighbours that are both valid
+    slopes = changes[np.isfinite(changes)] / profile.step
     lengths = (in_mm(length, 3) for length in (rms, profile.length, profile.step))
     sizes = "rms height {} over {} in steps of {}".format(*lengths)
     if rms > min(_TALLEST * profile.length, _LARGEST_HEIGHT):
@@ -226,16 +229,6 @@ def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
         yield f"{sizes}: hardly any slope; is the unit of heights right?"
     if profile.step > _COARSEST_STEP:
         yield f"{sizes}: too coarse for a texture; is the unit of distances right?"
-
-
-def _between_neighbours(z: Array) -> Array:
-    """Return the sizes of height changes between neighbours that are both valid."""
-    changes = np.abs(np.diff(z))
-    return changes[np.isfinite(changes)]
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[Finding]:

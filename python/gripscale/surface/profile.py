@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -131,18 +131,13 @@ LAYS = ("along", "across")
 TURNED_ROUND = "distances fell from row to row: the rows were turned round"
 """Note of a profile whose rows were reversed."""
 
+_T = TypeVar("_T")
 
-def _texts(name: str, value: Any) -> tuple[str, ...]:
-    """Return `value` as a tuple; raise `InputError` unless it holds texts only."""
+
+def _tuple_of(name: str, value: Any, *, kind: type[_T]) -> tuple[_T, ...]:
     if not isinstance(value, tuple | list):
-        raise InputError(f"{name} must be a tuple of texts; got {checks.short_repr(value)}")
-    return tuple(checks.text(f"each of {name}", item) for item in value)
-
-
-def _findings(name: str, value: Any) -> tuple[Finding, ...]:
-    if not isinstance(value, tuple | list):
-        raise InputError(f"{name} must be a tuple of findings; got {checks.short_repr(value)}")
-    return tuple(checks.instance(f"each of {name}", item, Finding) for item in value)
+        raise InputError(f"{name} must be a tuple; got {checks.short_repr(value)}")
+    return tuple(checks.instance(f"each of {name}", item, kind) for item in value)
 
 
 class Profile(Checked, Pictured, eq=False):
@@ -182,16 +177,13 @@ class Profile(Checked, Pictured, eq=False):
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
-    notes: tuple[str, ...] = checked(_texts, default=())
-    doubts: tuple[Finding, ...] = checked(_findings, default=())
+    notes: tuple[str, ...] = checked(_tuple_of, kind=str, default=())
+    doubts: tuple[Finding, ...] = checked(_tuple_of, kind=Finding, default=())
     lay: str = checked(checks.one_of, choices=LAYS, default="along")
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.x.size != self.z.size:
-            raise InputError(
-                f"x and z must have the same length; got {self.x.size} and {self.z.size}"
-            )
+        checks.same_length(0, x=self.x, z=self.z)
         if self.x.size < FEWEST_POINTS:
             raise InputError(
                 f"a profile must have at least {FEWEST_POINTS} points; got {self.x.size}"
@@ -283,7 +275,7 @@ def _axis(name: str, value: ArrayLike) -> Array:
     return axis
 
 
-def _height_table(name: str, value: ArrayLike) -> Array:
+def height_table(name: str, value: ArrayLike) -> Array:
     """Return the heights of a map; raise `InputError` unless they are a table of numbers."""
     expected = f"{name} must be a table of heights [m], numbers or NaN, with two dimensions"
     z = checks.array(value, expected)
@@ -291,6 +283,8 @@ def _height_table(name: str, value: ArrayLike) -> Array:
         raise InputError(f"{expected}; got {z.ndim} dimensions")
     if (np.abs(z) > checks.MOST).any():
         raise InputError(f"{expected}; got {z[np.abs(z) > checks.MOST][0]:g}")
+    if np.isnan(z).all():
+        raise InputError(f"{name} must have some heights; got {z.size} points, all missing")
     return z
 
 
@@ -325,11 +319,11 @@ class HeightMap(Checked, Pictured, eq=False):
 
     x: Array = checked(_axis)
     y: Array = checked(_axis)
-    z: Array = checked(_height_table)
+    z: Array = checked(height_table)
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
-    doubts: tuple[Finding, ...] = checked(_findings, default=())
+    doubts: tuple[Finding, ...] = checked(_tuple_of, kind=Finding, default=())
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -338,8 +332,6 @@ class HeightMap(Checked, Pictured, eq=False):
             raise InputError(
                 f"z must have shape {shape}, heights along x and then y; got {self.z.shape}"
             )
-        if np.isnan(self.z).all():
-            raise InputError(f"z must have some heights; got {self.z.size} points, all missing")
 
     @property
     def step(self) -> tuple[float, float]:

@@ -45,7 +45,7 @@ from gripscale.core.arrays import Array, Quantity
 from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.surface.low_pass import STEEPEST, followed_lines, upper_envelope
-from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, of_one_step
+from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, height_table, of_one_step
 from gripscale.surface.resampling import fill_gaps, without_line
 
 _PER_DECADE = 10
@@ -280,14 +280,11 @@ def map_spectrum(
         As in `profile_spectrum`.
     """
     steps = checks.positive("x_step", x_step, unit="m"), checks.positive("y_step", y_step, unit="m")
-    expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
-    heights = checks.array(z, expected)
-    if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:
-        raise InputError(f"{expected}; got shape {heights.shape}")
-    if (np.abs(heights) > checks.MOST).any():
-        raise InputError(f"{expected}; got one beyond {checks.MOST:g}")
-    if np.isnan(heights).all():
-        raise InputError(f"z must have some heights; got {heights.size} points, all missing")
+    heights = height_table("z", z)
+    if min(heights.shape) < FEWEST_POINTS:
+        raise InputError(
+            f"z must have at least {FEWEST_POINTS} heights each way; got shape {heights.shape}"
+        )
     each = checks.whole("per_decade", per_decade, least=1, most=1000)
     periodic = checks.one_of("taper", taper, _TAPERS) == "none"
     slope = checks.positive("steepest", steepest, infinite=True)
@@ -363,7 +360,7 @@ def areal_spectrum(
             f"of a surface; got {int((density >= checks.LEAST).sum())}"
         )
     if hurst is not None:
-        exponent = checks.at_most_one("hurst", checks.positive("hurst", hurst))
+        exponent = checks.fraction("hurst", hurst)
         ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
         return ArealSpectrum(q, density / (2.0 * np.sqrt(np.pi) * q * ratio), mean.interpolated)
     certainty = np.sqrt(mean.width) / density

@@ -52,7 +52,7 @@ def self_affine_profile(
     seed : int
         Seed of the random numbers.
     """
-    exponent = 2.0 * checks.at_most_one("hurst", checks.positive("hurst", hurst))
+    exponent = 2.0 * checks.fraction("hurst", hurst)
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)

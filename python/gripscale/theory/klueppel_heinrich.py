@@ -119,17 +119,7 @@ def klueppel_heinrich(
         surface by default.
     """
     if not isinstance(surface, SelfAffineFit | HeightDifference):
-        profiles = [surface] if isinstance(surface, Profile) else surface
-        if (
-            not isinstance(profiles, Sequence)
-            or not profiles
-            or not all(isinstance(profile, Profile) for profile in profiles)
-        ):
-            raise InputError(
-                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
-                f"got {checks.short_repr(surface)}"
-            )
-        surface = height_difference(profiles, top_height_fraction=_TOP_HEIGHT_FRACTION)
+        surface = height_difference(surface, top_height_fraction=_TOP_HEIGHT_FRACTION)
     fit = surface if isinstance(surface, SelfAffineFit) else fit_self_affine(surface)
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)

@@ -254,7 +254,7 @@ def persson(
             f"spectrum must be an ArealSpectrum or a ProfileSpectrum; "
             f"got {checks.short_repr(spectrum)}"
         )
-    share = checks.at_most_one("gamma", checks.not_negative("gamma", gamma))
+    share = checks.share("gamma", gamma)
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     end = last
     if smallest_wavelength is not None:
