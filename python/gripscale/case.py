@@ -57,9 +57,7 @@ _CLEANED_AS_USUAL: dict[str, Any] = {
     if parameter.kind is Parameter.KEYWORD_ONLY
 }
 """Arguments of `gripscale.clean` where a case states none."""
-_WAVES = 8
-"""Sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre."""
-
+_WAVES = 8  # sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre
 RubberLike = Rubber | MasterCurve | MeasuredRubber
 
 

@@ -91,8 +91,7 @@ _LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
 """ln r that a withheld octave is tried with; r_1 is interpolated between them."""
 
 MOST_OCTAVES = 8
-_LEAST_STEP = 0.05
-"""Rest of an octave, over the last cut-off, that is not a step of its own."""
+_LEAST_STEP = 0.05  # rest of an octave, over the last cut-off, that is not a step of its own
 
 MOST_APART = 3.0
 """Largest ratio of the slope of the faces to that of a finer measurement, or its inverse."""

@@ -48,8 +48,7 @@ _MOST_ABOVE = 1.25
 2.5 stones with sharp edges and cascades change their friction by 3 % at most."""
 
 _LEAST = 1e-100
-_MARGIN = 3
-"""Points of a period on either side that a cubic between two points depends on."""
+_MARGIN = 3  # points of a period on either side that a cubic between two points depends on
 
 
 @dataclass(frozen=True, eq=False)

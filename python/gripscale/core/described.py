@@ -21,10 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WIDTH = 100
-_FEW = 5
-"""Numbers of an array that are listed."""
-_MOST_LINES = 14
-"""Lines below the name of an object."""
+_FEW = 5  # numbers of an array that are listed
+_MOST_LINES = 14  # lines below the name of an object
 _LENGTHS = "wavelength amplitude smallest_wavelength thickness footprint distance indentation lag x"
 _UNITS = {
     **dict.fromkeys(f"{_LENGTHS} down_to cut_off lag_range".split(), "m"),

@@ -61,8 +61,7 @@ ZERO_CELSIUS = 273.15
 _ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
 """Zero [K] of the scales of temperature that do not begin at 0 K."""
 
-_UNIT_NEEDED = ("temperature",)
-"""Kinds whose plain numbers are ambiguous."""
+_UNIT_NEEDED = ("temperature",)  # kinds whose plain numbers are ambiguous
 
 _OTHER_SPELLINGS = {
     "um": ("micron", "microns", "micrometer", "micrometre"),

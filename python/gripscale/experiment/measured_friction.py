@@ -58,8 +58,7 @@ _OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
 _MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0, "pressure": 1e11}
 """Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones."""
 
-_RATIO = ("1", "-", "–")
-"""Units of what has none."""
+_RATIO = ("1", "-", "–")  # units of what has none
 
 
 def _column(name: str, array: ArrayLike) -> Array:
@@ -174,8 +173,7 @@ def _word(title: str) -> str | None:
     return next((word for word, names in _WORDS.items() if plain in names), None)
 
 
-_FAR = 30.0
-"""Ratio of measured speeds to that of the case beyond which another unit is likely."""
+_FAR = 30.0  # ratio of measured speeds to that of the case beyond which another unit is likely
 
 
 def speed_doubts(measured: MeasuredFriction, speed: float) -> list[Finding]:

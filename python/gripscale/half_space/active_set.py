@@ -64,8 +64,7 @@ _Index = NDArray[np.intp]
 OnIteration = Callable[[int, int], None]
 """Called with the number of an iteration and of the points that are to change sides."""
 
-_REACH = 1
-"""Steps along each axis to the neighbours that the extension uses."""
+_REACH = 1  # steps along each axis to the neighbours that the extension uses
 FAR = 2.0
 """Weight of all farther points, over that of a neighbour along an axis."""
 LOSSY = 0.6

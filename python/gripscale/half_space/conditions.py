@@ -33,8 +33,7 @@ from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
-_ROUND_OFF = 1e-12
-"""Share of the friction below which the heat of an octave is neglected."""
+_ROUND_OFF = 1e-12  # share of the friction below which the heat of an octave is neglected
 
 
 def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) -> Array:

@@ -73,10 +73,8 @@ ERROR_GRIDS = 3
 _BORDER = (np.pi - 1.0 + np.log(2.0)) / 24.0
 _BORDER_ERROR = {1: 0.5, 2: 0.7}
 """Uncertainty of the position of a border, on lines and maps [steps]."""
-_ERROR_RATIO = 0.4
-"""c, the error after halving the spacing over the change by it."""
-_OPENING = 0.3
-"""s, over the stiffness of the stiffest wave."""
+_ERROR_RATIO = 0.4  # c, the error after halving the spacing over the change by it
+_OPENING = 0.3  # s, over the stiffness of the stiffest wave
 
 
 def friction_from_traction(grid: Grid, pressure: Array, height: Array) -> float:

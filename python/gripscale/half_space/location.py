@@ -26,8 +26,7 @@ from gripscale.half_space.result import RoughContact
 STRETCH, LEAST_WAVES, MOST_OF_LINE = 4e-3, 20.0, 0.25
 """Length of a stretch that shows some stones [m], the least in smallest waves and the most in
 lengths of the line."""
-_PIECES = 2**15
-"""Pieces of a trace: 1.2 MB in single precision."""
+_PIECES = 2**15  # pieces of a trace: 1.2 MB in single precision
 FIELD = 256
 """Most blocks of the field of a map along a side."""
 _SOURCE = "gripscale direct contact"

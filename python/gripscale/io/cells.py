@@ -80,8 +80,7 @@ def cells_of(line: str, separator: str | None) -> list[str]:
     return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
 
 
-_ROWS_WITH_WORDS = 2
-"""Fewest rows by which a column of words is known."""
+_ROWS_WITH_WORDS = 2  # fewest rows by which a column of words is known
 
 
 def without_words(lines: list[Line]) -> list[Line]:

@@ -41,8 +41,7 @@ WIDEST_HEAD, WIDEST_WORDS = 14, 30
 """Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
 LONGEST_HEAD = 40
 """Characters up to which a narrow page may break a heading between any two words."""
-_NARROW = 4
-"""Columns of a table that fits beside a figure."""
+_NARROW = 4  # columns of a table that fits beside a figure
 
 
 def significant(value: float, digits: int = 3) -> str:

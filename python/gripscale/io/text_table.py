@@ -132,8 +132,7 @@ _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
 _TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
 _DIGITS = frozenset("0123456789+-.")
-_PLAIN = _DIGITS | {"e", "E"}
-"""Letters of numbers that numpy reads all at once."""
+_PLAIN = _DIGITS | {"e", "E"}  # letters of numbers that numpy reads all at once
 
 
 @dataclass(frozen=True)

@@ -31,8 +31,7 @@ from gripscale.rubber.side_by_side import split_blocks
 _ROWS = "rows of frequency, storage and loss"
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
-_STEP = re.compile(r"\[\w+\]")
-"""Begins a step of a file of TRIOS: [step]."""
+_STEP = re.compile(r"\[\w+\]")  # begins a step of a file of TRIOS: [step]
 _REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
 
 

@@ -343,8 +343,7 @@ def missing(table: TextTable, what: str) -> InputError:
     return InputError(Words(words, where, key, ' states it, such as "10 Hz"'), missing="frequency")
 
 
-_ROUNDING = 0.05
-"""Relative error of a loss factor by the digits it is printed with."""
+_ROUNDING = 0.05  # relative error of a loss factor by the digits it is printed with
 
 
 def young_moduli(table: TextTable, layout: FileLayout) -> tuple[Array, Array]:

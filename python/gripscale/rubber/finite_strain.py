@@ -186,8 +186,7 @@ def _times(time: ArrayLike, driven: Array, name: str) -> Array:
 
 _LEAST_EQUILIBRIUM = 1e-3
 """The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
-_FASTEST = 0.01
-"""Shortest fitted relaxation time, as a share of the shortest test."""
+_FASTEST = 0.01  # shortest fitted relaxation time, as a share of the shortest test
 
 
 @dataclass(frozen=True)

@@ -28,10 +28,8 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array
 from gripscale.rubber.sweeps import Sweeps
 
-_DEGREE, _SPACING = 3, 0.5
-"""Of the splines, and of their knots [decades]."""
-_PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
-"""Tried, over the mean trust of a row."""
+_DEGREE, _SPACING = 3, 0.5  # of the splines, and of their knots [decades]
+_PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))  # tried, over the mean trust of a row
 _RIDGE = 1e-9
 """Penalty of the coefficients themselves, over the same: one row determines no straight line."""
 
@@ -129,24 +127,19 @@ def sweep_rows(sweeps: Sweeps, moduli: str) -> Rows:
     return Rows(x, y, np.repeat(np.arange(len(counts)), counts), lifts)
 
 
-_AT = 1e-9
-"""Distance from a limit that is rounding [decades]."""
+_AT = 1e-9  # distance from a limit that is rounding [decades]
 _MOST_ITERATIONS = 60
-_FREE_PENALTY = 8
-"""Iterations after which the weight of the penalty stays as it is."""
-_LARGEST_STEP = 0.3
-"""By which a shift may change in an iteration [decades]."""
+_FREE_PENALTY = 8  # iterations after which the weight of the penalty stays as it is
+_LARGEST_STEP = 0.3  # by which a shift may change in an iteration [decades]
 _CONVERGED = 1e-4
-_FAR = 2.0
-"""Standard deviations from which a row counts less."""
+_FAR = 2.0  # standard deviations from which a row counts less
 _LEAST_SCATTER = 2e-3
 """Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a
 pair that does not meet moved sweeps of exact moduli by decades."""
 _MOST_CORRELATED = 0.9
 _LIFT = 0.02
 """How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""
-_LEAST_SHARE = 0.1
-"""Least overlap of neighbours, over the shorter of them."""
+_LEAST_SHARE = 0.1  # least overlap of neighbours, over the shorter of them
 _BOUND_ERROR = 1.0
 """Standard error of a step that is a bound [decades]: sweeps of 2.7 decades with a true step of 2.8
 were taken 0.4 decades too near."""

@@ -105,8 +105,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     return write_text(file_path(path), "\n".join([*lines, ""]))
 
 
-_ONE_TEMPERATURE = 2.0
-"""Temperatures this close [K] are one: no oven is quieter."""
+_ONE_TEMPERATURE = 2.0  # temperatures this close [K] are one: no oven is quieter
 _TWO_ROWS = "expected at least 2 rows of frequency, storage and loss"
 
 

@@ -46,8 +46,7 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEn
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_BLOCK = 256
-"""Frequencies at once: with a hundred terms an array of them is 200 kB."""
+_BLOCK = 256  # frequencies at once: with a hundred terms an array of them is 200 kB
 
 
 def storage_shape(phase: Array) -> Array:
@@ -511,8 +510,7 @@ def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> N
     )
 
 
-_SAME = 0.5
-"""Temperatures that differ by less are one [K]: 20 °C and 293 K."""
+_SAME = 0.5  # temperatures that differ by less are one [K]: 20 °C and 293 K
 
 
 def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:

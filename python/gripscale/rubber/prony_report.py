@@ -37,8 +37,7 @@ from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_co
 from gripscale.rubber.maxwell_fit import Candidate, Curve, Prior, Screening
 
 _WINDOW = 9
-_ALLOWED = 1.5
-"""Local mean over scatter that is believed: four and a half times its own scatter."""
+_ALLOWED = 1.5  # local mean over scatter that is believed: four and a half times its own scatter
 END_ROWS = 5
 
 
@@ -89,13 +88,10 @@ _LIKELY, _LIKELY_RATIO = 0.25, 2.0
 """Misfit as the curves are, and its ratio to that of the swapped ones. Measured and synthetic
 rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; swapped, they
 have 0.37 to 2.6, those with a loss factor of one all over less."""
-_WORST = 3.0
-"""Log error of a row that counts, at most: a modulus of zero has no logarithm."""
+_WORST = 3.0  # log error of a row that counts, at most: a modulus of zero has no logarithm
 _TIMES_PER_DECADE, _MOST_TIMES = 2.0, 60
-_BEYOND = 2.0
-"""Decades of relaxation times beyond both ends: all that a band can tell of."""
-_OVER_MEASURED = 100.0
-"""Limit of the sum of all moduli over the largest measured: none in practice."""
+_BEYOND = 2.0  # decades of relaxation times beyond both ends: all that a band can tell of
+_OVER_MEASURED = 100.0  # limit of the sum of all moduli over the largest measured: none in practice
 
 
 @dataclass(frozen=True)
@@ -150,8 +146,7 @@ _NO_SOLID, _SOLID = 0.35, 0.16
 """Root mean square log misfit [-] above which a curve is in doubt; the most that rubbers have."""
 _BETTER = 0.5
 """Misfit of a reading over that of exchanged moduli, below which it is the likelier cause."""
-_SCATTER = 0.3
-"""Relative scatter of E' about its neighbours that no measurement of one rubber has."""
+_SCATTER = 0.3  # relative scatter of E' about its neighbours that no measurement of one rubber has
 _SOFTEST, _STIFFEST = 1e4, 2e10
 """Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa."""
 

@@ -35,8 +35,7 @@ from gripscale.core.checks import Checked, checked
 from gripscale.core.errors import InputError
 from gripscale.core.units import ZERO_CELSIUS, celsius
 
-_MOST = 100.0
-"""Largest log10 a_T that is a factor and no mistake: WLF has a pole."""
+_MOST = 100.0  # largest log10 a_T that is a factor and no mistake: WLF has a pole
 
 EDGE = 1e-6
 """Temperatures this little beyond a range [K] are within it: printed numbers are rounded."""
@@ -45,8 +44,7 @@ GAS_CONSTANT = 8.314462618
 """R [J/(mol K)]."""
 _FROM_POLE = 1e-3
 """Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there."""
-_COLDEST, _HOTTEST = 1.0, 1e4
-"""Ends of what a law is asked for [K]."""
+_COLDEST, _HOTTEST = 1.0, 1e4  # ends of what a law is asked for [K]
 
 
 class Shift(Checked, ABC, eq=False):

@@ -34,10 +34,8 @@ from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path, read_table, read_text
 from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
 
-_LEAST_ERROR = 0.01
-"""Standard error of log10 a_T below which none is believed [decades]."""
-_SECOND = 51.6
-"""Universal c2 of WLF [K], to begin with."""
+_LEAST_ERROR = 0.01  # standard error of log10 a_T below which none is believed [decades]
+_SECOND = 51.6  # universal c2 of WLF [K], to begin with
 
 
 @dataclass(frozen=True)
@@ -192,8 +190,7 @@ def _errors(matrix: Array, residual: Array) -> list[float]:
 
 _TITLES = "temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T"
 _REFERENCE = re.compile(r"^\s*[#%!].*reference temperature \((\w)\):\s*([-+.\deE]+)", re.MULTILINE)
-_DECIMALS = 6
-"""Of a temperature in degrees Celsius: 20.1, not 20.100000000000023."""
+_DECIMALS = 6  # of a temperature in degrees Celsius: 20.1, not 20.100000000000023
 
 
 def write_shift_table(path: str | Path, table: ShiftTable) -> Path:

@@ -24,10 +24,8 @@ _MARK = re.compile(
 _UNIT = re.compile(r"[\[(/]\s*(°?[CFK])\b")
 _SEPARATORS = ("\t", ";", ",")
 """Separators of cells that may be empty, as those of a line with one mark for each block are."""
-_MOST_TITLES = 4
-"""Lines above the rows that may hold titles, units and marks."""
-_FEWEST_COLUMNS = 4
-"""Two blocks of two moduli."""
+_MOST_TITLES = 4  # lines above the rows that may hold titles, units and marks
+_FEWEST_COLUMNS = 4  # two blocks of two moduli
 
 
 @dataclass(frozen=True)

@@ -51,8 +51,7 @@ DEFORMATIONS = ("tension", "shear")
 UNIAXIAL_OF_SHEAR = 1.0 / np.sqrt(3.0)
 
 _SMOOTHING, KEEPING = 0.03, 0.02
-_LEAST = 1.0 / 3.0
-"""Smallest multiplier of E_inf over f."""
+_LEAST = 1.0 / 3.0  # smallest multiplier of E_inf over f
 
 
 @dataclass(frozen=True)
@@ -300,8 +299,7 @@ _DOUBLE = re.compile(
     r"peak[\s-]*(to[\s-]*)?peak|p\s?-\s?p\b|pk-pk|double|dsa\b|doppel|spitze", re.I
 )
 _SINGLE = re.compile(r"single|ssa\b|0\s?-\s?p|zero[\s-]*to[\s-]*peak|einfach", re.I)
-_ONE_FREQUENCY = 0.02
-"""Share by which frequencies of one sweep may differ."""
+_ONE_FREQUENCY = 0.02  # share by which frequencies of one sweep may differ
 
 
 class StrainSweep(Checked, eq=False):

@@ -32,14 +32,10 @@ from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.sweeps import Sweeps
 
-_STEP = 0.02
-"""Steps of the shifts that are tried [decades]."""
-_BACK = 0.5
-"""How far a colder sweep may seem to be faster [decades]: by scatter on a plateau."""
-_LEAST_SHARE = 0.1
-"""Least overlap that is tried, over the shorter of the two sweeps."""
-_LEAST_NOISE = 2e-3
-"""Scatter of a modulus about lines between its rows [decades], at least."""
+_STEP = 0.02  # steps of the shifts that are tried [decades]
+_BACK = 0.5  # how far a colder sweep may seem to be faster [decades]: by scatter on a plateau
+_LEAST_SHARE = 0.1  # least overlap that is tried, over the shorter of the two sweeps
+_LEAST_NOISE = 2e-3  # scatter of a modulus about lines between its rows [decades], at least
 
 _Points = tuple[Array, Array]
 """x of shape (rows,) rising, y of shape (moduli, rows)."""
@@ -121,10 +117,8 @@ def _distance(cold: _Points, warm: _Points, noise: Array, lifts: Array) -> tuple
     return best
 
 
-_LITTLE = 0.5
-"""Overlap below which a shift rests on a few rows [decades]."""
-_LARGE = 0.3
-"""Standard error of log10 a_T that is worth a sentence [decades]."""
+_LITTLE = 0.5  # overlap below which a shift rests on a few rows [decades]
+_LARGE = 0.3  # standard error of log10 a_T that is worth a sentence [decades]
 _MISFIT = 0.04
 """Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades]."""
 

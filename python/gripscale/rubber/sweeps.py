@@ -29,8 +29,7 @@ from gripscale.rubber.shift import WLF
 
 TEMPERATURE_TOLERANCE = 1.0
 """Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
-_WIDEST = 3.0
-"""Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
+_WIDEST = 3.0  # largest span of a sweep's temperatures over the tolerance; a ramp runs on
 _ROW = ("temperature", "frequency", "storage", "loss")
 
 
@@ -209,8 +208,7 @@ def _repeats(block: Block, layout: FileLayout) -> bool:
     return len(np.unique(hertz)) <= len(hertz) // 2 or is_single_frequency(hertz)
 
 
-_ONE_FREQUENCY = 0.01
-"""Frequencies that differ by less than this share are one."""
+_ONE_FREQUENCY = 0.01  # frequencies that differ by less than this share are one
 
 
 def is_single_frequency(hertz: Array) -> bool:

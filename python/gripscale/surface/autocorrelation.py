@@ -23,11 +23,8 @@ from gripscale.surface.cleaning import subtract_form
 from gripscale.surface.profile import HeightMap
 from gripscale.surface.resampling import fill_gaps
 
-_FALLEN = 0.2
-"""Autocorrelation to which lengths are measured."""
-
-_WAYS = 180
-"""Directions that are followed, one a degree."""
+_FALLEN = 0.2  # autocorrelation to which lengths are measured
+_WAYS = 180  # directions that are followed, one a degree
 
 _SMOOTHING = np.hanning(33)[1:-1]
 """Weights of neighbouring degrees, without which the strongest wave of a random texture decides."""

@@ -55,14 +55,12 @@ from gripscale.surface.spectrum import (
 DEFINITIONS = ("surface", "profile")
 """Whose slope: the length of the surface's gradient, or the slope along its lines."""
 
-_ROUNDING = 1e-9
-"""Relative difference below which two wavelengths are the same."""
+_ROUNDING = 1e-9  # relative difference below which two wavelengths are the same
 
 _FITTED = 10.0
 """Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted."""
 
-_FEWEST = 4
-"""Points this range must have."""
+_FEWEST = 4  # points this range must have
 
 
 @dataclass(frozen=True)
@@ -256,8 +254,7 @@ def _mean_square(line: ProfileSpectrum) -> Array:
     return np.asarray(line.wavenumber**2 * line.density * line.width)
 
 
-_INSTRUMENT = "instrument"
-"""The word for the shortest wavelength that the measurement resolves."""
+_INSTRUMENT = "instrument"  # the word for the shortest wavelength that the measurement resolves
 
 _MOST_CONTINUED = 100.0
 """Ratio of the shortest wavelength measured to the shortest that it may be continued to."""

@@ -35,14 +35,9 @@ AREA_OVER_TRUTH = np.array([2.55, 1.52, 1.29, 1.11, 1.0, 0.87, 0.86, 0.73, 0.68]
 ERROR_OF_RIDGES = float(max(AREA_OVER_TRUTH[1], 1.0 / AREA_OVER_TRUTH[-2]))
 """Factor by which the area may be wrong on ridges three times as long as wide, either way."""
 
-_HARMLESS = 1.1
-"""Error of the area near the scatter of the step on isotropic surfaces, 8 %."""
-
-_WIDEST = math.log(10.0)
-"""Half width of the band of a profile that is too short for one."""
-
-_NO_DIRECTION = 0.5
-"""Texture aspect ratio above which a map counts as without direction."""
+_HARMLESS = 1.1  # error of the area near the scatter of the step on isotropic surfaces, 8 %
+_WIDEST = math.log(10.0)  # half width of the band of a profile that is too short for one
+_NO_DIRECTION = 0.5  # texture aspect ratio above which a map counts as without direction
 
 
 def area_over_truth(slope_ratio: float) -> float:

@@ -33,8 +33,7 @@ _NAMES = {
     "z": rf"(?:height|value|höhen|z)[ -]?{_UNIT}|{_UNIT}{_OF}(?:heights?|höhen?|z)",
     "xz": rf"(?:length )?{_UNIT}",
 }
-_MOST_LINES = 100
-"""Lines of a header."""
+_MOST_LINES = 100  # lines of a header
 
 
 @dataclass(frozen=True)

@@ -43,14 +43,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_BAND_LEVEL = 0.95
-"""Nominal confidence level of the band."""
+_BAND_LEVEL = 0.95  # nominal confidence level of the band
 
 _WIDEST_BAND = 20.0
 """Half width in log C_z beyond which there is no band: too few blocks hold pairs."""
 
-_FEWEST_PAIRS = 16
-"""Pairs a lag must have to be kept."""
+_FEWEST_PAIRS = 16  # pairs a lag must have to be kept
 
 
 class HeightDifference(Checked, eq=False):
@@ -297,8 +295,7 @@ def require_positive(hdc: HeightDifference) -> None:
         )
 
 
-_REACHED = 0.9
-"""Fraction of the mean over all larger lags at which the plateau begins."""
+_REACHED = 0.9  # fraction of the mean over all larger lags at which the plateau begins
 
 _SHORTEST_PLATEAU = 2.0
 """Ratio of the largest lag to the plateau's first lag below which it is not called a plateau."""
@@ -337,8 +334,7 @@ def log_weights(lag: Array) -> Array:
     return np.diff(edges)
 
 
-_FEWEST_LAGS = 4
-"""Lags a power law must cover."""
+_FEWEST_LAGS = 4  # lags a power law must cover
 
 
 class SelfAffineFit(Checked):

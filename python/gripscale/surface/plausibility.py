@@ -22,20 +22,14 @@ from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
 from gripscale.surface.supports import road_between, support_plates
 
-_SPIKE_SLOPE = 3.0
-"""Height change per step that is steep (ISO 13473-1:2019, section 7.5)."""
+_SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
 
 _MOST_STEEP = 0.5
 """Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %."""
 
-_TALLEST = 0.1
-"""Rms height over length beyond which one of the two probably has a wrong unit."""
-
-_LARGEST_HEIGHT = 0.1
-"""Rms height [m] that no pavement has."""
-
-_COARSEST_STEP = 0.01
-"""Step [m] beyond which no texture is measured."""
+_TALLEST = 0.1  # rms height over length beyond which one of the two probably has a wrong unit
+_LARGEST_HEIGHT = 0.1  # rms height [m] that no pavement has
+_COARSEST_STEP = 0.01  # step [m] beyond which no texture is measured
 
 _SMOOTHEST = 5e-3
 """Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction."""
@@ -43,17 +37,10 @@ _SMOOTHEST = 5e-3
 _JUMP = 10.0
 """Height change over a short way that is a jump, in robust standard deviations of such changes."""
 
-_SHORT_WAY = 1 / 400
-"""The short way, as a share of the profile."""
-
-_MOST_JUMPS = 8
-"""Jumps beyond which they belong to the surface, as grooves do."""
-
-_STRETCHES = 40
-"""Parts into which a profile is cut to find flat ones."""
-
-_SHORTEST_STRETCH = 16
-"""Heights a part must have for its roughness to be compared."""
+_SHORT_WAY = 1 / 400  # the short way, as a share of the profile
+_MOST_JUMPS = 8  # jumps beyond which they belong to the surface, as grooves do
+_STRETCHES = 40  # parts into which a profile is cut to find flat ones
+_SHORTEST_STRETCH = 16  # heights a part must have for its roughness to be compared
 
 _LONGEST_WAVE = 4.0
 """Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau."""
@@ -61,8 +48,7 @@ _LONGEST_WAVE = 4.0
 _AT_THE_EDGE = 1e-3
 """Distance of the logarithm of a factor from its limit below which the factor is at the limit."""
 
-_FLAT = 0.02
-"""Roughness of a part, over the usual one, below which it is flat."""
+_FLAT = 0.02  # roughness of a part, over the usual one, below which it is flat
 
 
 def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[Finding, ...]:

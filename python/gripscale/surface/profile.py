@@ -411,8 +411,7 @@ def line_label(text: str, number: int, direction: str) -> str:
     return f"{text}, line {number} along {direction}".lstrip(", ")
 
 
-_SAME_STEP = 1e-3
-"""Relative difference of steps up to which they are the same."""
+_SAME_STEP = 1e-3  # relative difference of steps up to which they are the same
 
 
 def profile_list(profile: Profile | Sequence[Profile]) -> list[Profile]:

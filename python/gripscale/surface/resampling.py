@@ -120,8 +120,7 @@ def resample(
     )
 
 
-_MOST_LEFT_OUT = 0.5
-"""Largest share of the points of a grid that a file may leave out."""
+_MOST_LEFT_OUT = 0.5  # largest share of the points of a grid that a file may leave out
 
 
 def printed_grid(

@@ -144,8 +144,7 @@ FACTOR_RANGE = (1.5, 30.0)
 AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
 """Smallest and largest magnification of amplitude tried."""
 
-_PLATEAU_COUNTED = 4.0
-"""Largest lag that counts by default, in lags at which the plateau begins."""
+_PLATEAU_COUNTED = 4.0  # largest lag that counts by default, in lags at which the plateau begins
 
 
 @dataclass(frozen=True, eq=False)

@@ -48,9 +48,7 @@ from gripscale.surface.low_pass import STEEPEST, followed_lines, upper_envelope
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, height_table, of_one_step
 from gripscale.surface.resampling import fill_gaps, without_line
 
-_PER_DECADE = 10
-"""Wavenumbers a decade where a spectrum is averaged."""
-
+_PER_DECADE = 10  # wavenumbers a decade where a spectrum is averaged
 _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
@@ -183,8 +181,7 @@ def first_of_bins(values: NDArray[Any], per_decade: int) -> NDArray[np.intp]:
 _TAPERS = ("hann", "none")
 """Weights of a window: with "hann" its straight line is subtracted before, else its mean."""
 
-_WINDOWS = 4
-"""Windows a tapered line is cut into by default; as many fit again between them."""
+_WINDOWS = 4  # windows a tapered line is cut into by default; as many fit again between them
 
 
 def profile_spectrum(
@@ -321,11 +318,8 @@ def map_spectrum(
     )
 
 
-_TAIL_POINTS = 4
-"""Last points of a spectrum whose power law is continued."""
-
-_SLOWEST_FALL = 1.0
-"""Least exponent of C_1 beyond them: with less the variance would be infinite."""
+_TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
+_SLOWEST_FALL = 1.0  # least exponent of C_1 beyond them: with less the variance would be infinite
 
 
 def areal_spectrum(

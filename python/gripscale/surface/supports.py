@@ -22,17 +22,13 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.core.units import in_mm
 from gripscale.surface.profile import Profile
 
-_OFF_THE_LINE = 6.0
-"""Distance from the line, in robust standard deviations, that no road reaches."""
+_OFF_THE_LINE = 6.0  # distance from the line, in robust standard deviations, that no road reaches
 
 _SMOOTH_SHARE = 0.02
 """Roughness of two pieces in a row, over the usual one, below which they are a plate."""
 
-_SIDE_STEP = 0.5
-"""Change of height at the side of a stretch, over its height, that is a step."""
-
-_PIECES = 50
-"""Pieces of a profile whose level and roughness are compared."""
+_SIDE_STEP = 0.5  # change of height at the side of a stretch, over its height, that is a step
+_PIECES = 50  # pieces of a profile whose level and roughness are compared
 
 _FEWEST_HEIGHTS = 16
 """Heights that tell the roughness of a piece, and that a stretch off the line must have."""
@@ -40,8 +36,7 @@ _FEWEST_HEIGHTS = 16
 _SHORTEST_SHARE = 1 / 400
 """Length of a plate, as a share of the profile: shorter are joints and cracks."""
 
-_MOST_STRETCHES = 6
-"""Stretches beyond which they belong to the surface."""
+_MOST_STRETCHES = 6  # stretches beyond which they belong to the surface
 
 _GUARD_SHARE = 1 / 40
 """Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it."""

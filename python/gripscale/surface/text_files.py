@@ -49,11 +49,8 @@ _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
 _CODES = np.array([*_NINES, *_WORDS])
 """Codes in use, without sign: nines, and the limits of the whole numbers instruments store."""
 
-_BEYOND = 1e30
-"""Height, in any unit of length, beyond which every number is a code."""
-
-_ALONE = 10.0
-"""Least distance of a code from all heights, in the largest difference of two of them."""
+_BEYOND = 1e30  # height, in any unit of length, beyond which every number is a code
+_ALONE = 10.0  # least distance of a code from all heights, in the largest difference of two of them
 
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:

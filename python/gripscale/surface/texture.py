@@ -46,17 +46,13 @@ from gripscale.surface.resampling import fill_gaps, without_line
 if TYPE_CHECKING:
     import xarray as xr
 
-_SEGMENT = 0.1
-"""Length of a segment [m]."""
+_SEGMENT = 0.1  # length of a segment [m]
 
 _SAMPLE, _COARSEST = 0.5e-3, 1e-3
 """Steps to which a finer profile is averaged, and beyond which it has no profile depth [m]."""
 
-_SHORTEST_WAVE = 2.4e-3
-"""Wavelength at which the filter of the standard begins [m]."""
-
-_PADDING = 9
-"""Samples by which the filter continues a line at either end."""
+_SHORTEST_WAVE = 2.4e-3  # wavelength at which the filter of the standard begins [m]
+_PADDING = 9  # samples by which the filter continues a line at either end
 
 _MOST_MISSING = 0.15
 """Share of missing heights beyond which a segment does not count: the standard allows 10 % of

@@ -48,8 +48,7 @@ _HALVINGS = 7
 left, some 15 %."""
 _EDGE_HALVINGS = 14
 """Of the patch, for where sliding begins. The force is stationary there: 6e-5 leave 1e-8."""
-_SLOWEST = 1e-4
-"""Sliding speed that counts as none, over the speed of the road."""
+_SLOWEST = 1e-4  # sliding speed that counts as none, over the speed of the road
 _WARMING_STEPS, _WARMING_TOLERANCE = 40, 0.05
 """Iterations of friction and temperature, half way each, and the change that ends them [K]."""
 _LONGEST_PASSAGE = 20.0

@@ -52,10 +52,8 @@ from gripscale.wave.result import ScaleResult
 
 Compliance = Callable[[Array], ComplexArray]
 
-_ALIASES = 16
-"""Harmonics summed, in units of N; the neglected ones fall off as m^-3."""
-_PATIENCE = 5
-"""Iterations without fewer wrong nodes before single nodes change sides."""
+_ALIASES = 16  # harmonics summed, in units of N; the neglected ones fall off as m^-3
+_PATIENCE = 5  # iterations without fewer wrong nodes before single nodes change sides
 _COARSEST = 64
 _FEWEST_IN_CONTACT = 8
 

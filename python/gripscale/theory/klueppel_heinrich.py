@@ -54,12 +54,9 @@ if TYPE_CHECKING:
 
 _TOP_HEIGHT_FRACTION = 0.5
 """Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
-_TOLERANCE = 1e-6
-"""Relative error of the integral below which a result is converged."""
-_NODES = 33
-"""Wavelengths of the running friction."""
-_COARSEST, _FINEST = 4, 1024
-"""Intervals between them, doubled from the first to the last."""
+_TOLERANCE = 1e-6  # relative error of the integral below which a result is converged
+_NODES = 33  # wavelengths of the running friction
+_COARSEST, _FINEST = 4, 1024  # intervals between them, doubled from the first to the last
 
 
 @dataclass(frozen=True, repr=False)

@@ -164,14 +164,11 @@ def refine_intervals(
         coarse = fine
 
 
-_TOLERANCE = 1e-4
-"""Relative error of the integrals below which a result is converged."""
+_TOLERANCE = 1e-4  # relative error of the integrals below which a result is converged
 _COARSEST, _FINEST = 4, 128
 """Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
-_WIDEST = 0.25
-"""Widest step of log q on the coarsest grid, times the intervals there."""
-_ANGLES = 12
-"""Angles of a quarter turn beyond the number of intervals."""
+_WIDEST = 0.25  # widest step of log q on the coarsest grid, times the intervals there
+_ANGLES = 12  # angles of a quarter turn beyond the number of intervals
 
 
 @dataclass(frozen=True, repr=False)
