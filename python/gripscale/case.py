@@ -21,15 +21,11 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
-from gripscale.core import checks
-from gripscale.core.arrays import Quantity
-from gripscale.core.described import Described
-from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, checks
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, si_value
-from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
 from gripscale.model import Load, LoadTime, load_doubts

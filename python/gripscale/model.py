@@ -11,13 +11,8 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
-from gripscale.core import checks
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Checked, InputError, Status, checked, checks, display_unit, labelled
 from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
-from gripscale.core.units import display_unit
 from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 

@@ -22,9 +22,7 @@ from gripscale import model
 from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
 from gripscale.chain.prediction import ChainError, ChainResult, ChainSolve, RubberAt
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Quantity
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Checked, Quantity, checked, checks, provenance
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.model import MOST_CLASSES, Load, LoadTime, OnProgress
 from gripscale.rubber import Rubber

@@ -17,8 +17,7 @@ from gripscale.chain.heat import Warming, WaveHeat, strains, warming
 from gripscale.chain.prediction import ChainResult, ChainSolve
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
-from gripscale.core.arrays import Array
-from gripscale.core.status import Status
+from gripscale.core import Array, Status
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Sine
 

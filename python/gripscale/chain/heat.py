@@ -31,8 +31,7 @@ from gripscale.conditions.flash_temperature import (
     ThermalProperties,
     loss_pattern,
 )
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.errors import InputError
+from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult
 

@@ -34,12 +34,8 @@ import xarray as xr
 import gripscale
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.described import Pictured
+from gripscale.core import Array, Pictured, Status, checks, labelled, provenance
 from gripscale.core.errors import ConvergenceError, InputError
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
 from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
 from gripscale.io import netcdf

@@ -27,8 +27,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from gripscale.core.arrays import Array
-from gripscale.core.errors import ConvergenceError
+from gripscale.core import Array, ConvergenceError
 
 S = TypeVar("S")
 

@@ -50,11 +50,7 @@ from gripscale.continuation.roughness import (
     as_roughness,
     slope_on_faces,
 )
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Mask, Quantity
-from gripscale.core.checks import checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Described, InputError, Mask, Quantity, checked, checks, provenance
 from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
 from gripscale.half_space.grid import nearest

@@ -27,10 +27,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
 from gripscale.half_space.grid import periodic_heights, resampled
 from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.surface import HeightMap, Profile

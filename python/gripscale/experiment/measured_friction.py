@@ -18,12 +18,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, Finding, Topic, Vector, checked, checks, doubt, labelled
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.finding import Finding, Topic, doubt
-from gripscale.core.labels import labelled
 from gripscale.core.units import (
     UNITS,
     ZERO_CELSIUS,

@@ -26,8 +26,7 @@ from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.status import Status
+from gripscale.core import Array, ComplexArray, Mask, Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact

@@ -20,9 +20,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.errors import InputError
+from gripscale.core import Array, ComplexArray, InputError, Mask, checks
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST, transmission, upper_envelope
 from gripscale.surface.resampling import fill_gaps

@@ -56,8 +56,7 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.described import Described
+from gripscale.core import Array, ComplexArray, Described, Mask
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, OnIteration, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
 from gripscale.half_space.response import HalfSpace, Response

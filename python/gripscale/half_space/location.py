@@ -18,9 +18,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.labels import labelled
+from gripscale.core import Array, Mask, checks, labelled
 from gripscale.half_space.result import RoughContact
 
 STRETCH, LEAST_WAVES, MOST_OF_LINE = 4e-3, 20.0, 0.25

@@ -29,9 +29,7 @@ from numpy.typing import NDArray
 
 from gripscale._kernel import LineFilter
 from gripscale.conditions.conditions import RubberByScale
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.errors import InputError
+from gripscale.core import Array, ComplexArray, InputError, checks
 from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of

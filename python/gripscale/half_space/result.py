@@ -32,12 +32,8 @@ from numpy.typing import ArrayLike, NDArray
 import gripscale
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
-from gripscale.core import provenance
-from gripscale.core.arrays import Array, Mask
+from gripscale.core import Array, InputError, Mask, Status, labelled, provenance
 from gripscale.core.described import Described, Pictured
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
 from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid

@@ -24,8 +24,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core import Array, checks
 from gripscale.half_space.result import RoughContact
 
 FEWEST_PIECES = 4

@@ -53,10 +53,8 @@ import scipy
 import xarray as xr
 
 from gripscale.conditions.conditions import state_by_scale
-from gripscale.core import checks, provenance
+from gripscale.core import InputError, RubberWarning, checks, labelled, provenance
 from gripscale.core.arrays import Array, ComplexArray, Quantity
-from gripscale.core.errors import InputError, RubberWarning
-from gripscale.core.labels import labelled
 from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import grid_contact_fraction

@@ -17,11 +17,7 @@ from functools import partial
 import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale
-from gripscale.core import checks
-from gripscale.core.arrays import Quantity
-from gripscale.core.errors import ConvergenceError, InputError
-from gripscale.core.parallel import worker_count
-from gripscale.core.status import Status
+from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import PeriodicHeights, periodic_heights

@@ -15,10 +15,7 @@ from typing import Any, TypeVar
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Described, InputError, Quantity, checks
 from gripscale.half_space.grid import joined, surface_axes
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact

@@ -23,8 +23,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Described, InputError
 from gripscale.io.netcdf import write_whole
 
 if TYPE_CHECKING:

@@ -31,11 +31,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core import Array, FileError, InputError, checks, spelled, unstated, using_extra
 from gripscale.core.checks import MOST, short_repr, shortened, whole
-from gripscale.core.errors import FileError, InputError, unstated, using_extra
-from gripscale.core.units import spelled
 from gripscale.io.cells import (
     COMMA_NUMBER,
     COMMENT,

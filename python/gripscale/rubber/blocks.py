@@ -17,9 +17,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.core.errors import FileError, InputError, unstated
+from gripscale.core import CaseKey, FileError, InputError, Words, unstated
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io import text_table
 from gripscale.io.cells import Line, is_row, parse_number
 from gripscale.io.text_table import ColumnTitle, TextTable

@@ -34,12 +34,9 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core import Array, CaseKey, FileError, InputError, Mask, Words, checks, unstated
 from gripscale.core.checks import Checked, checked, shortened
-from gripscale.core.errors import FileError, InputError, unstated
 from gripscale.core.units import listed, quantity_in_si, spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.text_table import TextTable
 
 _TITLES = {

@@ -14,8 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core.arrays import Array
-from gripscale.core.errors import ExtrapolationError
+from gripscale.core import Array, ExtrapolationError
 from gripscale.rubber.material import Rubber
 
 CHOICES = ("warn", "refuse")

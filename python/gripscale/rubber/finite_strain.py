@@ -34,10 +34,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, Checked, FileError, InputError, Vector, checked, checks
 from gripscale.core.units import quantity_in_si
 from gripscale.io.text_table import file_path, read_sheets
 from gripscale.rubber.material import Rubber

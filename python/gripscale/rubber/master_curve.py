@@ -10,11 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import gripscale
-from gripscale.core import checks
+from gripscale.core import Checked, FileError, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, Quantity, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Pictured, shown_value
-from gripscale.core.errors import FileError
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns

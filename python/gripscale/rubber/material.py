@@ -34,10 +34,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import gripscale
-from gripscale.core import checks
+from gripscale.core import Checked, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS, celsius, readable
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict, shown_state

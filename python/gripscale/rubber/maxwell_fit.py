@@ -45,8 +45,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core import Array, Mask, checks
 from gripscale.rubber.material import loss_shape, storage_shape
 
 _LEAST_EQUILIBRIUM = 1e-3

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
+from gripscale.core import Finding, InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.prony_report import PronyFit

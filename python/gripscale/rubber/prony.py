@@ -26,9 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core import Array, InputError, Quantity, RubberWarning, checks
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber import prony_report as report
 from gripscale.rubber.master_curve import MasterCurve

@@ -26,11 +26,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from gripscale.core.arrays import Array
-from gripscale.core.described import Described
-from gripscale.core.finding import Finding, Topic, doubt
+from gripscale.core import Array, CaseKey, Described, Finding, Topic, doubt
 from gripscale.core.units import UNITS
-from gripscale.core.wording import CaseKey
 from gripscale.rubber import maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible

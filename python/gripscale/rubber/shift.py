@@ -29,10 +29,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Vector, checked, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
 
 _MOST = 100.0  # largest log10 a_T that is a factor and no mistake: WLF has a pole

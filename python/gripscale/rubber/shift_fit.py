@@ -26,9 +26,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, FileError, InputError, checks
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path, read_table, read_text

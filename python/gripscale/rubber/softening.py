@@ -36,9 +36,7 @@ from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Quantity, Vector
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, Mask, Quantity, Vector, checked, checks
 from gripscale.core.errors import FileError, InputError, unstated
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks

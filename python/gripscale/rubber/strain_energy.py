@@ -19,9 +19,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, checked, checks
 
 
 class StrainEnergy(Checked, ABC):

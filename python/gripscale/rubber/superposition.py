@@ -21,12 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, CaseKey, Described, InputError, Quantity, Words, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
-from gripscale.core.wording import CaseKey, Words
 from gripscale.rubber.joint_shift import SHIFTED_MODULI, Rows, align, sweep_rows
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable

@@ -17,9 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Quantity, Vector
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, Mask, Quantity, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
 from gripscale.io.text_table import file_path, file_paths, is_excel

@@ -23,11 +23,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.units import in_mm
+from gripscale.core import Array, Described, InputError, Mask, checks, in_mm
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")

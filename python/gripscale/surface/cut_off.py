@@ -36,11 +36,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, Described, InputError, checked, checks
 from gripscale.core.units import in_mm, parse_quantity, unit_of
 from gripscale.surface.low_pass import STEEPEST, followed
 from gripscale.surface.profile import RESOLVED_STEPS, HeightMap, Profile

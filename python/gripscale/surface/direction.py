@@ -20,10 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.core.units import in_mm
-from gripscale.core.wording import CaseKey, Words
+from gripscale.core import CaseKey, Finding, Severity, Topic, Words, checks, in_mm
 from gripscale.surface.autocorrelation import texture_lengths
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import HeightMap, Profile

@@ -32,10 +32,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Mask, Quantity, checked, checks
 from gripscale.surface.low_pass import STEEPEST, followed_lines
 from gripscale.surface.profile import HeightMap, Profile, of_one_step
 

@@ -26,9 +26,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError
+from gripscale.core import Array, FileError, checks
 
 _LONGEST_HEADER = 2**16
 _PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")

@@ -33,9 +33,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, profile_list
 from gripscale.surface.resampling import fill_gaps
 

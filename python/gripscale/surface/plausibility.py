@@ -12,11 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic, doubt
-from gripscale.core.units import in_mm
+from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, doubt, in_mm
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack

@@ -18,12 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, Finding, InputError, checked, checks
 from gripscale.core.described import Pictured, shown_value
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
 from gripscale.core.units import readable
 
 if TYPE_CHECKING:

@@ -17,9 +17,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError, about_file, unstated, using_extra
+from gripscale.core import Array, FileError, InputError, about_file, checks, unstated, using_extra
 from gripscale.core.units import quantity_in_si
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text

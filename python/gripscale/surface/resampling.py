@@ -24,9 +24,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, FileError, InputError, Quantity, checks
 from gripscale.io.text_table import TextTable
 from gripscale.surface.profile import (
     FEWEST_POINTS,

@@ -57,9 +57,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, Quantity, checks
 from gripscale.surface.height_difference import HeightDifference, log_weights
 from gripscale.surface.sines import (
     FACTOR_RANGE,

@@ -23,10 +23,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, checked, checks
 from gripscale.surface.height_difference import (
     HeightDifference,
     find_plateau,

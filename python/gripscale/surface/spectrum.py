@@ -40,10 +40,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Quantity, checked, checks
 from gripscale.surface.low_pass import STEEPEST, followed_lines, upper_envelope
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, height_table, of_one_step
 from gripscale.surface.resampling import fill_gaps, without_line

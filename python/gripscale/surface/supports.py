@@ -17,9 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.units import in_mm
+from gripscale.core import Array, Mask, checks, in_mm
 from gripscale.surface.profile import Profile
 
 _OFF_THE_LINE = 6.0  # distance from the line, in robust standard deviations, that no road reaches

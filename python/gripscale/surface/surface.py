@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core import Described, Finding, InputError, Severity, Topic
 from gripscale.surface.cleaning import CleaningReport, clean
 from gripscale.surface.cut_off import (
     CutOffRule,

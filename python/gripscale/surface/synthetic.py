@@ -8,9 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, Quantity, checks
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import FEWEST_POINTS, MOST_PROFILE_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines

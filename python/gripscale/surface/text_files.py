@@ -26,12 +26,9 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core import Array, CaseKey, Finding, Topic, Words, checks, doubt
 from gripscale.core.errors import FileError, InputError, about_file, unstated
-from gripscale.core.finding import Finding, Topic, doubt
 from gripscale.core.units import in_mm, quantity_in_si, spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.cells import Line
 from gripscale.io.text_table import TextTable, column_in, read_lines, table_in
 from gripscale.surface.header import Header, read_header

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gripscale.core.errors import InputError
-from gripscale.core.units import in_mm
+from gripscale.core import InputError, in_mm
 from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.spectrum import profile_spectrum
 

@@ -17,8 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError
+from gripscale.core import Array, FileError
 from gripscale.surface.profile import even_grid
 
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)

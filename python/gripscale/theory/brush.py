@@ -32,10 +32,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, checked, checks
 
 SlidingFriction = Callable[[Array, Array, Array], Array]
 """mu [-] of sliding speed [m/s], pressure [Pa] and temperature rise [K], of one shape."""

@@ -39,11 +39,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gripscale.core import checks
+from gripscale.core import Checked, InputError, Status, checked, checks
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of, require_load_bearing
 from gripscale.theory import elastic, layers

@@ -30,10 +30,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Quantity, checked, checks
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightDifference, SelfAffineFit, fit_self_affine, height_difference

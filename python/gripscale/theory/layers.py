@@ -37,11 +37,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.units import readable
+from gripscale.core import Array, ComplexArray, Described, InputError, checks, readable
 from gripscale.rubber import Rubber
 
 _ROWS = 2**14  # waves at once: their matrices take about 10 MB

@@ -34,12 +34,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from gripscale import model
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Quantity
+from gripscale.core import Array, Described, InputError, Quantity, Status, checks, provenance
 from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
 from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber

@@ -19,11 +19,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
+from gripscale.core import Checked, InputError, Quantity, Status, checked, checks
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import Profile

@@ -19,10 +19,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import gripscale
-from gripscale.core.arrays import Array
-from gripscale.core.described import Pictured
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
+from gripscale.core import Array, Pictured, Status, labelled
 from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
