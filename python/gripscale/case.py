@@ -47,12 +47,12 @@ from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+# Arguments of `gripscale.clean` where a case states none.
 _CLEANED_AS_USUAL: dict[str, Any] = {
     name: parameter.default
     for name, parameter in signature(clean).parameters.items()
     if parameter.kind is Parameter.KEYWORD_ONLY
 }
-"""Arguments of `gripscale.clean` where a case states none."""
 _WAVES = 8  # sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre
 RubberLike = Rubber | MasterCurve | MeasuredRubber
 
@@ -61,11 +61,9 @@ RubberLike = Rubber | MasterCurve | MeasuredRubber
 class NamedFile:
     """A file that a case names, with its checksum."""
 
-    role: str
-    """Table of the case that names it."""
+    role: str  # table of the case that names it
     name: str
-    size: int
-    """[bytes]"""
+    size: int  # [bytes]
     sha256: str
 
 

@@ -27,12 +27,9 @@ OCTAVE = 2.0
 class CutOffExponents:
     """Exponents of contact fraction and friction; NaN if not known."""
 
-    contact_fraction: float
-    """d ln(A_r/A_0) / d ln(cut-off) [-]."""
-    friction: float
-    """d ln(friction coefficient) / d ln(cut-off) [-]."""
-    why_not: str = ""
-    """Why one of them is not known; empty if both are."""
+    contact_fraction: float  # d ln(A_r/A_0) / d ln(cut-off) [-]
+    friction: float  # d ln(friction coefficient) / d ln(cut-off) [-]
+    why_not: str = ""  # why one of them is not known; empty if both are
 
 
 NOT_TOLD = CutOffExponents(math.nan, math.nan, "the model does not tell it")

@@ -43,15 +43,11 @@ class WaveHeat:
     """Patterns of a wave as amplitudes of its harmonics 1, 2, ... over the mean [-]."""
 
     wavelength: float
-    pressure: float
-    """Mean pressure on the wave [Pa]."""
+    pressure: float  # mean pressure on the wave [Pa]
     friction: float
-    contact: ComplexArray
-    """Of the pressure: where the smaller waves lose energy."""
-    lost: ComplexArray
-    """Of its own loss."""
-    depth: DepthsOfLoss
-    """Of its own loss."""
+    contact: ComplexArray  # of the pressure: where the smaller waves lose energy
+    lost: ComplexArray  # of its own loss
+    depth: DepthsOfLoss  # of its own loss
 
     @property
     def wavenumbers(self) -> Array:

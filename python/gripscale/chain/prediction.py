@@ -59,10 +59,8 @@ CLASS_PRESSURES = "class_pressures"
 class PressureClasses:
     """Parts of the nominal area under one pressure each, all of the same load."""
 
-    pressure: Array
-    """On each class [Pa], rising."""
-    area: Array
-    """Of each class over the nominal area [-]."""
+    pressure: Array  # on each class [Pa], rising
+    area: Array  # of each class over the nominal area [-]
 
     @classmethod
     def uniform(cls, pressure: float) -> PressureClasses:
@@ -411,8 +409,7 @@ class ChainSolve:
     empty: ChainResult
     waves: Sequence[Sine]
     solver: WaveSolver
-    classes: int
-    """Number of pressure classes."""
+    classes: int  # number of pressure classes
     on_scale: Callable[[ChainResult], None] | None
 
     def __call__(self, rubber_at: RubberAt | None, start: ChainResult | None) -> ChainResult:

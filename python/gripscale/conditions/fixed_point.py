@@ -51,18 +51,14 @@ class Iteration(Generic[S]):
     """One evaluation of F or f: a solution with the state `x`, and the state it leads to."""
 
     solution: S
-    x: Array | None
-    """State the solution assumes; None: the rubber as it is before the contact."""
-    value: Array
-    """State that follows from the solution."""
-    results: Sequence[float]
-    """Numbers that must not change any more at the end."""
-    usable: bool = True
-    """Whether the solution converged."""
+    x: Array | None  # state the solution assumes; None: the rubber as it is before the contact
+    value: Array  # state that follows from the solution
+    results: Sequence[float]  # numbers that must not change any more at the end
+    usable: bool = True  # whether the solution converged
 
 
+# Evaluates the state x, starting from the last solution if there is one.
 _Solve = Callable[[Array | None, S | None], Iteration[S]]
-"""Evaluates the state x, starting from the last solution if there is one."""
 
 
 @dataclass(frozen=True)
@@ -200,8 +196,7 @@ class _Defect:
     x: Array | None
     value: Array
     step: Array
-    change: Array
-    """Of the defect along the step."""
+    change: Array  # of the defect along the step
 
     def __call__(self, x: Array) -> Array:
         """Return the defect at `x`."""

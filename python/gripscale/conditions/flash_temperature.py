@@ -300,10 +300,8 @@ def _passing(
 class LossLayers:
     """A distribution of the depth at which energy is lost, by layers."""
 
-    edges: Array
-    """Depths between the layers, rising from the surface [m], shape (layers + 1,)."""
-    share: Array
-    """Of the loss in each layer [-], adding up to one, shape (layers,)."""
+    edges: Array  # depths between the layers, rising from the surface [m], shape (layers + 1,)
+    share: Array  # of the loss in each layer [-], adding up to one, shape (layers,)
 
     @classmethod
     def of(cls, edges: Array, lost: Array) -> LossLayers:

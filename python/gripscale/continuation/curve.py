@@ -83,8 +83,8 @@ USUAL_HURST = 0.8
 """Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
 doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is."""
 
+# ln r that a withheld octave is tried with; r_1 is interpolated between them.
 _LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
-"""ln r that a withheld octave is tried with; r_1 is interpolated between them."""
 
 MOST_OCTAVES = 8
 _LEAST_STEP = 0.05  # rest of an octave, over the last cut-off, that is not a step of its own
@@ -118,12 +118,10 @@ class Withheld:
 class CutOffContact:
     """The contacts of all lines with waves down to one cut-off."""
 
-    wavelength: float
-    """Shortest wavelength of the lines [m]."""
+    wavelength: float  # shortest wavelength of the lines [m]
     contacts: tuple[RoughContact, ...] = field(repr=False)
     lines: tuple[PeriodicLine, ...] = field(repr=False)
-    slope: float
-    """Slope of the last octave on the faces that touch [-]; NaN for the first."""
+    slope: float  # slope of the last octave on the faces that touch [-]; NaN for the first
 
     def mean(self, name: str) -> float:
         """Return a number of the contacts, averaged by length."""
@@ -227,16 +225,16 @@ class ContactByCutOff(Described):
         )
 
 
+# Numbers of `RoughContact` over the cut-off.
 _CURVES = {
     "contact_fraction": "real over nominal contact area",
     "friction": "friction coefficient from the contact traction",
     "friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
     "slope_in_contact": "rms slope of the surface in the contact",
 }
-"""Numbers of `RoughContact` over the cut-off."""
 
+# Numbers of an answer, and their curves with a band.
 _BANDS = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
-"""Numbers of an answer, and their curves with a band."""
 
 FACTS = {
     "resolved": "shortest wavelength that was measured",

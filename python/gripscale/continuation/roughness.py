@@ -40,10 +40,9 @@ QUANTILE = 0.68
 LONGEST_SHARE = 0.25
 """Longest wavelength of a line that counts, over the length of the line."""
 
+# Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6 or
+# 2.5 stones with sharp edges and cascades change their friction by 3 % at most.
 _MOST_ABOVE = 1.25
-"""Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6 or
-2.5 stones with sharp edges and cascades change their friction by 3 % at most."""
-
 _LEAST = 1e-100
 _MARGIN = 3  # points of a period on either side that a cubic between two points depends on
 
@@ -52,12 +51,9 @@ _MARGIN = 3  # points of a period on either side that a cubic between two points
 class PeriodicLine:
     """A periodic line by its waves."""
 
-    length: float
-    """Period [m]."""
-    points: int
-    """Points of the line as it is sampled, an even number."""
-    waves: ComplexArray
-    """`scipy.fft.rfft` of the heights [m], shape (points // 2 + 1,)."""
+    length: float  # period [m]
+    points: int  # points of the line as it is sampled, an even number
+    waves: ComplexArray  # `scipy.fft.rfft` of the heights [m], shape (points // 2 + 1,)
 
     @classmethod
     def of(
@@ -151,10 +147,8 @@ def slope_on_faces(
 class Intermittency:
     """How the local amplitude of an octave follows that of the octave above."""
 
-    coupling: float
-    """b, zero for random phases [-]."""
-    scatter: float
-    """Standard deviation of the logarithm of the amplitude beyond both [-]."""
+    coupling: float  # b, zero for random phases [-]
+    scatter: float  # standard deviation of the logarithm of the amplitude beyond both [-]
 
     @classmethod
     def of(

@@ -41,8 +41,8 @@ CHANGES = {
 }
 """Names of what an effect changes, relative to the answer without it."""
 
+# Numbers of the whole surface that an answer may have.
 _NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
-"""Numbers of the whole surface that an answer may have."""
 
 SURFACE = (*_NUMBERS, WHY_NO_EXPONENT, STATUS, STATUS_WORD)
 """All an answer says of the whole surface."""

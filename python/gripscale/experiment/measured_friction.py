@@ -32,6 +32,7 @@ from gripscale.core.units import (
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
 from gripscale.model import PLAUSIBLE
 
+# What the titles of the columns may be called, in lower case; the first word is ours.
 _WORDS = {
     "speed": ("speed", "velocity", "v"),
     "friction": ("friction", "friction coefficient", "mu", "µ", "μ", "cof"),
@@ -39,21 +40,18 @@ _WORDS = {
     "temperature": ("temperature", "temp", "t"),
     "pressure": ("pressure", "nominal pressure", "p"),
 }
-"""What the titles of the columns may be called, in lower case; the first word is ours."""
 
+# Kind of unit of a column, and the unit it is in where the title names none, if that is clear.
 _UNITS: dict[str, tuple[str, str | None]] = {
     "speed": ("speed", "m/s"),
     "temperature": ("temperature", None),
     "pressure": ("pressure", "Pa"),
 }
-"""Kind of unit of a column, and the unit it is in where the title names none, if that is clear."""
 
+# Columns that may be absent, and where values may be missing, with their units.
 _OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
-"""Columns that may be absent, and where values may be missing, with their units."""
-
+# Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones.
 _MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0, "pressure": 1e11}
-"""Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones."""
-
 _RATIO = ("1", "-", "–")  # units of what has none
 
 

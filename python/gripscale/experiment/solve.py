@@ -233,7 +233,7 @@ def cluster(client: Any, workers: int) -> Iterator[_Solve]:
                 ) from error
             client = ending.enter_context(connected)
         here = software()
-        for worker, there in client.run(software).items():
+        for worker, there in client.run(_software_there).items():
             if there != here:  # other code, whatever its version says
                 raise InputError(
                     f"worker {worker} has {there}, this machine {here}; install the same"
@@ -262,3 +262,7 @@ def _alone(task: Task) -> Solved:
     """Solve in a worker, whose neighbours have the other cores."""
     with sharing(1):
         return task.solve()
+
+
+def _software_there() -> str:
+    return software()

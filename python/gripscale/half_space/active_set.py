@@ -75,9 +75,9 @@ square, against elimination), and ten times more at the ends of the contacts."""
 SHARPER = 0.1
 """Factor of the tolerances of the first iterations there. What is missing is long: with less
 accuracy many points outside the contacts join them, and leave again one after the other."""
+# Most products of a run of GMRES, doubled after each run that does not reach its target. As many
+# vectors of the points in contact are kept. Very lossy maps need some hundred.
 _SHORTEST, _LONGEST = 60, 240
-"""Most products of a run of GMRES, doubled after each run that does not reach its target. As many
-vectors of the points in contact are kept. Very lossy maps need some hundred."""
 REDUCTION = 1e-4
 """Least reduction of the residual in one run: single precision does not resolve more."""
 RUNS = 5
@@ -154,14 +154,10 @@ def _around_contacts(active: Mask) -> scipy.sparse.csr_array:
 class ClosedGap:
     """Solution of the linear system of the points in contact."""
 
-    pressure: Array
-    """At the points [Pa]."""
-    displacement: Array
-    """Under this pressure, over the whole grid [m], flattened."""
-    missing: float
-    """Missing pressure over the pressure, both root mean square [-]."""
-    products: int
-    """Products with K and S each."""
+    pressure: Array  # at the points [Pa]
+    displacement: Array  # under this pressure, over the whole grid [m], flattened
+    missing: float  # missing pressure over the pressure, both root mean square [-]
+    products: int  # products with K and S each
 
 
 def is_lossy_line(response: Response) -> bool:

@@ -49,12 +49,9 @@ def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) 
 class OctaveHeat:
     """Heat lost by the harmonics of one octave of wavelengths."""
 
-    wavenumber: float
-    """In its middle [rad/m]."""
-    friction: float
-    """mu_b [-]."""
-    density: Array
-    """Of the loss on the grid over its mean [-], shape of the grid."""
+    wavenumber: float  # in its middle [rad/m]
+    friction: float  # mu_b [-]
+    density: Array  # of the loss on the grid over its mean [-], shape of the grid
     depth: LossDepth
 
 
@@ -99,10 +96,8 @@ def _forward_field(grid: Grid, half: ComplexArray) -> ComplexArray:
 class GridTemperature:
     """Temperature rise of the rubber over its temperature before the contact [K]."""
 
-    surface: Array
-    """At the surface, shape of the grid."""
-    octave: Array
-    """Where each octave loses its energy, shape (octaves,)."""
+    surface: Array  # at the surface, shape of the grid
+    octave: Array  # where each octave loses its energy, shape (octaves,)
 
 
 def grid_temperature(
@@ -207,8 +202,7 @@ class _ContactEvaluation:
     rubber: Rubber
     conditions: Conditions
     time: float
-    grids: list[GridRecord] = field(default_factory=list, repr=False)
-    """Of all evaluations."""
+    grids: list[GridRecord] = field(default_factory=list, repr=False)  # of all evaluations
 
     def __call__(
         self, x: Array | None, last: GridSequenceResult | None

@@ -38,8 +38,7 @@ class Grid:
     """Equal steps along x, the sliding direction, and for a map along y."""
 
     shape: tuple[int, ...]
-    lengths: tuple[float, ...]
-    """Period along each axis [m]."""
+    lengths: tuple[float, ...]  # period along each axis [m]
 
     @property
     def points(self) -> int:

@@ -70,8 +70,8 @@ LOSSES = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0)
 ERROR_GRIDS = 3
 """Grids of the same surface from which the errors of the last one are estimated."""
 _BORDER = (np.pi - 1.0 + np.log(2.0)) / 24.0
+# Uncertainty of the position of a border, on lines and maps [steps].
 _BORDER_ERROR = {1: 0.5, 2: 0.7}
-"""Uncertainty of the position of a border, on lines and maps [steps]."""
 _ERROR_RATIO = 0.4  # c, the error after halving the spacing over the change by it
 _OPENING = 0.3  # s, over the stiffness of the stiffest wave
 
@@ -190,8 +190,7 @@ class LevelContact:
     """The contact on one level."""
 
     level: Level
-    height: Array
-    """[m], of zero mean."""
+    height: Array  # [m], of zero mean
     contact: GridContact
     record: GridRecord
 

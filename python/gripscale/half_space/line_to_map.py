@@ -33,8 +33,8 @@ from gripscale.rubber import Rubber
 from gripscale.surface import Profile
 from gripscale.surface.profile import profile_list
 
+# Length of the lines the law was measured on, in largest waves; longer waves count as a slope.
 _PIECE = 16.0
-"""Length of the lines the law was measured on, in largest waves; longer waves count as a slope."""
 _TINY = 1e-12
 EXCEEDED = 0.01
 """Share of a line that is higher than its upper height."""
@@ -43,10 +43,8 @@ EXCEEDED = 0.01
 class LineUnderLoad(NamedTuple):
     """What the law needs of a line, or of several, and of the load."""
 
-    upper_height: float | Array
-    """t: height that 1 % of the line exceeds over its rms height [-]."""
-    relative_load: float | Array
-    """P: pressure times largest wave over modulus times rms height [-]."""
+    upper_height: float | Array  # t: height that 1 % of the line exceeds over its rms height [-]
+    relative_load: float | Array  # P: pressure times largest wave over modulus times rms height [-]
 
 
 class RatioLaw(NamedTuple):
@@ -88,8 +86,7 @@ class SurfaceOverLines(NamedTuple):
     """Ratio of a number of an isotropic surface to that of its lines, and its standard error."""
 
     ratio: Array
-    uncertainty: Array
-    """Of the logarithm [-]."""
+    uncertainty: Array  # of the logarithm [-]
 
 
 def contact_fraction_ratio(line: LineUnderLoad, contact_fraction: ArrayLike) -> SurfaceOverLines:

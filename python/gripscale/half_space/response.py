@@ -274,11 +274,11 @@ class Response:
         return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
 
 
+# Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8.
 _LAYER_STEP = 1e-4
-"""Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8."""
+# Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single precision,
+# where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit.
 _LEAST, _MOST = 1e-12, 1e15
-"""Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single
-precision, where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit."""
 
 
 def half_space(rubber: Rubber | Layers, speed: float, thickness: float | None = None) -> HalfSpace:

@@ -79,8 +79,8 @@ VERY_STEEP = 1.0
 """Slope of flanks where neither small strain nor a laser is to be trusted."""
 
 _SOURCE = "gripscale direct contact"
+# Shares of the contact whose pressures a Dataset holds.
 _SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
-"""Shares of the contact whose pressures a Dataset holds."""
 
 _NUMBERS = {
     "contact_fraction": ("1", "real over nominal contact area"),

@@ -40,8 +40,7 @@ class SamplingError(NamedTuple):
 
     contact_fraction: float
     friction: float
-    pieces: float
-    """Pieces that carry, from which they are estimated."""
+    pieces: float  # pieces that carry, from which they are estimated
 
 
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:

@@ -96,16 +96,11 @@ class FrictionAdjoint:
     """Multipliers of a solved contact, and the derivatives of its friction from dissipation."""
 
     contact: RoughContact = field(repr=False)
-    layer: int
-    """Of a stack, whose moduli count."""
-    multiplier: Array = field(repr=False)
-    """N p_0 lam, shape of the grid [Pa / m]."""
-    rigid: float
-    """N p_0 nu [-]."""
-    products: int
-    """Products with the transposed response."""
-    residual: float
-    """Of the linear system, relative [-]."""
+    layer: int  # of a stack, whose moduli count
+    multiplier: Array = field(repr=False)  # N p_0 lam, shape of the grid [Pa / m]
+    rigid: float  # N p_0 nu [-]
+    products: int  # products with the transposed response
+    residual: float  # of the linear system, relative [-]
 
     @classmethod
     def of(cls, contact: RoughContact, layer: int = 0) -> FrictionAdjoint:
@@ -280,10 +275,8 @@ def scalar_changes(contact: RoughContact, layer: int = 0) -> dict[str, ComplexAr
 class Bands:
     """Bands of the frequencies that the waves of a contact excite, equal in their logarithm."""
 
-    edge: Array
-    """[rad/s], rising, shape (bands + 1,)."""
-    of_wave: Array
-    """Band of each wave, over the half spectrum; the first also holds waves at rest."""
+    edge: Array  # [rad/s], rising, shape (bands + 1,)
+    of_wave: Array  # band of each wave, over the half spectrum; the first also holds waves at rest
 
     @classmethod
     def of(cls, contact: RoughContact, per_decade: int, shift: float = 1.0) -> Bands:

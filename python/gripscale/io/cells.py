@@ -17,10 +17,10 @@ MISSING = {
 MISSING_MARKS = "an empty cell, NaN, n/a, - or #NV marks a missing value"
 NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
+# The whole part of a number with parted thousands, before its decimal sign.
 _THOUSANDS = re.compile(
     r"(?<![\d.,])(?:\d{1,3}(?:\.\d{3})+(?=,\d+(?![\d.,]))|\d{1,3}(?:,\d{3})+(?=\.\d+(?![\d.,])))"
 )
-"""The whole part of a number with parted thousands, before its decimal sign."""
 SEPARATORS = ("\t", ";", ",", None)
 """Separators of the cells of a line, in the order they are tried; None: blanks."""
 COMMENT = ("#", "%", "!")
@@ -28,8 +28,8 @@ COMMENT = ("#", "%", "!")
 _NO_COMMENT = re.compile(
     rf"({'|'.join(re.escape(word) for word in MISSING if word.startswith('#'))})\s*[\t;, ]", re.I
 )
+# A comment behind the cells of a row.
 _REMARK = re.compile(r"(?<=[\d\s;,])#\s.*")
-"""A comment behind the cells of a row."""
 _MINUS = str.maketrans("\u2212", "-")
 
 

@@ -117,11 +117,11 @@ def _cell_text(value: object) -> str:
     return "" if value is None else " ".join(str(value).split())
 
 
+# Binary files that are mistaken for text, by their first bytes.
 _BINARY = {
     b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
     b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
 }
-"""Binary files that are mistaken for text, by their first bytes."""
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")

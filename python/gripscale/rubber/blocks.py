@@ -39,8 +39,7 @@ class Block:
     """A table with what the lines above it state."""
 
     table: TextTable
-    temperature: float | None = None
-    """Temperature [K]."""
+    temperature: float | None = None  # temperature [K]
     shift: WLF | None = None
 
     def states_temperature(self, layout: FileLayout) -> bool:
@@ -76,8 +75,8 @@ def read_blocks(
     return every
 
 
+# A temperature in the name of a file or a sheet.
 _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?\s?(C|K|F)(?![A-Za-z\d])")
-"""A temperature in the name of a file or a sheet."""
 
 
 def _blocks_in(

@@ -55,10 +55,10 @@ _KINDS = {
     "E": re.compile(r"(?<![A-Za-z])E(?![A-Za-z])|(?i:young|tensile)"),
     "G": re.compile(r"(?<![A-Za-z])G(?![A-Za-z])|(?i:shear|schub)"),
 }
+# A logarithm in a line of titles: log f, log10(E'/Pa).
 _LOGARITHM = re.compile(
     r"(?<![A-Za-z])(log10|log|lg|ln)(?:[\s_]*\(([^()]*)\)|[\s_]+(?=[A-Za-zωγ|]))", re.IGNORECASE
 )
-"""A logarithm in a line of titles: log f, log10(E'/Pa)."""
 _RAISED = re.compile(r"(log10|ln)_(.*)")
 _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 _OTHER = re.compile(
@@ -66,11 +66,12 @@ _OTHER = re.compile(
 )
 _COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
 _PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
+# Letters that are a title by themselves: t is a time and F a force.
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
-"""Letters that are a title by themselves: t is a time and F a force."""
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
 _PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
+# A line that states the temperature or the frequency of the rows below it.
 _STATED = {
     kind: re.compile(
         rf"(?:^|[\s;,#%!])(?:{names})\.?\s*"
@@ -83,7 +84,6 @@ _STATED = {
         "frequency": r"f|Freq\w*|Test freq\w*|Messfreq\w*|Prüffreq\w*",
     }.items()
 }
-"""A line that states the temperature or the frequency of the rows below it."""
 
 
 def quantity(name: str) -> str | None:
@@ -407,12 +407,12 @@ def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
         )
 
 
+# Frequencies that differ by less than this share, temperatures by less than this [K], are one.
 _SAME_FREQUENCY, _SAME_TEMPERATURE = 0.01, 0.2
-"""Frequencies that differ by less than this share, temperatures by less than this [K], are one."""
 APART = 1.5
 """Ratio of moduli measured twice that no scatter explains: ten per cent of noise makes 1.3."""
+# Conditions measured over those that come again, at most, in a table that repeats itself.
 _OFTEN = 3
-"""Conditions measured over those that come again, at most, in a table that repeats itself."""
 
 
 def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:

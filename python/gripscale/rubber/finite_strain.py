@@ -92,8 +92,8 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
         raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
 
 
+# Below this x = dt/tau the weights are taken from their power series (next term below 1e-14).
 _SMALL_STEP = 1e-3
-"""Below this x = dt/tau the weights are taken from their power series (next term below 1e-14)."""
 
 
 def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Array:
@@ -181,8 +181,8 @@ def _times(time: ArrayLike, driven: Array, name: str) -> Array:
     return elapsed
 
 
+# The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one.
 _LEAST_EQUILIBRIUM = 1e-3
-"""The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
 _FASTEST = 0.01  # shortest fitted relaxation time, as a share of the shortest test
 
 

@@ -30,8 +30,8 @@ from gripscale.rubber.sweeps import Sweeps
 
 _DEGREE, _SPACING = 3, 0.5  # of the splines, and of their knots [decades]
 _PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))  # tried, over the mean trust of a row
+# Penalty of the coefficients themselves, over the same: one row determines no straight line.
 _RIDGE = 1e-9
-"""Penalty of the coefficients themselves, over the same: one row determines no straight line."""
 
 
 def splines(x: Array) -> tuple[Array, Array, Array]:
@@ -98,13 +98,10 @@ shape of a specimen, a factor of both, does not change."""
 class Rows:
     """Decades of frequency and of each modulus, and the sweep of each row from the coldest."""
 
-    x: Array
-    """log10 of the frequency over 1 Hz, shape (rows,)."""
-    y: Array
-    """log10 of the moduli over 1 Pa, or of the loss factor, shape (moduli, rows)."""
+    x: Array  # log10 of the frequency over 1 Hz, shape (rows,)
+    y: Array  # log10 of the moduli over 1 Pa, or of the loss factor, shape (moduli, rows)
     sweep: NDArray[np.intp]
-    lifts: Array
-    """1 for each modulus that b_T multiplies, 0 for the loss factor, shape (moduli,)."""
+    lifts: Array  # 1 for each modulus that b_T multiplies, 0 for the loss factor, shape (moduli,)
 
     @property
     def sweeps(self) -> int:
@@ -133,18 +130,18 @@ _FREE_PENALTY = 8  # iterations after which the weight of the penalty stays as i
 _LARGEST_STEP = 0.3  # by which a shift may change in an iteration [decades]
 _CONVERGED = 1e-4
 _FAR = 2.0  # standard deviations from which a row counts less
+# Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a
+# pair that does not meet moved sweeps of exact moduli by decades.
 _LEAST_SCATTER = 2e-3
-"""Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a
-pair that does not meet moved sweeps of exact moduli by decades."""
 _MOST_CORRELATED = 0.9
+# How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01.
 _LIFT = 0.02
-"""How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""
 _LEAST_SHARE = 0.1  # least overlap of neighbours, over the shorter of them
+# Standard error of a step that is a bound [decades]: sweeps of 2.7 decades with a true step of 2.8
+# were taken 0.4 decades too near.
 _BOUND_ERROR = 1.0
-"""Standard error of a step that is a bound [decades]: sweeps of 2.7 decades with a true step of 2.8
-were taken 0.4 decades too near."""
+# Weight that keeps a shift no row determines from being infinite: its error is 1000 decades.
 _SOFT = 1e-6
-"""Weight that keeps a shift no row determines from being infinite: its error is 1000 decades."""
 
 
 @dataclass(frozen=True)
@@ -209,10 +206,8 @@ class _Step:
     step: Array
     covariance: Array
     residual: Array
-    freedoms: Array
-    """Of each spline, and a share of the shifts, shape (moduli,)."""
-    weights: tuple[float, ...]
-    """Of the penalty of each spline over the scatter."""
+    freedoms: Array  # of each spline, and a share of the shifts, shape (moduli,)
+    weights: tuple[float, ...]  # of the penalty of each spline over the scatter
 
 
 def _gauss_newton_step(

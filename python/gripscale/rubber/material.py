@@ -79,8 +79,8 @@ def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
     return total.reshape(np.shape(omega))
 
 
+# What files hold of admissible series.
 _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
-"""What files hold of admissible series."""
 
 
 class AdmissibleSeries(Checked, eq=False):
@@ -454,10 +454,8 @@ _CHANGE = 1.25
 class End:
     """One end of what is known of a rubber."""
 
-    modulus: float
-    """Storage modulus [Pa]: of the plateau, or at the last frequency measured."""
-    plateau: bool
-    """Whether it is the relaxed, or the glassy, modulus."""
+    modulus: float  # storage modulus [Pa]: of the plateau, or at the last frequency measured
+    plateau: bool  # whether it is the relaxed, or the glassy, modulus
 
 
 def slow_end(rubber: Rubber) -> End:

@@ -48,12 +48,12 @@ import numpy as np
 from gripscale.core import Array, Mask, checks
 from gripscale.rubber.material import loss_shape, storage_shape
 
+# E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must.
 _LEAST_EQUILIBRIUM = 1e-3
-"""E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must."""
+# Weight of the limit on E_inf + sum E_i: kept to 1e-5 of it against rows of weight one.
 _LIMIT_WEIGHT = 300.0
-"""Weight of the limit on E_inf + sum E_i: kept to 1e-5 of it against rows of weight one."""
+# Decades between relaxation times beyond the band, where the data resolve no more.
 _LEAST_SPACING = 0.5
-"""Decades between relaxation times beyond the band, where the data resolve no more."""
 _FEWEST_FOR_SLOPE = 5
 
 
@@ -97,8 +97,7 @@ class Prior:
 
     smoothing: float
     shrinkage: float
-    largest_modulus: float
-    """Upper limit of E_inf + sum E_i [Pa]."""
+    largest_modulus: float  # upper limit of E_inf + sum E_i [Pa]
     storage_weight: float = 1.0
     loss_weight: float = 1.0
 
@@ -260,8 +259,7 @@ class Screening:
     """Which rows are kept, and how the data scatter."""
 
     kept: Mask
-    storage_scatter: float
-    """Robust relative scatter of E' about its local trend [-]."""
+    storage_scatter: float  # robust relative scatter of E' about its local trend [-]
     loss_scatter: float
 
     @property

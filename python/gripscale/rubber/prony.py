@@ -131,8 +131,8 @@ _SMOOTHING = 0.1
 _SHRINKAGE = 10.0  # weight of slow relaxations beyond the data over that of the smoothing
 DECADES_BEYOND, _MOST_DECADES = 2.0, 20.0
 _MOST_WEIGHT = 1e6
+# Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it.
 _GLASS = 1.38
-"""Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
 _OVER_MEASURED = 1.5  # the same over the largest measured E', where that is more
 _STIFFEST = 4.4  # the same of any series: Poisson's ratio is zero at 9/2
 

@@ -81,10 +81,10 @@ def local_misfits(
 
 
 _CERTAIN, _CERTAIN_RATIO = 0.5, 3.0
+# Misfit as the curves are, and its ratio to that of the swapped ones. Measured and synthetic
+# rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; swapped, they
+# have 0.37 to 2.6, those with a loss factor of one all over less.
 _LIKELY, _LIKELY_RATIO = 0.25, 2.0
-"""Misfit as the curves are, and its ratio to that of the swapped ones. Measured and synthetic
-rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; swapped, they
-have 0.37 to 2.6, those with a loss factor of one all over less."""
 _WORST = 3.0  # log error of a row that counts, at most: a modulus of zero has no logarithm
 _TIMES_PER_DECADE, _MOST_TIMES = 2.0, 60
 _BEYOND = 2.0  # decades of relaxation times beyond both ends: all that a band can tell of
@@ -95,10 +95,8 @@ _OVER_MEASURED = 100.0  # limit of the sum of all moduli over the largest measur
 class SwappedModuli:
     """Root mean square log misfit [-] of the best series to E' and E''."""
 
-    as_given: float
-    """To the moduli as they are."""
-    swapped: float
-    """To the moduli the other way round."""
+    as_given: float  # to the moduli as they are
+    swapped: float  # to the moduli the other way round
 
     @property
     def certain(self) -> bool:
@@ -139,13 +137,13 @@ def misfit(curve: Curve) -> float:
         return root_mean_square(np.clip(np.log(spectrum.ratios(curve)), -_WORST, _WORST))
 
 
+# Root mean square log misfit [-] above which a curve is in doubt; the most that rubbers have.
 _NO_SOLID, _SOLID = 0.35, 0.16
-"""Root mean square log misfit [-] above which a curve is in doubt; the most that rubbers have."""
+# Misfit of a reading over that of exchanged moduli, below which it is the likelier cause.
 _BETTER = 0.5
-"""Misfit of a reading over that of exchanged moduli, below which it is the likelier cause."""
 _SCATTER = 0.3  # relative scatter of E' about its neighbours that no measurement of one rubber has
+# Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa.
 _SOFTEST, _STIFFEST = 1e4, 2e10
-"""Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa."""
 
 
 def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[Finding]:

@@ -39,8 +39,8 @@ EDGE = 1e-6
 
 GAS_CONSTANT = 8.314462618
 """R [J/(mol K)]."""
+# Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there.
 _FROM_POLE = 1e-3
-"""Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there."""
 _COLDEST, _HOTTEST = 1.0, 1e4  # ends of what a law is asked for [K]
 
 

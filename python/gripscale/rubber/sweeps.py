@@ -215,8 +215,8 @@ def is_single_frequency(hertz: Array) -> bool:
 
 
 _LEAST_STEP = 0.01
+# Distance of a row from a nominal temperature, over the step, so that it can be interpolated.
 _NEAR = 0.5
-"""Distance of a row from a nominal temperature, over the step, so that it can be interpolated."""
 
 
 def sweeps_from_ramps(

@@ -31,9 +31,8 @@ _TRENDS = ("linear", "mean", "none")
 SPIKE_RULES = ("isolated", "iso13473")
 """Rules for spikes, the first by default; None keeps all."""
 
+# Samples of the longest run that is a spike: laser spots are one to three samples wide.
 _LONGEST_SPIKE = 3
-"""Samples of the longest run that is a spike: laser spots are one to three samples wide."""
-
 _HIGHEST_ORDER = 8  # highest order of a form: beyond it a polynomial follows the roughness
 Limits = tuple[float, float]
 _Heights = TypeVar("_Heights", Profile, HeightMap)

@@ -53,9 +53,8 @@ DEFINITIONS = ("surface", "profile")
 
 _ROUNDING = 1e-9  # relative difference below which two wavelengths are the same
 
+# Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted.
 _FITTED = 10.0
-"""Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted."""
-
 _FEWEST = 4  # points this range must have
 
 
@@ -252,8 +251,8 @@ def _mean_square(line: ProfileSpectrum) -> Array:
 
 _INSTRUMENT = "instrument"  # the word for the shortest wavelength that the measurement resolves
 
+# Ratio of the shortest wavelength measured to the shortest that it may be continued to.
 _MOST_CONTINUED = 100.0
-"""Ratio of the shortest wavelength measured to the shortest that it may be continued to."""
 
 
 class RmsSlope(Checked):

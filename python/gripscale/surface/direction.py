@@ -90,11 +90,9 @@ def direction_of_map(surface: HeightMap) -> Finding | None:
 class _SlopeRatio(NamedTuple):
     """Ratio of slopes along and across sliding."""
 
-    lag: float
-    """[m]"""
+    lag: float  # [m]
     value: float
-    half_width: float
-    """Of its 95 % band, in its logarithm."""
+    half_width: float  # of its 95 % band, in its logarithm
 
     @classmethod
     def over(cls, lag: float, along: Sequence[Profile], across: Sequence[Profile]) -> _SlopeRatio:

@@ -42,8 +42,7 @@ class Header:
 
     x_unit: str | None = None
     z_unit: str | None = None
-    step: tuple[float, float] | None = None
-    """Along x and along y, the same if one is stated."""
+    step: tuple[float, float] | None = None  # along x and along y, the same if one is stated
 
 
 def read_header(lines: Sequence[Line]) -> Header:

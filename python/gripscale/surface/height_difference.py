@@ -42,9 +42,8 @@ if TYPE_CHECKING:
 
 _BAND_LEVEL = 0.95  # nominal confidence level of the band
 
+# Half width in log C_z beyond which there is no band: too few blocks hold pairs.
 _WIDEST_BAND = 20.0
-"""Half width in log C_z beyond which there is no band: too few blocks hold pairs."""
-
 _FEWEST_PAIRS = 16  # pairs a lag must have to be kept
 
 
@@ -197,14 +196,10 @@ def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
 class BlockSums:
     """Contribution of each block of the profiles to C_z, for resampling of blocks."""
 
-    lag: Array
-    """[m], shape (lags,)."""
-    squares: Array
-    """Sums of squared height differences [m^2], shape (blocks, lags)."""
-    pairs: Array
-    """Numbers of pairs whose first point is in a block, shape (blocks, lags)."""
-    resolution_limit: float
-    """Shortest wavelength that the measurement resolves [m]."""
+    lag: Array  # [m], shape (lags,)
+    squares: Array  # sums of squared height differences [m^2], shape (blocks, lags)
+    pairs: Array  # numbers of pairs whose first point is in a block, shape (blocks, lags)
+    resolution_limit: float  # shortest wavelength that the measurement resolves [m]
 
     def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
         """Return C_z of a selection of blocks, with repetitions, without a band."""
@@ -294,8 +289,8 @@ def require_positive(hdc: HeightDifference) -> None:
 
 _REACHED = 0.9  # fraction of the mean over all larger lags at which the plateau begins
 
+# Ratio of the largest lag to the plateau's first lag below which it is not called a plateau.
 _SHORTEST_PLATEAU = 2.0
-"""Ratio of the largest lag to the plateau's first lag below which it is not called a plateau."""
 
 
 class Plateau(NamedTuple):

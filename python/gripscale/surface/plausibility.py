@@ -20,30 +20,25 @@ from gripscale.surface.supports import road_between, support_plates
 
 _SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
 
+# Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %.
 _MOST_STEEP = 0.5
-"""Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %."""
-
 _TALLEST = 0.1  # rms height over length beyond which one of the two probably has a wrong unit
 _LARGEST_HEIGHT = 0.1  # rms height [m] that no pavement has
 _COARSEST_STEP = 0.01  # step [m] beyond which no texture is measured
 
+# Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction.
 _SMOOTHEST = 5e-3
-"""Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction."""
-
+# Height change over a short way that is a jump, in robust standard deviations of such changes.
 _JUMP = 10.0
-"""Height change over a short way that is a jump, in robust standard deviations of such changes."""
-
 _SHORT_WAY = 1 / 400  # the short way, as a share of the profile
 _MOST_JUMPS = 8  # jumps beyond which they belong to the surface, as grooves do
 _STRETCHES = 40  # parts into which a profile is cut to find flat ones
 _SHORTEST_STRETCH = 16  # heights a part must have for its roughness to be compared
 
+# Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau.
 _LONGEST_WAVE = 4.0
-"""Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau."""
-
+# Distance of the logarithm of a factor from its limit below which the factor is at the limit.
 _AT_THE_EDGE = 1e-3
-"""Distance of the logarithm of a factor from its limit below which the factor is at the limit."""
-
 _FLAT = 0.02  # roughness of a part, over the usual one, below which it is flat
 
 
@@ -86,11 +81,9 @@ class _Doubts(NamedTuple):
     """Reasons to doubt that a profile is a road."""
 
     texts: tuple[str, ...] = ()
-    heights: Array | None = None
-    """Valid heights [m]; None if they are meaningless."""
+    heights: Array | None = None  # valid heights [m]; None if they are meaningless
     plates: bool = False
-    units: bool = False
-    """Whether a length suggests another unit."""
+    units: bool = False  # whether a length suggests another unit
 
 
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:

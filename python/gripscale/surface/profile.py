@@ -32,17 +32,16 @@ A distance rounded to a tenth of a step is just within. Uniform departures up to
 the squared distance of neighbours, 0.2 % of it.
 """
 
+# Largest last decimal place of printed distances, in steps, that still separates neighbours.
 _COARSEST_PRINT = 0.5
-"""Largest last decimal place of printed distances, in steps, that still separates neighbours."""
-
 _SINGLE = 1.6
 """Length, in the shortest step, up to which a step counts as single.
 
 Printed steps differ by the last decimal, at most half as much again; double steps are longer.
 """
 
+# Steps in a gap beyond which floating point cannot tell the grid number of its points.
 _LARGEST_NUMBER = 1e12
-"""Steps in a gap beyond which floating point cannot tell the grid number of its points."""
 
 
 @dataclass(frozen=True, eq=False)

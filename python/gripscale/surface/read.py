@@ -30,8 +30,8 @@ from gripscale.surface.text_files import (
 )
 from gripscale.surface.triangles import read_stl
 
+# Deflate, the densest packing of all formats, packs at most 1032 bytes into one.
 _MOST_POINTS_PER_BYTE = 1032
-"""Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""
 
 
 @dataclass(frozen=True)
@@ -163,11 +163,11 @@ def _topography(
 
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
+# Points or a table of heights as text; some instruments write .asc, too.
 _POINT_SUFFIXES = (".xyz", ".asc")
-"""Points or a table of heights as text; some instruments write .asc, too."""
 _ANY_TEXT = (*TEXT_SUFFIXES, *_POINT_SUFFIXES, *EXCEL)
+# Sheets of a Mitutoyo roughness tester's Excel file.
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
-"""Sheets of a Mitutoyo roughness tester's Excel file."""
 
 
 def read_profile(

@@ -37,8 +37,8 @@ from gripscale.surface.profile import (
     uneven_step,
 )
 
+# Longest distance of neighbours that is bridged by default, in usual distances or new steps.
 _LONGEST_BRIDGE = 2.0
-"""Longest distance of neighbours that is bridged by default, in usual distances or new steps."""
 
 
 def resample(

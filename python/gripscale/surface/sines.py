@@ -31,8 +31,8 @@ from gripscale.surface.height_difference import (
     require_positive,
 )
 
+# Largest departure of a ratio from the mean ratio for waves to count as geometric.
 _GEOMETRIC_TOLERANCE = 0.01
-"""Largest departure of a ratio from the mean ratio for waves to count as geometric."""
 
 
 class SineStack(Checked, eq=False):

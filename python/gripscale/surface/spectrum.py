@@ -175,9 +175,8 @@ def first_of_bins(values: NDArray[Any], per_decade: int) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff(bins, prepend=-1.0))
 
 
+# Weights of a window: with "hann" its straight line is subtracted before, else its mean.
 _TAPERS = ("hann", "none")
-"""Weights of a window: with "hann" its straight line is subtracted before, else its mean."""
-
 _WINDOWS = 4  # windows a tapered line is cut into by default; as many fit again between them
 
 

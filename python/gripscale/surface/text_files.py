@@ -43,9 +43,8 @@ from gripscale.surface.resampling import printed_grid
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
+# Codes in use, without sign: nines, and the limits of the whole numbers instruments store.
 _CODES = np.array([*_NINES, *_WORDS])
-"""Codes in use, without sign: nines, and the limits of the whole numbers instruments store."""
-
 _BEYOND = 1e30  # height, in any unit of length, beyond which every number is a code
 _ALONE = 10.0  # least distance of a code from all heights, in the largest difference of two of them
 
@@ -106,8 +105,8 @@ _HEIGHT_TITLE = re.compile(
 )
 
 
+# Most points of a grid, in points of the file: with fewer on it, the file is not on a grid.
 _MOST_TIMES = 100
-"""Most points of a grid, in points of the file: with fewer on it, the file is not on a grid."""
 
 
 def _read_table(
@@ -186,8 +185,8 @@ def read_text_profile(
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
+# What a title says of heights that may be counted downwards.
 _DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
-"""What a title says of heights that may be counted downwards."""
 
 
 def is_captif(lines: Sequence[Line]) -> bool:

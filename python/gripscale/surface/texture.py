@@ -48,15 +48,14 @@ if TYPE_CHECKING:
 
 _SEGMENT = 0.1  # length of a segment [m]
 
+# Steps to which a finer profile is averaged, and beyond which it has no profile depth [m].
 _SAMPLE, _COARSEST = 0.5e-3, 1e-3
-"""Steps to which a finer profile is averaged, and beyond which it has no profile depth [m]."""
-
 _SHORTEST_WAVE = 2.4e-3  # wavelength at which the filter of the standard begins [m]
 _PADDING = 9  # samples by which the filter continues a line at either end
 
+# Share of missing heights beyond which a segment does not count: the standard allows 10 % of
+# dropouts and 5 % of spikes.
 _MOST_MISSING = 0.15
-"""Share of missing heights beyond which a segment does not count: the standard allows 10 % of
-dropouts and 5 % of spikes."""
 
 TEXTURE_NUMBERS = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),

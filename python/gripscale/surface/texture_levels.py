@@ -26,8 +26,8 @@ _REFERENCE = 1e-6  # root mean square height of the level zero [m]
 _LENGTHS = 12.0  # length of a profile over the longest wavelength of its bands
 _HALF_BAND = 10.0**0.05  # edge of a band over its middle
 
+# Numbers by which the middles of the bands are called (ISO 3, R10).
 _PREFERRED = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
-"""Numbers by which the middles of the bands are called (ISO 3, R10)."""
 
 
 def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:

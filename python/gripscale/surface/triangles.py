@@ -23,8 +23,8 @@ from gripscale.surface.profile import even_grid
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 _HEAD = 84  # bytes before the first triangle of a binary file
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+# Distance of coordinates, in the size of the mesh, that single precision cannot tell apart.
 _ROUNDING = 1e-6
-"""Distance of coordinates, in the size of the mesh, that single precision cannot tell apart."""
 _OVERLAP = 1.01  # area of the triangles over that of their rectangle beyond which some cover others
 _MOST_POINTS = 10**8
 

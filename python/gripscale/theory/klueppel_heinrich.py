@@ -49,8 +49,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+# Share of the heights of a profile that counts, from the highest down: valleys have no contact.
 _TOP_HEIGHT_FRACTION = 0.5
-"""Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
 _TOLERANCE = 1e-6  # relative error of the integral below which a result is converged
 _NODES = 33  # wavelengths of the running friction
 _COARSEST, _FINEST = 4, 1024  # intervals between them, doubled from the first to the last

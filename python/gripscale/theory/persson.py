@@ -161,8 +161,8 @@ def refine_intervals(
 
 
 _TOLERANCE = 1e-4  # relative error of the integrals below which a result is converged
+# Intervals between neighbouring points of the spectrum, doubled from the first to the last.
 _COARSEST, _FINEST = 4, 128
-"""Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
 _WIDEST = 0.25  # widest step of log q on the coarsest grid, times the intervals there
 _ANGLES = 12  # angles of a quarter turn beyond the number of intervals
 
