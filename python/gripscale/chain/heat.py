@@ -24,13 +24,6 @@ import numpy as np
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import StrainNorm
-from gripscale.conditions.flash_temperature import (
-    DepthsOfLoss,
-    LossDepth,
-    LossLayers,
-    ThermalProperties,
-    loss_pattern,
-)
 from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult
@@ -47,7 +40,7 @@ class WaveHeat:
     friction: float
     contact: ComplexArray  # of the pressure: where the smaller waves lose energy
     lost: ComplexArray  # of its own loss
-    depth: DepthsOfLoss  # of its own loss
+    depth: rise.DepthsOfLoss  # of its own loss
 
     @property
     def wavenumbers(self) -> Array:
@@ -71,14 +64,14 @@ class WaveHeat:
         lost[1:-1] = np.abs(spectrum[1:-1]) ** 2 * modulus.imag / np.abs(modulus) ** 2
         total = lost.sum()
         wavenumber = 2.0 * math.pi / wave.wavelength
-        depth: DepthsOfLoss = LossDepth.under(wavenumber)
+        depth: rise.DepthsOfLoss = rise.LossDepth.under(wavenumber)
         pattern = np.zeros(number.size, dtype=complex)
         if total > 0.0:
-            along = np.fft.rfft(loss_pattern(spectrum, lost))
+            along = np.fft.rfft(rise.loss_pattern(spectrum, lost))
             pattern = along[1:-1] / along[0]
-            depth = LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
+            depth = rise.LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
         if wave.loss_by_depth is not None and wave.friction_from_dissipation > 0.0:
-            depth = LossLayers.of(*wave.loss_by_depth)
+            depth = rise.LossLayers.of(*wave.loss_by_depth)
         return cls(
             wavelength=wave.wavelength,
             pressure=wave.pressure_received,
@@ -109,7 +102,7 @@ class Warming:
 
 
 def warming(
-    waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: ThermalProperties
+    waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: rise.ThermalProperties
 ) -> list[Warming]:
     """Return the temperature rise of the rubber on each wave of a chain, largest first.
 
@@ -132,7 +125,7 @@ def warming(
 
 
 def _rise_by_patterns(
-    wave: WaveHeat, smaller: Sequence[WaveHeat], speed: float, thermal: ThermalProperties
+    wave: WaveHeat, smaller: Sequence[WaveHeat], speed: float, thermal: rise.ThermalProperties
 ) -> tuple[float, float]:
     """Return the rise by the wave's harmonics where it loses energy, and in its contact [K]."""
     k, heat = wave.wavenumbers, speed * wave.pressure

@@ -14,19 +14,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.experiment.solve import Bench, Pick
 from gripscale.experiment.task import Task
-from gripscale.model import (
-    ADHESIVE_FRICTION,
-    BASIS,
-    CUT_OFF_EXPONENTS,
-    OUTSIDE_BAND,
-    STATUS,
-    STATUS_WORD,
-    TOTALS,
-    WHY_NO_EXPONENT,
-    status_words,
-)
 
 Index = tuple[int, ...]
 
@@ -42,9 +32,9 @@ CHANGES = {
 """Names of what an effect changes, relative to the answer without it."""
 
 # Numbers of the whole surface that an answer may have.
-_NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
+_NUMBERS = (*model.TOTALS, model.ADHESIVE_FRICTION, *model.OUTSIDE_BAND, *model.CUT_OFF_EXPONENTS)
 
-SURFACE = (*_NUMBERS, WHY_NO_EXPONENT, STATUS, STATUS_WORD)
+SURFACE = (*_NUMBERS, model.WHY_NO_EXPONENT, model.STATUS, model.STATUS_WORD)
 """All an answer says of the whole surface."""
 
 
@@ -93,9 +83,11 @@ class Design:
         for point in self.points:
             key = point.task.key
             answer = answers[key]
-            parts[point.index] = answer.drop_vars([STATUS, STATUS_WORD], errors="ignore")
-            status[point.index] = str(answer[STATUS].item())
-            words[point.index] = str(status_words(answer).item())
+            parts[point.index] = answer.drop_vars(
+                [model.STATUS, model.STATUS_WORD], errors="ignore"
+            )
+            status[point.index] = str(answer[model.STATUS].item())
+            words[point.index] = str(model.status_words(answer).item())
             keys[point.index] = key
             seconds[point.index] = answer.attrs.get("seconds", math.nan)
         dims = tuple(self.sizes)
@@ -151,14 +143,14 @@ def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
 
     Nothing where the model does not tell.
     """
-    if not set(BASIS) <= set(answer):
+    if not set(model.BASIS) <= set(answer):
         return xr.Dataset()
     errors = {
         name: ((), error_of_total(answer, name.removeprefix("total_").removesuffix("_error")),
                variable_attributes(text))
         for name, text in ESTIMATED_ERRORS.items()
     }  # fmt: skip
-    return answer[[*BASIS]].assign(errors)
+    return answer[[*model.BASIS]].assign(errors)
 
 
 def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:

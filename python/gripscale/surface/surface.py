@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from gripscale.core import Described, Finding, InputError, Severity, Topic
+from gripscale.surface import plausibility
 from gripscale.surface.cleaning import CleaningReport, clean
 from gripscale.surface.cut_off import (
     CutOffRule,
@@ -22,11 +23,6 @@ from gripscale.surface.cut_off import (
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.low_pass import followed, followed_lines
-from gripscale.surface.plausibility import (
-    extrapolation_notes,
-    profile_warnings,
-    stack_notes,
-)
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
@@ -167,7 +163,7 @@ class Measured(Described):
         findings = []
         for raw, cleaned in (*self.profiles, *self.across):
             changes = [Finding(Severity.WARNING, f"{n}.", topic=Topic.SURFACE) for n in raw.notes]
-            implausible = profile_warnings(raw, cleaned)
+            implausible = plausibility.profile_warnings(raw, cleaned)
             if self.map is not None:  # its lines are no profiles between plates
                 implausible = tuple(replace(f, severity=Severity.WARNING) for f in implausible)
             of_line = (*changes, *raw.doubts, *implausible)
@@ -258,7 +254,7 @@ class Surface(Described):
         if self.correlation is None:
             return of_measurement
         ridges = [f for f in self.direction if f.severity != Severity.GOOD]
-        of_waves = stack_notes(self.sines, self.correlation, self.fit)
+        of_waves = plausibility.stack_notes(self.sines, self.correlation, self.fit)
         return (*of_measurement, *ridges, *of_waves, *self.extrapolated)
 
     @cached_property
@@ -283,7 +279,7 @@ class Surface(Described):
         """Findings on waves and roughness beyond the resolution of the measurement."""
         if self.correlation is None:
             return ()
-        return tuple(extrapolation_notes(self.sines, self.correlation))
+        return tuple(plausibility.extrapolation_notes(self.sines, self.correlation))
 
     def varied(
         self,
