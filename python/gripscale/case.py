@@ -331,7 +331,11 @@ class Case(Described):
         """
         surface = self.surface
         others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
-        findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
+        findings = self.doubts(surfaces, loads)
+        if self.conditions is not None and self.conditions.temperature is not None:
+            for text in temperature_doubts({self.rubber.name or "rubber": self.rubber_before}):
+                sentence = f"{text[0].upper()}{text[1:]}."
+                findings.append(Finding(Severity.WARNING, sentence, topic=Topic.RUBBER))
         findings += tester_findings(self.tester, self.rubber.name)
         fit = self.measured_rubber.fit
         if fit is not None and fit.findings:
@@ -381,14 +385,6 @@ class Case(Described):
                 )
             )
         return doubts
-
-    def _of_conditions(self) -> Iterator[Finding]:
-        """Yield what the conditions ask for that was not measured."""
-        if self.conditions is not None and self.conditions.temperature is not None:
-            rubbers = {self.rubber.name or "rubber": self.rubber_before}
-            for text in temperature_doubts(rubbers):
-                sentence = f"{text[0].upper()}{text[1:]}."
-                yield Finding(Severity.WARNING, sentence, topic=Topic.RUBBER)
 
 
 def described_surface(

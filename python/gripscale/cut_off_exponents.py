@@ -19,8 +19,7 @@ from numpy.typing import ArrayLike
 
 from gripscale.core.arrays import Array
 
-OCTAVE = 2.0
-"""Ratio of the wavelengths that are compared, where there are waves so far apart."""
+OCTAVE = 2.0  # ratio of the wavelengths that are compared, where there are waves so far apart
 
 
 @dataclass(frozen=True)
@@ -32,8 +31,8 @@ class CutOffExponents:
     why_not: str = ""  # why one of them is not known; empty if both are
 
 
+# Of a model that answers for one cut-off only.
 NOT_TOLD = CutOffExponents(math.nan, math.nan, "the model does not tell it")
-"""Of a model that answers for one cut-off only."""
 NOT_CONVERGED = CutOffExponents(math.nan, math.nan, "not converged")
 
 

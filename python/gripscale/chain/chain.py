@@ -38,9 +38,8 @@ from gripscale.wave.result import ScaleResult
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
+# Functions that may stand for a solver of one wave.
 SOLVE_FUNCTIONS = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
-"""Functions that may stand for a solver of one wave."""
-
 WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
 
 

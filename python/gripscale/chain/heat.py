@@ -117,28 +117,23 @@ def warming(
     out, larger_waves = [], 0.0
     for i, wave in enumerate(waves):
         others = sum(h * t for j, (h, t) in enumerate(zip(heats, top, strict=True)) if j != i)
-        own_pattern, contact = _rise_by_patterns(wave, waves[i + 1 :], speed, thermal)
+        # by the harmonics of this wave: where it loses energy, and in its contact
+        k, heat = wave.wavenumbers, speed * wave.pressure
+        m = rise.harmonic_decay(k, k, speed, thermal)
+        loss = heat * wave.friction * wave.lost
+        by_smaller = np.zeros_like(m)
+        for other in waves[i + 1 :]:
+            at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
+            by_smaller += heat * other.friction * wave.contact * at_surface
+        where_lost = loss * rise.harmonic_where_lost(m, wave.depth, thermal)
+        where_lost += wave.depth.decay(m) * by_smaller
+        own_pattern = _mean(where_lost, wave.lost)
+        in_contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
+        contact = _mean(in_contact, wave.contact)
         surface = others + heats[i] * top[i] + larger_waves + contact
         out.append(Warming(others + heats[i] * deep[i], larger_waves, own_pattern, surface))
         larger_waves += contact
     return out
-
-
-def _rise_by_patterns(
-    wave: WaveHeat, smaller: Sequence[WaveHeat], speed: float, thermal: rise.ThermalProperties
-) -> tuple[float, float]:
-    """Return the rise by the wave's harmonics where it loses energy, and in its contact [K]."""
-    k, heat = wave.wavenumbers, speed * wave.pressure
-    m = rise.harmonic_decay(k, k, speed, thermal)
-    loss = heat * wave.friction * wave.lost
-    by_smaller = np.zeros_like(m)
-    for other in smaller:
-        at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
-        by_smaller += heat * other.friction * wave.contact * at_surface
-    contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
-    where_lost = loss * rise.harmonic_where_lost(m, wave.depth, thermal)
-    where_lost += wave.depth.decay(m) * by_smaller
-    return _mean(where_lost, wave.lost), _mean(contact, wave.contact)
 
 
 def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:

@@ -51,8 +51,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+# Name of the pressures of the classes [Pa], among the details of a wave.
 CLASS_PRESSURES = "class_pressures"
-"""Name of the pressures of the classes [Pa], among the details of a wave."""
 
 
 @dataclass(frozen=True)

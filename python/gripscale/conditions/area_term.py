@@ -17,8 +17,7 @@ from numpy.typing import ArrayLike
 
 from gripscale.core import Array, Checked, InputError, checked, checks
 
-BOLTZMANN = 8.617333262e-5
-"""k_B [eV/K]: CODATA 2018."""
+BOLTZMANN = 8.617333262e-5  # k_B [eV/K]: CODATA 2018
 
 
 @runtime_checkable
@@ -154,10 +153,10 @@ class TableStress(Checked):
         return np.asarray(np.interp(at, np.log(self.speed), self.stress_at))
 
 
+# Every law of the interfacial shear stress by its kind.
 SHEAR_STRESSES: dict[str, Any] = {
     law.kind: law for law in (ConstantStress, GaussianStress, LeGalKlueppelStress, TableStress)
 }
-"""Every law of the interfacial shear stress by its kind."""
 
 
 def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:

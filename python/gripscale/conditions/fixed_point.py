@@ -31,19 +31,16 @@ from gripscale.core import Array, ConvergenceError
 
 S = TypeVar("S")
 
-HISTORY = 3
-"""Evaluations before the last one that Anderson's acceleration uses."""
-LONGEST_STEP = 2.0
-"""Largest change of one component from one x to the next."""
-MOST_PASSES = 8
-"""Most evaluations, on the fine mesh and in each fixed point of the coarse one."""
+HISTORY = 3  # evaluations before the last one that Anderson's acceleration uses
+LONGEST_STEP = 2.0  # largest change of one component from one x to the next
+MOST_PASSES = 8  # most evaluations, on the fine mesh and in each fixed point of the coarse one
+# Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
+# that the documentation promises.
 RESULT_TOLERANCE = 3e-4
-"""Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
-that the documentation promises."""
+# Largest component of f(x) - x at a fixed point, in the logarithms of `pack_state`.
 STATE_TOLERANCE = 5e-4
-"""Largest component of f(x) - x at a fixed point, in the logarithms of `pack_state`."""
+# The same on the coarse mesh before the first fine evaluation: the meshes differ by more.
 COARSE_TOLERANCE = 1e-2
-"""The same on the coarse mesh before the first fine evaluation: the meshes differ by more."""
 
 
 @dataclass(frozen=True)
@@ -221,9 +218,9 @@ def _evaluated(solve: _Solve[S], x: Array | None, start: S | None) -> Iteration[
     return iteration if iteration.usable else None
 
 
+# Temperature rise [K] above which the state is logarithmic. The first estimate of the heat, from a
+# cold rubber, may be a thousand times too high.
 WARM = 20.0
-"""Temperature rise [K] above which the state is logarithmic. The first estimate of the heat, from a
-cold rubber, may be a thousand times too high."""
 LEAST_STRAIN = 1e-12
 
 

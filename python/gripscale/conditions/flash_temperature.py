@@ -105,16 +105,11 @@ class DepthsOfLoss(Protocol):
         """Return E ierfc(distance / length), ierfc being the integral of erfc."""
 
 
+# Z, |Z - Z'| and Z + Z'.
 Distances = Literal["depth", "difference", "sum"]
-"""Z, |Z - Z'| and Z + Z'."""
-
-DEEPEST = 60.0
-"""Depth in units of 1/b beyond which the loss is neglected: exp(-60)."""
-WIDEST = 6.5
-"""Argument beyond which ierfc is below 1e-20."""
-STEADY = 4.0
-"""Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8."""
-
+DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(-60)
+WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
+STEADY = 4.0  # Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
 
 

@@ -61,27 +61,19 @@ from gripscale.model import STATUS, TOTALS, Load, OnProgress, predicted_answer
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, Surface
 
+# Usual end of a continuation [m]: about the depth of a measured texture of a stone's face.
 DOWN_TO = 10e-6
-"""Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
-
+# a, half width of the 90 % band of the logarithm of a number for each octave [-].
 BAND_OF_OCTAVE = 0.11
-"""a, half width of the 90 % band of the logarithm of a number for each octave [-]."""
+BAND_OF_GROWTH = 0.40  # b, the same over the logarithm of what continuation adds [-]
+UNFORETOLD = 0.55  # largest |ln(r_1 / r_2)| of faces that foretell an octave
+QUANTILE_90 = 1.645  # half width of the 90 % interval of a Gaussian over its standard deviation
 
-BAND_OF_GROWTH = 0.40
-"""b, the same over the logarithm of what continuation adds [-]."""
-
-UNFORETOLD = 0.55
-"""Largest |ln(r_1 / r_2)| of faces that foretell an octave."""
-
-QUANTILE_90 = 1.645
-"""Half width of the 90 % interval of a Gaussian over its standard deviation."""
-
+# c, share of ln r of an octave, beyond that of `USUAL_HURST`, that the next octave has [-].
 PERSISTENCE = 0.75
-"""c, share of ln r of an octave, beyond that of `USUAL_HURST`, that the next octave has [-]."""
-
+# Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
+# doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is.
 USUAL_HURST = 0.8
-"""Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
-doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is."""
 
 # ln r that a withheld octave is tried with; r_1 is interpolated between them.
 _LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
@@ -89,9 +81,8 @@ _LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
 MOST_OCTAVES = 8
 _LEAST_STEP = 0.05  # rest of an octave, over the last cut-off, that is not a step of its own
 
+# Largest ratio of the slope of the faces to that of a finer measurement, or its inverse.
 MOST_APART = 3.0
-"""Largest ratio of the slope of the faces to that of a finer measurement, or its inverse."""
-
 OnContact = Callable[[RoughContact], None]
 
 
@@ -236,6 +227,7 @@ _CURVES = {
 # Numbers of an answer, and their curves with a band.
 _BANDS = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
 
+# What a Dataset holds of a continuation, as far as it is known.
 FACTS = {
     "resolved": "shortest wavelength that was measured",
     "slope_ratio": "slope of the last continued octave over that of the octave above",
@@ -245,7 +237,6 @@ FACTS = {
     "withheld_slope_ratio": "slope ratio that gives the friction of the withheld octave",
     "withheld_slope_ratio_above": "slope ratio that gives the friction of the octave above it",
 }
-"""What a Dataset holds of a continuation, as far as it is known."""
 
 
 def unforetold(resolved: float, last: float, above: float) -> str:

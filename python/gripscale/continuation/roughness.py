@@ -34,12 +34,8 @@ from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST
 from gripscale.surface.profile import RESOLVED_STEPS
 
-QUANTILE = 0.68
-"""Share of the points in contact whose slope is below that of an octave."""
-
-LONGEST_SHARE = 0.25
-"""Longest wavelength of a line that counts, over the length of the line."""
-
+QUANTILE = 0.68  # share of the points in contact whose slope is below that of an octave
+LONGEST_SHARE = 0.25  # longest wavelength of a line that counts, over the length of the line
 # Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6 or
 # 2.5 stones with sharp edges and cascades change their friction by 3 % at most.
 _MOST_ABOVE = 1.25
@@ -227,8 +223,8 @@ class FinerMeasurement(Checked):
         return typical_slope(np.concatenate([line.slope(longest, shortest) for line in periodic]))
 
 
+# Where the roughness below the measurement comes from.
 Roughness = OwnFaces | HurstExponent | FinerMeasurement
-"""Where the roughness below the measurement comes from."""
 
 
 def as_roughness(name: str, value: Any) -> Roughness:

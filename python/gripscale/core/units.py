@@ -51,8 +51,7 @@ UNITS: dict[str, dict[str, float]] = {
 """The units of each kind of quantity by their usual spelling; the first is the one used inside: the
 SI unit, except for the energy of a bond."""
 
-MILLI, MICRO, MEGA, SQUARE_MM = 1e-3, 1e-6, 1e6, 1e-6
-"""Sizes of mm, um, MPa and mm^2 in SI units."""
+MILLI, MICRO, MEGA, SQUARE_MM = 1e-3, 1e-6, 1e6, 1e-6  # sizes of mm, um, MPa and mm^2 in SI units
 
 ZERO_CELSIUS = 273.15
 """0 C [K]."""
@@ -252,15 +251,13 @@ def example_unit(kind: str) -> str:
     return _EXAMPLES[kind].partition(" ")[2]
 
 
-DISPLAY_UNITS = "display_units"
-"""Attribute of a result: the units its case states, by key, as JSON."""
+DISPLAY_UNITS = "display_units"  # attribute of a result: the units its case states, by key, as JSON
+GIVEN = "given_unit"  # attribute of a coordinate: the unit in which its values were stated, if any
 
-GIVEN = "given_unit"
-"""Attribute of a coordinate: the unit in which its values were stated, if any."""
-
+# The unit of each kind of quantity stated without one.
 USUAL = {"pressure": "MPa", "speed": "m/s", "length": "mm"}
-"""The unit of each kind of quantity stated without one."""
 
+# Keys of a case that are shown in their stated unit, with their table and kind of quantity.
 KEYS = {
     "pressure": ("load", "pressure"),
     "speed": ("load", "speed"),
@@ -269,7 +266,6 @@ KEYS = {
     "smallest_wavelength": ("surface", "length"),
     "cut_off": ("surface", "length"),
 }
-"""Keys of a case that are shown in their stated unit, with their table and kind of quantity."""
 
 
 @dataclass(frozen=True)

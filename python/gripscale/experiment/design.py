@@ -20,22 +20,20 @@ from gripscale.experiment.task import Task
 
 Index = tuple[int, ...]
 
-CONVERGED = "converged"
-"""Status of an answer whose numbers may be used."""
-
+CONVERGED = "converged"  # status of an answer whose numbers may be used
 WITH_AREA_TERM = "friction_with_area_term"
+# Names of what an effect changes, relative to the answer without it.
 CHANGES = {
     "total_contact_fraction": "contact_fraction_change",
     "total_friction": "friction_change",
     WITH_AREA_TERM: "friction_with_area_term_change",
 }
-"""Names of what an effect changes, relative to the answer without it."""
 
 # Numbers of the whole surface that an answer may have.
 _NUMBERS = (*model.TOTALS, model.ADHESIVE_FRICTION, *model.OUTSIDE_BAND, *model.CUT_OFF_EXPONENTS)
 
+# All an answer says of the whole surface.
 SURFACE = (*_NUMBERS, model.WHY_NO_EXPONENT, model.STATUS, model.STATUS_WORD)
-"""All an answer says of the whole surface."""
 
 
 @dataclass(frozen=True)
@@ -111,11 +109,11 @@ def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
     return answer[[name for name in SURFACE if name in answer]]
 
 
+# Names of `error_of_total`, where it is kept.
 ESTIMATED_ERRORS = {
     "total_contact_fraction_error": "error of the contact fraction as the model estimates it",
     "total_friction_error": "error of the friction coefficient as the model estimates it",
 }
-"""Names of `error_of_total`, where it is kept."""
 
 
 def error_of_total(data: xr.Dataset, name: str) -> float:

@@ -19,7 +19,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.core import Array, Checked, Finding, Topic, Vector, checked, checks, doubt, labelled
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, about_file
 from gripscale.core.units import (
     UNITS,
     ZERO_CELSIUS,
@@ -108,10 +108,7 @@ class MeasuredFriction(Checked, eq=False):
         for name in _OPTIONAL:
             if columns[name] is None:
                 columns[name] = np.full(self.speed.size, np.nan)
-        sizes = {name: values.size for name, values in columns.items()}
-        if len(set(sizes.values())) > 1 or not sizes["speed"]:
-            counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
-            raise InputError(f"columns must have equal lengths, at least 1; got {counts}")
+        checks.same_length(1, **columns)
         self._set(**columns)
 
 
@@ -155,10 +152,8 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
     if absent:
         titles = table.titles or "no titles"
         raise FileError(f"{path}: expected a column named {absent[0]}; got {titles}")
-    try:
+    with about_file(path):
         return MeasuredFriction(**columns, source=str(path), assumed=" ".join(assumed))
-    except InputError as error:
-        raise FileError(f"{path}: {error}") from error
 
 
 def _word(title: str) -> str | None:
@@ -193,8 +188,8 @@ def _doubt(sentence: str) -> Finding:
     return doubt(sentence, topic=Topic.SOLUTION)
 
 
+# Attribute of a result that shows measured friction: its `friction_doubts`.
 FRICTION_DOUBTS = "friction_doubts"
-"""Attribute of a result that shows measured friction: its `friction_doubts`."""
 
 
 def friction_doubts(measured: MeasuredFriction | None, speed: float) -> list[Finding]:
@@ -242,6 +237,7 @@ class TemperatureProbe:
         return np.asarray(np.zeros(np.shape(speed)) + kelvin)
 
 
+# Columns of a measurement as result files hold them, with unit and meaning.
 MEASURED = {
     "speed": ("m/s", "speed of the measurement"),
     "friction": ("1", "measured friction coefficient"),
@@ -249,7 +245,6 @@ MEASURED = {
     "temperature": ("K", "temperature of the rubber before the contact"),
     "pressure": ("Pa", "nominal pressure"),
 }
-"""Columns of a measurement as result files hold them, with unit and meaning."""
 
 
 def measured_variables(

@@ -28,8 +28,7 @@ from gripscale.surface.resampling import fill_gaps
 Single = NDArray[np.float32]
 SingleComplex = NDArray[np.complex64]
 
-DEFAULT_STEPS = 4
-"""Steps of the surface in the smallest wave that is kept by default."""
+DEFAULT_STEPS = 4  # steps of the surface in the smallest wave that is kept by default
 FEWEST_STEPS = 2
 
 

@@ -63,12 +63,10 @@ from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
 
 POINTS_IN_WAVE = 4
-COARSEST = {1: 128, 2: 32}
-"""Fewest points along each axis, on lines and maps."""
+COARSEST = {1: 128, 2: 32}  # fewest points along each axis, on lines and maps
+# Fractions of the loss angle, solved in turn if the full angle does not settle.
 LOSSES = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0)
-"""Fractions of the loss angle, solved in turn if the full angle does not settle."""
-ERROR_GRIDS = 3
-"""Grids of the same surface from which the errors of the last one are estimated."""
+ERROR_GRIDS = 3  # grids of the same surface from which the errors of the last one are estimated
 _BORDER = (np.pi - 1.0 + np.log(2.0)) / 24.0
 # Uncertainty of the position of a border, on lines and maps [steps].
 _BORDER_ERROR = {1: 0.5, 2: 0.7}

@@ -36,8 +36,7 @@ from gripscale.surface.profile import profile_list
 # Length of the lines the law was measured on, in largest waves; longer waves count as a slope.
 _PIECE = 16.0
 _TINY = 1e-12
-EXCEEDED = 0.01
-"""Share of a line that is higher than its upper height."""
+EXCEEDED = 0.01  # share of a line that is higher than its upper height
 
 
 class LineUnderLoad(NamedTuple):
@@ -69,17 +68,15 @@ class RatioLaw(NamedTuple):
 
 
 CONTACT_FRACTION_LAW = RatioLaw(-0.052, -0.176, -0.0189, 0.12, 0.017)
+# Scatter: between that about the law and that of families which a law of the others misses.
 FRICTION_LAW = RatioLaw(-0.392, 0.149, 0.0216, 0.095, 0.023)
-"""Scatter: between that about the law and that of families which a law of the others misses."""
 FULL_CONTACT_FRICTION = 1.11
+# Degrees of freedom of the scatter: eight families less constant and slope. The third number is
+# known from several loads on each surface.
 FREEDOM = 6
-"""Degrees of freedom of the scatter: eight families less constant and slope. The third number is
-known from several loads on each surface."""
-
-
+# What the law misses of the change of the logarithm of both ratios on one surface, over that of the
+# logarithm of the lines' area: rms of 256 pairs of pressures, a factor of three apart.
 LOAD_SENSITIVITY = 0.08
-"""What the law misses of the change of the logarithm of both ratios on one surface, over that of
-the logarithm of the lines' area: rms of 256 pairs of pressures, a factor of three apart."""
 
 
 class SurfaceOverLines(NamedTuple):

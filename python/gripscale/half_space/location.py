@@ -21,12 +21,11 @@ import xarray as xr
 from gripscale.core import Array, Mask, checks, labelled
 from gripscale.half_space.result import RoughContact
 
+# Length of a stretch that shows some stones [m], the least in smallest waves and the most in
+# lengths of the line.
 STRETCH, LEAST_WAVES, MOST_OF_LINE = 4e-3, 20.0, 0.25
-"""Length of a stretch that shows some stones [m], the least in smallest waves and the most in
-lengths of the line."""
 _PIECES = 2**15  # pieces of a trace: 1.2 MB in single precision
-FIELD = 256
-"""Most blocks of the field of a map along a side."""
+FIELD = 256  # most blocks of the field of a map along a side
 _SOURCE = "gripscale direct contact"
 
 
@@ -164,10 +163,8 @@ def _field(contact: RoughContact, section: float) -> dict[str, xr.Variable]:
     }
 
 
-ROUNDED = 2**10
-"""Pieces of a trace in a result are a multiple of these."""
-PREFIX = "trace_"
-"""Begin of the names and dimensions of traces in a result."""
+ROUNDED = 2**10  # pieces of a trace in a result are a multiple of these
+PREFIX = "trace_"  # begin of the names and dimensions of traces in a result
 
 
 def with_traces(answer: xr.Dataset, traces: Sequence[xr.Dataset]) -> xr.Dataset:

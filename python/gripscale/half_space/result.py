@@ -72,12 +72,8 @@ def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents
     )
 
 
-STEEP = 0.5
-"""Rms slope in the contact beyond which small strain is not a good approximation."""
-
-VERY_STEEP = 1.0
-"""Slope of flanks where neither small strain nor a laser is to be trusted."""
-
+STEEP = 0.5  # rms slope in the contact beyond which small strain is not a good approximation
+VERY_STEEP = 1.0  # slope of flanks where neither small strain nor a laser is to be trusted
 _SOURCE = "gripscale direct contact"
 # Shares of the contact whose pressures a Dataset holds.
 _SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
@@ -96,8 +92,8 @@ _NUMBERS = {
 }
 
 
+# Lower ends of the classes of |dh/dx|; the last has no upper end.
 SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
-"""Lower ends of the classes of |dh/dx|; the last has no upper end."""
 SHARES_BY_SLOPE = {
     "friction_by_slope": "share of the friction from contact on slopes of the class",
     "load_by_slope": "share of the load carried on slopes of the class",

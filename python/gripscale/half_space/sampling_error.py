@@ -27,12 +27,9 @@ import scipy
 from gripscale.core import Array, checks
 from gripscale.half_space.result import RoughContact
 
-FEWEST_PIECES = 4
-"""Pieces below which their scatter says nothing."""
-FEWEST_CARRYING = 1.5
-"""The same of pieces that carry."""
-PIECE = 2.0
-"""Length of a piece in largest waves: long enough to make neighbours nearly independent."""
+FEWEST_PIECES = 4  # pieces below which their scatter says nothing
+FEWEST_CARRYING = 1.5  # the same of pieces that carry
+PIECE = 2.0  # length of a piece in largest waves: long enough to make neighbours nearly independent
 
 
 class SamplingError(NamedTuple):

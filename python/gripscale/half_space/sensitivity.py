@@ -63,21 +63,19 @@ from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.theory.layers import Layers
 
+# Residual of the adjoint system over its right side, both as pressures. Five digits of the
+# derivatives would do; the two frictions' identities hold to this.
 ADJOINT_TOLERANCE = 1e-8
-"""Residual of the adjoint system over its right side, both as pressures. Five digits of the
-derivatives would do; the two frictions' identities hold to this."""
-SPEED_STEP = 1e-3
-"""Change of ln v in the differences of the moduli, which are smooth."""
-TEMPERATURE_STEP = 0.01
-"""[K], likewise."""
+SPEED_STEP = 1e-3  # change of ln v in the differences of the moduli, which are smooth
+TEMPERATURE_STEP = 0.01  # [K], likewise
+# Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
+# too few points of a grid in and out of contact.
 AREA_STEP = 0.2
-"""Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
-too few points of a grid in and out of contact."""
 MOST_ITERATIONS = 60
 _SOURCE = "gripscale adjoint of the direct contact"
 
+# By the end of their name in a Dataset.
 Derivatives = Mapping[str, Array | float]
-"""By the end of their name in a Dataset."""
 
 TEXTS = {
     "ln_storage": ("1", "E' in the band"),

@@ -44,8 +44,7 @@ from gripscale.theory.half_plane import GridContact
 from gripscale.theory.layers import Layers
 
 FEWEST_IN_CONTACT = 8
-LEAST_FRICTION = 0.01
-"""Friction below which its error is relative to this value."""
+LEAST_FRICTION = 0.01  # friction below which its error is relative to this value
 
 LARGEST_MISMATCH = 0.5
 """Largest difference of the two frictions of a grid without a tolerance, relative to the larger.
@@ -57,8 +56,7 @@ and negative in 42; friction from dissipation is off by 10 % (median). In the ot
 from traction is off by 4 % (median; 33 % or less in nine of ten), and negative in 6, by 0.0005 at
 most.
 """
-NEGLIGIBLE_FRICTION = 1e-3
-"""Friction below which their difference is relative to this value."""
+NEGLIGIBLE_FRICTION = 1e-3  # friction below which their difference is relative to this value
 
 
 def solve_rough_contact(
@@ -258,8 +256,7 @@ def _rubber_before(body: HalfSpace, conditions: Conditions) -> HalfSpace:
     return replace(body, rubber=layers.rubbers[0], layers=layers)
 
 
-LEAST_TOLERANCE = 1e-5
-"""Relative error that is still above the rounding of single precision."""
+LEAST_TOLERANCE = 1e-5  # relative error that is still above the rounding of single precision
 
 
 def relative_tolerance(name: str, value: float | None) -> float | None:

@@ -26,8 +26,7 @@ from gripscale.surface.low_pass import upper_envelope
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import fill_gaps
 
-LEAST_VALID = 0.5
-"""Share of heights that a window must have."""
+LEAST_VALID = 0.5  # share of heights that a window must have
 _POINTS_IN_WAVE = 8
 _MOST_POINTS = 10_000_000
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 import re
 from collections import Counter
 
+# A line with its number in the file, from 1.
 Line = tuple[int, str]
-"""A line with its number in the file, from 1."""
 
+# What marks a missing value, in small letters; Excel has words for errors in each language.
 MISSING = {
     *("", "nan", "na", "n/a", "n.a.", "n. a.", "n.v.", "n.b.", "k.a.", "k. a.", "null", "none"),
     *("-", "--", "---", "–", "—", "bad", "#nv", "#n/v", "#na", "#n/a"),
     *("#num!", "#zahl!", "#value!", "#wert!", "#div/0!", "#ref!", "#bezug!", "#name?", "#null!"),
 }
-"""What marks a missing value, in small letters; Excel has words for errors in each language."""
 MISSING_MARKS = "an empty cell, NaN, n/a, - or #NV marks a missing value"
 NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
@@ -21,10 +21,10 @@ COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 _THOUSANDS = re.compile(
     r"(?<![\d.,])(?:\d{1,3}(?:\.\d{3})+(?=,\d+(?![\d.,]))|\d{1,3}(?:,\d{3})+(?=\.\d+(?![\d.,])))"
 )
+# Separators of the cells of a line, in the order they are tried; None: blanks.
 SEPARATORS = ("\t", ";", ",", None)
-"""Separators of the cells of a line, in the order they are tried; None: blanks."""
+# How a comment begins.
 COMMENT = ("#", "%", "!")
-"""How a comment begins."""
 _NO_COMMENT = re.compile(
     rf"({'|'.join(re.escape(word) for word in MISSING if word.startswith('#'))})\s*[\t;, ]", re.I
 )

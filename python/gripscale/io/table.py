@@ -32,14 +32,11 @@ if TYPE_CHECKING:
 
 Flags = Sequence[bool] | NDArray[np.bool_]
 
-NONE = "–"
-"""A missing number on a page."""
-LEAST_WORDS = 22
-"""Characters a column of words is wrapped to before a table is divided."""
+NONE = "–"  # a missing number on a page
+LEAST_WORDS = 22  # characters a column of words is wrapped to before a table is divided
+# Characters beyond which the heading of numbers, or of words, is wrapped in the terminal.
 WIDEST_HEAD, WIDEST_WORDS = 14, 30
-"""Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
-LONGEST_HEAD = 40
-"""Characters up to which a narrow page may break a heading between any two words."""
+LONGEST_HEAD = 40  # characters up to which a narrow page may break a heading between any two words
 _NARROW = 4  # columns of a table that fits beside a figure
 
 

@@ -338,8 +338,8 @@ def file_paths(path: object) -> list[Path]:
     return [file_path(path)]
 
 
+# Files that show measured values instead of holding them, by their first bytes.
 PICTURES = {b"\x89PNG": "PNG", b"\xff\xd8\xff": "JPEG", b"GIF8": "GIF", b"%PDF": "PDF"}
-"""Files that show measured values instead of holding them, by their first bytes."""
 
 
 def read_bytes(path: Path) -> bytes:

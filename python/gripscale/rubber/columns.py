@@ -155,8 +155,8 @@ def stated_in(line: str, kind: str = "temperature") -> tuple[str, str | None] | 
 
 
 MODULI = ("storage", "loss", "loss_factor", "magnitude", "phase")
-RATIOS = ("loss_factor", "phase")
-"""Those without the unit of a modulus."""
+RATIOS = ("loss_factor", "phase")  # those without the unit of a modulus
+# Two that state the modulus, the first choice first.
 PAIRS = (
     ("storage", "loss"),
     ("storage", "loss_factor"),
@@ -166,11 +166,8 @@ PAIRS = (
     ("loss", "phase"),
     ("magnitude", "phase"),
 )
-"""Two that state the modulus, the first choice first."""
 _QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
-THREE = ("frequency", "storage", "loss")
-"""What three columns without names hold, in this order."""
-
+THREE = ("frequency", "storage", "loss")  # what three columns without names hold, in this order
 _Columns = Mapping[str, str | int] | Sequence[str | int]
 
 
@@ -409,8 +406,8 @@ def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
 
 # Frequencies that differ by less than this share, temperatures by less than this [K], are one.
 _SAME_FREQUENCY, _SAME_TEMPERATURE = 0.01, 0.2
+# Ratio of moduli measured twice that no scatter explains: ten per cent of noise makes 1.3.
 APART = 1.5
-"""Ratio of moduli measured twice that no scatter explains: ten per cent of noise makes 1.3."""
 # Conditions measured over those that come again, at most, in a table that repeats itself.
 _OFTEN = 3
 

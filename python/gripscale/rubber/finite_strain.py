@@ -171,11 +171,7 @@ def network_states(
 
 def _times(time: ArrayLike, driven: Array, name: str) -> Array:
     elapsed = checks.vector("time", time, unit="s")
-    if len(elapsed) != len(driven) or len(elapsed) == 0:
-        raise InputError(
-            f"time and {name} must have the same length, at least 1; "
-            f"got {len(elapsed)} and {len(driven)}"
-        )
+    checks.same_length(1, time=elapsed, **{name: driven})
     falls = np.diff(elapsed, prepend=-np.inf) < 0.0
     checks.refuse_entries(elapsed, falls, "time must not fall [s]")
     return elapsed

@@ -84,14 +84,14 @@ def smooth(
     return best
 
 
+# What a shift may rest on. E''/E' is no third measurement beside E' and E''; alone it is what the
+# shape of a specimen, a factor of both, does not change.
 SHIFTED_MODULI = {
     "both": ("storage", "loss"),
     "storage": ("storage",),
     "loss": ("loss",),
     "loss_factor": ("loss_factor",),
 }
-"""What a shift may rest on. E''/E' is no third measurement beside E' and E''; alone it is what the
-shape of a specimen, a factor of both, does not change."""
 
 
 @dataclass(frozen=True)

@@ -144,10 +144,9 @@ class AdmissibleSeries(Checked, eq=False):
         raise InputError(f"admissible must have the keys {keys}; got {checks.short_repr(values)}")
 
 
-BULK_MODULUS = 2e9
-"""That of rubber [Pa], where none was measured."""
+BULK_MODULUS = 2e9  # that of rubber [Pa], where none was measured
+# Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small.
 LEAST_POISSON_RATIO = 0.3
-"""Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
 
 
 def poisson_ratio(bulk: ArrayLike, modulus: ArrayLike) -> Array:
@@ -445,8 +444,7 @@ class Rubber(Checked, Pictured, eq=False):
         return np.asarray((frequency < low) | (frequency > high))
 
 
-BEYOND = 100.0
-"""How far beyond the data uncertainty is stated: a factor of frequency, two decades."""
+BEYOND = 100.0  # how far beyond the data uncertainty is stated: a factor of frequency, two decades
 _CHANGE = 1.25
 
 
@@ -482,9 +480,9 @@ def _end(rubber: Rubber, limit: float, side: int) -> End:
     return End(limit if plateau else last, plateau)
 
 
+# Mean pressure over relaxation modulus that is let through: far beyond, no contact is partial; at
+# slopes near one, three is full.
 MOST_PRESSURE = 10.0
-"""Mean pressure over relaxation modulus that is let through: far beyond, no contact is partial; at
-slopes near one, three is full."""
 
 
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:

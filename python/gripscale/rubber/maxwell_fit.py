@@ -249,8 +249,7 @@ def choose_terms(
 
 _NEIGHBOURS = 8
 _PASSES = 10
-LEAST_SCATTER = 0.02
-"""Scatter below this (2 %, a good laboratory) is not believed."""
+LEAST_SCATTER = 0.02  # scatter below this (2 %, a good laboratory) is not believed
 _FEWEST_ROWS = _NEIGHBOURS + 3
 
 

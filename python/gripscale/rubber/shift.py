@@ -34,11 +34,9 @@ from gripscale.core.units import ZERO_CELSIUS, celsius
 
 _MOST = 100.0  # largest log10 a_T that is a factor and no mistake: WLF has a pole
 
+# Temperatures this little beyond a range [K] are within it: printed numbers are rounded.
 EDGE = 1e-6
-"""Temperatures this little beyond a range [K] are within it: printed numbers are rounded."""
-
-GAS_CONSTANT = 8.314462618
-"""R [J/(mol K)]."""
+GAS_CONSTANT = 8.314462618  # R [J/(mol K)]
 # Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there.
 _FROM_POLE = 1e-3
 _COLDEST, _HOTTEST = 1.0, 1e4  # ends of what a law is asked for [K]

@@ -18,15 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 
 import gripscale
 from gripscale.core import Array, Checked, Mask, Quantity, Vector, checked, checks
-from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.core.errors import FileError, GripscaleError, InputError, about_file
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
 from gripscale.rubber.shift import WLF
 
+# Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1.
 TEMPERATURE_TOLERANCE = 1.0
-"""Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
 _WIDEST = 3.0  # largest span of a sweep's temperatures over the tolerance; a ramp runs on
 _ROW = ("temperature", "frequency", "storage", "loss")
 
@@ -346,10 +346,8 @@ def read_sweeps(
     name = paths[0].stem if name is None else name
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)
-    try:
+    with about_file(paths[0], InputError):
         return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
-    except InputError as error:
-        raise InputError(f"{paths[0]}: {error}") from error
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

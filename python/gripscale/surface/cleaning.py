@@ -28,9 +28,7 @@ from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
 
-SPIKE_RULES = ("isolated", "iso13473")
-"""Rules for spikes, the first by default; None keeps all."""
-
+SPIKE_RULES = ("isolated", "iso13473")  # rules for spikes, the first by default; None keeps all
 # Samples of the longest run that is a spike: laser spots are one to three samples wide.
 _LONGEST_SPIKE = 3
 _HIGHEST_ORDER = 8  # highest order of a form: beyond it a polynomial follows the roughness

@@ -48,9 +48,8 @@ from gripscale.surface.spectrum import (
     profile_spectrum,
 )
 
+# Whose slope: the length of the surface's gradient, or the slope along its lines.
 DEFINITIONS = ("surface", "profile")
-"""Whose slope: the length of the surface's gradient, or the slope along its lines."""
-
 _ROUNDING = 1e-9  # relative difference below which two wavelengths are the same
 
 # Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted.

@@ -26,12 +26,10 @@ from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import HeightMap, Profile
 
 _SLOPE_RATIO = np.array([0.201, 0.393, 0.567, 0.725, 1.0, 1.38, 1.76, 2.54, 4.91])
+# Contact area from lines over that of the map, at these ratios of slopes.
 AREA_OVER_TRUTH = np.array([2.55, 1.52, 1.29, 1.11, 1.0, 0.87, 0.86, 0.73, 0.68])
-"""Contact area from lines over that of the map, at these ratios of slopes."""
-
+# Factor by which the area may be wrong on ridges three times as long as wide, either way.
 ERROR_OF_RIDGES = float(max(AREA_OVER_TRUTH[1], 1.0 / AREA_OVER_TRUTH[-2]))
-"""Factor by which the area may be wrong on ridges three times as long as wide, either way."""
-
 _HARMLESS = 1.1  # error of the area near the scatter of the step on isotropic surfaces, 8 %
 _WIDEST = math.log(10.0)  # half width of the band of a profile that is too short for one
 _NO_DIRECTION = 0.5  # texture aspect ratio above which a map counts as without direction

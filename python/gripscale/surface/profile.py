@@ -110,22 +110,17 @@ def uneven_step(x: Array) -> int:
     return int(np.argmax(steps <= 0.0 if (steps <= 0.0).any() else uneven))
 
 
+# Points a profile must have: fewer leave no lag that has both a power law and pairs to average.
 FEWEST_POINTS = 16
-"""Points a profile must have: fewer leave no lag that has both a power law and pairs to average."""
+MOST_PROFILE_POINTS = 10_000_000  # points beyond which no profile is made
 
-MOST_PROFILE_POINTS = 10_000_000
-"""Points beyond which no profile is made."""
-
+# Steps in the shortest wavelength that sampling resolves: with fewer, the slope of a sine is a
+# tenth too small, sin(pi/n)/(pi/n) with n steps in a wavelength.
 RESOLVED_STEPS = 4.0
-"""Steps in the shortest wavelength that sampling resolves: with fewer, the slope of a sine is a
-tenth too small, sin(pi/n)/(pi/n) with n steps in a wavelength."""
+LAYS = ("along", "across")  # how a profile may lie to the sliding direction
 
-LAYS = ("along", "across")
-"""How a profile may lie to the sliding direction."""
-
+# Note of a profile whose rows were reversed.
 TURNED_ROUND = "distances fell from row to row: the rows were turned round"
-"""Note of a profile whose rows were reversed."""
-
 _T = TypeVar("_T")
 
 

@@ -70,9 +70,7 @@ from gripscale.surface.sines import (
     search,
 )
 
-MOST_SINE_WAVES = 24
-"""Waves beyond which a stack is refused."""
-
+MOST_SINE_WAVES = 24  # waves beyond which a stack is refused
 _NUMBERS = range(2, MOST_SINE_WAVES + 1)  # numbers of waves tried where none is stated
 
 

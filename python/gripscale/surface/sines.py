@@ -135,12 +135,8 @@ def _factor(name: str, lengths: Array, argument: float | None) -> float | None:
 
 FIRST_WAVELENGTH, FIRST_AMPLITUDE, S_WAVELENGTH, S_AMPLITUDE = range(4)
 
-FACTOR_RANGE = (1.5, 30.0)
-"""Smallest and largest magnification of wavelength tried."""
-
-AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
-"""Smallest and largest magnification of amplitude tried."""
-
+FACTOR_RANGE = (1.5, 30.0)  # smallest and largest magnification of wavelength tried
+AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)  # smallest and largest magnification of amplitude tried
 _PLATEAU_COUNTED = 4.0  # largest lag that counts by default, in lags at which the plateau begins
 
 

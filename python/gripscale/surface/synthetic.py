@@ -117,6 +117,7 @@ class Statistics:
     smallest_wavelength: float
 
 
+# Synthetic surfaces by name. Numbers are of the order of a dense asphalt; none was measured.
 SYNTHETIC_SURFACES = {
     "synthetic_dense_asphalt": Statistics(
         hurst=0.8,
@@ -129,7 +130,6 @@ SYNTHETIC_SURFACES = {
         smallest_wavelength=0.1e-3,
     )
 }
-"""Synthetic surfaces by name. Numbers are of the order of a dense asphalt; none was measured."""
 
 
 def synthetic_profile(name: str) -> Profile:

@@ -77,8 +77,7 @@ TEXTURE_NUMBERS = {
 }
 """Symbols of profiles and maps, unit and meaning of each number."""
 
-DEPTH_NOTE = "depth_note"
-"""Why there is no mean profile depth, or empty."""
+DEPTH_NOTE = "depth_note"  # why there is no mean profile depth, or empty
 
 
 def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
@@ -131,8 +130,7 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     return _dataset(values, note)
 
 
-Heights = Profile | Sequence[Profile] | HeightMap
-"""A profile, several together, or a map."""
+Heights = Profile | Sequence[Profile] | HeightMap  # a profile, several together, or a map
 
 
 def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
@@ -189,11 +187,11 @@ def _segments(profile: Profile, *, smooth: bool = True) -> Array:
     return np.asarray(without_line(segments)[gaps.mean(axis=1) <= _MOST_MISSING])
 
 
+# Estimated texture depth, which a patch of sand would show, over the mean profile depth (ISO
+# 13473-1:2019).
 ESTIMATED_DEPTH = 1.1
-"""Estimated texture depth, which a patch of sand would show, over the mean profile depth
-(ISO 13473-1:2019)."""
+# Texture depth of the asphalt on which tyres are labelled [m] (ISO 23671:2021: 0.7 +- 0.3 mm).
 LABEL_DEPTH = 0.4e-3, 1.0e-3
-"""Texture depth of the asphalt on which tyres are labelled [m] (ISO 23671:2021: 0.7 +- 0.3 mm)."""
 
 
 def beside_label(depth: float) -> str:

@@ -34,8 +34,8 @@ from numpy.typing import ArrayLike
 
 from gripscale.core import Array, Checked, InputError, checked, checks
 
+# mu [-] of sliding speed [m/s], pressure [Pa] and temperature rise [K], of one shape.
 SlidingFriction = Callable[[Array, Array, Array], Array]
-"""mu [-] of sliding speed [m/s], pressure [Pa] and temperature rise [K], of one shape."""
 
 # Points of a quadrature along the sliding part. With a friction that is smooth over speed they are
 # within 1e-4 of 64 points.

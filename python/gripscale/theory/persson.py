@@ -51,8 +51,8 @@ if TYPE_CHECKING:
 
 
 Values = tuple[Array, ...]
+# Name of variable and attribute, dimension, unit and meaning.
 Variable = tuple[str, Any, str, str]
-"""Name of variable and attribute, dimension, unit and meaning."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -283,8 +283,8 @@ def persson(
     )
 
 
+# Largest wavenumber that counts over that of a cut-off: the Gaussian transmits 1/500 there.
 LAST_OVER_CUT_OFF = 3.0
-"""Largest wavenumber that counts over that of a cut-off: the Gaussian transmits 1/500 there."""
 
 
 def gaussian_power(q: Array, ends: Array) -> Array:

@@ -257,8 +257,8 @@ def solve_scale(
 _COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
 COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
+# Ratio of heights of neighbouring rows, at most one as wide as high at the surface.
 ROW_GROWTH = 1.12
-"""Ratio of heights of neighbouring rows, at most one as wide as high at the surface."""
 
 
 # Range of the heights after filtering, over that before, below which only round-off remains.

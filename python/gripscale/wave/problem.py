@@ -14,8 +14,8 @@ from gripscale.core import Array, Checked, InputError, checked, checks
 from gripscale.rubber import Rubber
 
 FEWEST_HEIGHTS = 8
+# Waves beyond the last with this share of the largest amplitude are round-off.
 SMALLEST_SHARE = 1e-9
-"""Waves beyond the last with this share of the largest amplitude are round-off."""
 
 
 class Sine(Checked):

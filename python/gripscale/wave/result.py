@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-LARGE_MISMATCH = 0.05
-"""Relative difference of the two frictions above which a result is in doubt."""
+LARGE_MISMATCH = 0.05  # relative difference of the two frictions above which a result is in doubt
 
 
 def harmonics(x: Array, pressure: Array, period: float, order: NDArray[np.int_]) -> Array:
