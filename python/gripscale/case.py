@@ -71,12 +71,10 @@ class NamedFile:
 class Origin:
     """Where a case was read from; of a case made in Python everything is empty."""
 
-    name: str = ""
-    """Path of the case file, as it was given."""
-    text: str = ""
-    """The case file, word for word."""
+    name: str = ""  # path of the case file, as it was given
+    text: str = ""  # the case file, word for word
+    # Units that the case states, by key, in which results are shown.
     units: Mapping[str, str] = field(default_factory=dict)
-    """Units that the case states, by key, in which results are shown."""
     files: Sequence[NamedFile] = ()
 
     @property

@@ -80,5 +80,5 @@ def test_a_rubber_takes_any_law_and_nothing_else() -> None:
         kind = "stiffer"
 
     assert Rubber(1e6, strain_energy=Stiffer()).strain_energy == Stiffer()
-    with pytest.raises(InputError, match=r"strain_energy must be a StrainEnergy.* got 'yeoh'"):
+    with pytest.raises(InputError, match=r"strain_energy must be a StrainEnergy; got str"):
         Rubber(1e6, strain_energy="yeoh")  # type: ignore[arg-type]

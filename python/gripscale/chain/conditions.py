@@ -123,8 +123,8 @@ class _ChainEvaluation:
     solver: ChainSolve
     rubber: Rubber
     conditions: Conditions
+    # Of each wave in all evaluations, on the coarse mesh too.
     newton_iterations: Counter[int] = field(default_factory=Counter)
-    """Of each wave in all evaluations, on the coarse mesh too."""
     load_steps: Counter[int] = field(default_factory=Counter)
 
     def __call__(self, x: Array | None, last: ChainResult | None) -> Iteration[ChainResult]:

@@ -86,14 +86,11 @@ class WaveHeat:
 class Warming:
     """Temperature rises over the temperature of the rubber before the contact [K]."""
 
+    # By the heat of all waves, spread over the nominal area, where this wave loses its energy.
     uniform: float
-    """By the heat of all waves, spread over the nominal area, where this wave loses its energy."""
-    larger_waves: float
-    """By the patterns of the larger waves, in their contact."""
-    own_pattern: float
-    """By the pattern of this wave, where it loses its energy."""
-    contact: float
-    """By everything, at the surface in the real contact of this wave."""
+    larger_waves: float  # by the patterns of the larger waves, in their contact
+    own_pattern: float  # by the pattern of this wave, where it loses its energy
+    contact: float  # by everything, at the surface in the real contact of this wave
 
     @property
     def total(self) -> float:

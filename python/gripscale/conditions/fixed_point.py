@@ -116,10 +116,9 @@ def _solve_on_fine_mesh(
 class AndersonSequence:
     """Arguments of a fixed-point iteration, each from the evaluations before."""
 
-    x: Array
-    """The next argument."""
+    x: Array  # the next argument
+    # The last arguments x and their values f(x).
     history: list[tuple[Array, Array]] = field(default_factory=list)
-    """The last arguments x and their values f(x)."""
 
     @property
     def residual(self) -> float:

@@ -90,14 +90,12 @@ OnContact = Callable[[RoughContact], None]
 class Withheld:
     """The last measured octave, continued from those above with constant slope."""
 
-    contact_fraction_error: float
-    """Relative error of the contact fraction [-]."""
-    friction_error: float
-    """Relative error of the friction coefficient [-]."""
+    contact_fraction_error: float  # relative error of the contact fraction [-]
+    friction_error: float  # relative error of the friction coefficient [-]
+    # r_1, the slope over that of the octave above that gives the true friction [-].
     slope_ratio: float
-    """r_1, the slope over that of the octave above that gives the true friction [-]."""
+    # r_2, the same of the octave above; NaN where the line is too short to try it.
     slope_ratio_above: float
-    """r_2, the same of the octave above; NaN where the line is too short to try it."""
 
     @property
     def foretells(self) -> bool:

@@ -274,15 +274,13 @@ def stored_measurement(data: xr.Dataset) -> MeasuredFriction | None:
 class MeasuredSeries(NamedTuple):
     """Measured friction at one temperature and pressure over rising speed [m/s]."""
 
-    state: str
-    """Temperature, and pressure if there are several; empty if unknown."""
-    temperature: float
-    """[K]; NaN if unknown."""
+    state: str  # temperature, and pressure if there are several; empty if unknown
+    temperature: float  # [K]; NaN if unknown
     speed: Array
     friction: Array
     spread: Array
+    # Their places among the points of the measurement, which are in any order.
     rows: NDArray[np.intp]
-    """Their places among the points of the measurement, which are in any order."""
 
     @property
     def label(self) -> str:

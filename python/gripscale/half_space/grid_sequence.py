@@ -228,13 +228,12 @@ class GridSequence:
     pressure: float
     workers: int
     most_iterations: int
-    start: KnownLevels = field(default_factory=dict)
-    """Contacts with another rubber, to start from."""
+    start: KnownLevels = field(default_factory=dict)  # contacts with another rubber, to start from
     solved: dict[Level, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
     on_iteration: OnIteration | None = None
+    # When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s].
     deadline: float = math.inf
-    """When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s]."""
 
     def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before."""

@@ -52,10 +52,9 @@ class RatioLaw(NamedTuple):
     constant: float
     slope: float
     low_load: float
+    # Standard deviation of ln y about the law at high load, over maps of all families.
     scatter: float
-    """Standard deviation of ln y about the law at high load, over maps of all families."""
-    low_load_scatter: float
-    """What few summits add to it in squares, times sqrt(P)."""
+    low_load_scatter: float  # what few summits add to it in squares, times sqrt(P)
 
     def at(self, line: LineUnderLoad) -> Array:
         """Return the ratio of lines."""

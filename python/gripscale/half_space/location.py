@@ -29,12 +29,6 @@ FIELD = 256  # most blocks of the field of a map along a side
 _SOURCE = "gripscale direct contact"
 
 
-def stretch_length(contact: RoughContact) -> float:
-    """Return the length [m] of a stretch that shows some summits of a contact."""
-    least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)
-    return min(least, MOST_OF_LINE * contact.grid.lengths[0])
-
-
 def strongest_stretches(amount: Array, active: Mask, points: int, count: int) -> list[int]:
     """Return the first points of the stretches with the largest sums of an amount, largest first.
 
@@ -90,7 +84,10 @@ def contact_trace(
         d ln friction / d height [1/m] of each point, shape of the grid.
     """
     x, step = contact.x, contact.grid.spacing[0]
-    length = stretch_length(contact) if stretch is None else checks.positive("stretch", stretch)
+    least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)
+    length = min(least, MOST_OF_LINE * contact.grid.lengths[0])
+    if stretch is not None:
+        length = checks.positive("stretch", stretch)
     points = min(max(round(length / step), 2), x.size)
     by_point = contact.pressure * contact.grid.slope(contact.height)
     moving = contact.speed > 0.0

@@ -45,21 +45,16 @@ class HalfSpace:
     """Rubber that slides at a speed, by its response to the harmonics of a surface."""
 
     rubber: Rubber
-    speed: float
-    """[m/s]; zero is the relaxed rubber."""
-    loss: float = 1.0
-    """Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself."""
-    by_scale: RubberByScale | None = None
-    """The rubber at each scale under conditions."""
-    thickness: float | None = None
-    """Of the rubber on a rigid base [m]; None: a half-space."""
-    layers: Layers | None = None
-    """A stack in place of one rubber; `rubber` is the layer in contact."""
+    speed: float  # [m/s]; zero is the relaxed rubber
+    loss: float = 1.0  # factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself
+    by_scale: RubberByScale | None = None  # the rubber at each scale under conditions
+    thickness: float | None = None  # of the rubber on a rigid base [m]; None: a half-space
+    layers: Layers | None = None  # A stack in place of one rubber; `rubber` is the layer in contact
+    # E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
+    # of them.
     _of_lines: dict[tuple[float, ...], ComplexArray] = field(
         default_factory=dict, repr=False, compare=False
     )
-    """E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
-    of them."""
 
     @property
     def rubbers(self) -> list[Rubber]:
@@ -183,8 +178,8 @@ class Response:
     compliance: ComplexArray = field(repr=False)
     compliance_single: SingleComplex = field(repr=False)
     stiffness: SingleComplex = field(repr=False)
+    # When, on the clock of `time.monotonic`, displacements raise `OutOfTime` [s].
     deadline: float = math.inf
-    """When, on the clock of `time.monotonic`, displacements raise `OutOfTime` [s]."""
 
     @classmethod
     def of(cls, body: HalfSpace, grid: Grid, workers: int, deadline: float = math.inf) -> Response:

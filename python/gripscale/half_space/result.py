@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
 from functools import cached_property
@@ -47,29 +47,6 @@ from gripscale.theory.layers import Layers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents:
-    """Return the exponents of the cut-off from the `grids` of a contact, coarse to fine."""
-    pairs = [
-        (before, last)
-        for before in grids
-        for last in grids
-        if last.cut_off == grids[-1].cut_off
-        and last.points == OCTAVE * before.points
-        and math.isclose(before.cut_off, OCTAVE * last.cut_off)
-    ]
-    if not pairs:
-        return CutOffExponents(math.nan, math.nan, "solved with one cut-off only")
-    before, last = pairs[0]
-    if not (before.settled and last.settled):
-        return NOT_CONVERGED
-    return between(
-        OCTAVE,
-        (before.contact_fraction, last.contact_fraction),
-        (before.friction_from_dissipation, last.friction_from_dissipation),
-        moving=moving,
-    )
 
 
 STEEP = 0.5  # rms slope in the contact beyond which small strain is not a good approximation
@@ -326,7 +303,25 @@ class RoughContact(Pictured):
     @property
     def cut_off_exponents(self) -> CutOffExponents:
         """Exponents of the cut-off, from contacts solved with this cut-off and with twice it."""
-        return last_octave(self.grids, moving=self.speed > 0.0)
+        pairs = [
+            (before, last)
+            for before in self.grids
+            for last in self.grids
+            if last.cut_off == self.grids[-1].cut_off
+            and last.points == OCTAVE * before.points
+            and math.isclose(before.cut_off, OCTAVE * last.cut_off)
+        ]
+        if not pairs:
+            return CutOffExponents(math.nan, math.nan, "solved with one cut-off only")
+        before, last = pairs[0]
+        if not (before.settled and last.settled):
+            return NOT_CONVERGED
+        return between(
+            OCTAVE,
+            (before.contact_fraction, last.contact_fraction),
+            (before.friction_from_dissipation, last.friction_from_dissipation),
+            moving=self.speed > 0.0,
+        )
 
     @property
     def slope_in_contact(self) -> float:

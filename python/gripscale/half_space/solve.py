@@ -20,7 +20,7 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
-from gripscale.half_space.grid import PeriodicHeights, periodic_heights
+from gripscale.half_space.grid import PeriodicHeights, nearest, periodic_heights
 from gripscale.half_space.grid_sequence import (
     ERROR_GRIDS,
     GridRecord,
@@ -355,7 +355,7 @@ def _solve_sequence(
         height=height,
         pressure=np.maximum(contact.pressure, 0.0),
         gap=np.where(contact.active, 0.0, np.maximum(contact.gap, 0.0)),
-        measured=heights.measured_on(solved.level.grid.shape),
+        measured=nearest(heights.measured, solved.level.grid.shape),
         grids=grids,
         by_scale=body.by_scale,
         thickness=body.thickness,

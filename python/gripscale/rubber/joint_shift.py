@@ -150,10 +150,9 @@ class Joint:
 
     log_a: Array
     log_b: Array
-    covariance: Array
-    """Of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held."""
+    covariance: Array  # of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held
+    # Of each modulus about the curve, in the median sweep [decades], shape (moduli,).
     scatter: Array
-    """Of each modulus about the curve, in the median sweep [decades], shape (moduli,)."""
 
 
 def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:

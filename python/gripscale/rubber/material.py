@@ -186,13 +186,6 @@ def warn_once(sentence: str) -> None:
     warnings.warn(sentence, RubberWarning, stacklevel=4)
 
 
-def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
-    """Return `value`; raise `InputError` if it is something else."""
-    if isinstance(value, StrainEnergy):
-        return value
-    raise InputError(f"{name} must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}")
-
-
 class Rubber(Checked, Pictured, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
@@ -218,7 +211,7 @@ class Rubber(Checked, Pictured, eq=False):
     """What the rubber is and where its numbers come from."""
     valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)
     """Lowest and highest angular frequency the numbers rest on [rad/s]."""
-    strain_energy: StrainEnergy = checked(check_strain_energy, default=NeoHookean())
+    strain_energy: StrainEnergy = checked(checks.instance, kind=StrainEnergy, default=NeoHookean())
     """Strain energy of the permanent network at finite strain."""
     admissible: AdmissibleSeries | None = checked(
         checks.instance, kind=AdmissibleSeries, default=None, repr=False

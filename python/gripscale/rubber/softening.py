@@ -56,12 +56,10 @@ _LEAST = 1.0 / 3.0  # smallest multiplier of E_inf over f
 class SofteningFactors:
     """Factors of both moduli at some strains, arrays of one shape."""
 
-    storage: Array
-    """f(e), of E' [-]."""
-    loss: Array
-    """g(e), of E'' [-]."""
+    storage: Array  # f(e), of E' [-]
+    loss: Array  # g(e), of E'' [-]
+    # Where the strain (or the temperature) lies beyond what was measured, the ends held.
     outside: Mask
-    """Where the strain (or the temperature) lies beyond what was measured, the ends held."""
 
 
 @runtime_checkable
@@ -87,8 +85,8 @@ class SoftenedSeries:
     """A rubber with both moduli softened where it is excited."""
 
     rubber: Rubber
+    # Largest relative difference from f E' and g E'' at the lowest frequency asked for [-].
     misfit: float
-    """Largest relative difference from f E' and g E'' at the lowest frequency asked for [-]."""
 
 
 def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> SoftenedSeries:

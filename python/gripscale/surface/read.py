@@ -41,8 +41,8 @@ class HeightField:
     heights: Array
     x: Array
     y: Array | None
+    # Shortest wavelength [m] free of the instrument's artifacts, if the file states it.
     reliable: float | None = None
-    """Shortest wavelength [m] free of the instrument's artifacts, if the file states it."""
 
     def profile(self, path: Path, direction: str, line: int) -> Profile:
         """Return one line along a direction as a profile."""

@@ -59,18 +59,14 @@ _FEWEST_IN_CONTACT = 8
 class GridContact:
     """Contact on a periodic grid by an active set: arrays of the shape of the grid."""
 
-    pressure: Array
-    """In the unit of the solver: [Pa], or over the mean pressure."""
-    gap: Array
-    """In the unit of the solver: [m], or over the amplitude."""
+    pressure: Array  # in the unit of the solver: [Pa], or over the mean pressure
+    gap: Array  # in the unit of the solver: [m], or over the amplitude
     active: Mask
     iterations: int
-    settled: bool
-    """Whether the active set stopped changing, with the linear system solved."""
-    products: int = 0
-    """Products with the influence matrix, of an iterative solver."""
+    settled: bool  # whether the active set stopped changing, with the linear system solved
+    products: int = 0  # products with the influence matrix, of an iterative solver
+    # Residual of the linear system over the pressure [-], of an iterative solver.
     missing: float = 0.0
-    """Residual of the linear system over the pressure [-], of an iterative solver."""
 
 
 def nodes(points: int) -> Array:

@@ -36,7 +36,14 @@ from gripscale.rubber import Rubber
 from gripscale.surface import HeightDifference, SelfAffineFit, fit_self_affine, height_difference
 from gripscale.surface.profile import Profile
 from gripscale.surface.surface import Surface, SurfacePart
-from gripscale.theory import persson
+from gripscale.theory.persson import (
+    TheoryResult,
+    answer_of,
+    divided,
+    followed_profiles,
+    refine_intervals,
+    running_integral,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,7 +57,7 @@ _COARSEST, _FINEST = 4, 1024  # intervals between them, doubled from the first t
 
 
 @dataclass(frozen=True, repr=False)
-class KlueppelHeinrichResult(persson.TheoryResult):
+class KlueppelHeinrichResult(TheoryResult):
     """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
 
     name = "klueppel_heinrich"
@@ -121,14 +128,14 @@ def klueppel_heinrich(
     wavelength = np.geomspace(fit.xi_parallel, smallest, _NODES)
 
     def at(intervals: int) -> tuple[Array]:
-        log_q = persson.divided(np.log(2.0 * np.pi / wavelength), intervals)
+        log_q = divided(np.log(2.0 * np.pi / wavelength), intervals)
         q = np.exp(log_q)
         loss = rubber.complex_modulus(q * load.speed).imag
         # delta/(2 p v) w E'' S dw, with w = q v and the strain spectrum over q, S dw = v S dq
         work = 0.5 * ratio * depth / load.pressure * q * loss * strain_spectrum(q, fit)
-        return (persson.running_integral(work * q, log_q)[::intervals],)
+        return (running_integral(work * q, log_q)[::intervals],)
 
-    (friction,), (error,), status = persson.refine_intervals(at, _COARSEST, _FINEST, _TOLERANCE)
+    (friction,), (error,), status = refine_intervals(at, _COARSEST, _FINEST, _TOLERANCE)
     common = (rubber, load, status, wavelength, friction, error)
     return KlueppelHeinrichResult(*common, fit, ratio, depth)
 
@@ -163,11 +170,11 @@ class KlueppelHeinrich(Checked, Model):
         """
         result = klueppel_heinrich(
             rubber,
-            persson.followed_profiles(surface, self.name),
+            followed_profiles(surface, self.name),
             pressure=load.pressure,
             speed=load.speed,
             layer_ratio=self.layer_ratio,
             penetration_depth=self.penetration_depth,
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
         )
-        return persson.answer_of(replace(result, load=load), on_progress)
+        return answer_of(replace(result, load=load), on_progress)

@@ -66,14 +66,13 @@ class TheoryResult(Described):
 
     rubber: Rubber
     load: Load
+    # `converged` if doubling the resolution changed every integral by less than the tolerance.
     status: Status
-    """`converged` if doubling the resolution changed every integral by less than the tolerance."""
+    # Cut-offs, from the largest wave of the surface falling to the smallest one asked for [m].
     wavelength: Array = field(repr=False)
-    """Cut-offs, from the largest wave of the surface falling to the smallest one asked for [m]."""
-    running_friction: Array = field(repr=False)
-    """Friction coefficient with each cut-off [-]."""
+    running_friction: Array = field(repr=False)  # friction coefficient with each cut-off [-]
+    # Change of the friction coefficient when the resolution was doubled last [-].
     friction_error: float
-    """Change of the friction coefficient when the resolution was doubled last [-]."""
 
     @property
     def contact_fraction(self) -> float:
