@@ -195,7 +195,6 @@ class _Defect:
     change: Array  # of the defect along the step
 
     def __call__(self, x: Array) -> Array:
-        """Return the defect at `x`."""
         length = self.step @ self.step
         if self.x is None or length == 0.0:
             return self.value

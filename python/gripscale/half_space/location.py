@@ -46,7 +46,6 @@ def strongest_stretches(amount: Array, active: Mask, points: int, count: int) ->
 
 
 def _window_sums(amount: Array, points: int) -> Array:
-    """Return the sums over each window of so many points along the first axis."""
     running = np.cumsum(np.insert(amount, 0, 0.0, axis=0), axis=0)
     return np.asarray(running[points:] - running[:-points])
 

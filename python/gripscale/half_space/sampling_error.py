@@ -59,7 +59,6 @@ def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
 
 
 def _by_piece(field: Array, counts: Sequence[int]) -> Array:
-    """Return the sum of a field over each piece."""
     for axis, count in enumerate(counts):
         ends = np.linspace(0, field.shape[axis], count, endpoint=False).astype(int)
         field = np.add.reduceat(field, ends, axis=axis)
@@ -100,7 +99,6 @@ def _carrying(load: Array) -> float:
 
 
 def _counts(contact: RoughContact, piece: float) -> list[int]:
-    """Return the number of pieces along each axis."""
     return [max(1, int(side / piece * (1.0 + 1e-9))) for side in contact.grid.lengths]
 
 

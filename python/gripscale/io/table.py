@@ -314,7 +314,6 @@ class Table(Described):
         return len(self.columns) <= _NARROW and not any(column.as_words for column in self.columns)
 
     def __html__(self) -> str:
-        """Return the table as HTML, all texts escaped."""
         caption = html.escape(self.caption)
         groups = [(g, len(list(c))) for g, c in itertools.groupby(c.group for c in self.columns)]
         above = "".join(

@@ -120,7 +120,6 @@ def _furthest(
 
 
 def _rounded(values: Array) -> Array:
-    """Return values to six digits."""
     with np.errstate(divide="ignore"):
         digit = 10.0 ** (np.floor(np.log10(np.where(values > 0.0, values, 1.0))) - _DIGITS + 1)
     return np.asarray(np.round(values / digit) * digit)

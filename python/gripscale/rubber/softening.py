@@ -406,7 +406,6 @@ def read_strain_sweep(
 
 
 def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | None) -> Array:
-    """Return the single amplitude of strain [-]."""
     title = table.columns[layout.needed_column(table, "strain")].name
     if amplitude is None:
         patterns = {"peak-to-peak": _DOUBLE, "single": _SINGLE}

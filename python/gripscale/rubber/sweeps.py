@@ -99,7 +99,6 @@ class Sweeps(Checked, eq=False):
         return [slice(a, b) for a, b in pairwise(cuts)]
 
     def __len__(self) -> int:
-        """Return the number of sweeps."""
         return len(self._rows())
 
     def __iter__(self) -> Iterator[Sweep]:

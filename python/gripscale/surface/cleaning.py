@@ -420,7 +420,6 @@ def _in_turn(
     steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]],
     measured: _Heights,
 ) -> tuple[_Heights, CleaningReport]:
-    """Return a profile or map after all steps, and their reports."""
     reports = []
     for step in steps:
         measured, report = step(measured)

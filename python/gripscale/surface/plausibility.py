@@ -192,7 +192,6 @@ def _flat_warnings(z: Array) -> Iterator[str]:
 
 
 def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
-    """Warn of lengths that no texture has."""
     rms = float(np.nanstd(z))
     changes = np.abs(np.diff(z))  # between neighbours that are both valid
     slopes = changes[np.isfinite(changes)] / profile.step

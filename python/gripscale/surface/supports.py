@@ -46,7 +46,6 @@ class Support:
     height: float  # median of its heights over the road [m]
 
     def __str__(self) -> str:
-        """Return the stretch in words."""
         side = "above" if self.height > 0.0 else "below"
         span = f"{in_mm(self.first, 4)} to {in_mm(self.last, 4)}"
         return f"{span} ({in_mm(abs(self.height), 2)} {side} the road)"

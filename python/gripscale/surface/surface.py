@@ -310,34 +310,27 @@ class Surface(Described):
             Fraction of the heights that counts, see `height_difference`; of a measured
             surface only.
         """
-        if top_height_fraction is not None:
-            return self._of_upper(top_height_fraction).varied(
-                factors=factors,
-                waves=waves,
-                smallest_wavelength=smallest_wavelength,
-                cut_off=cut_off,
-            )
+        surface = self if top_height_fraction is None else self._of_upper(top_height_fraction)
         if factors is None and waves is None and smallest_wavelength is None and cut_off is None:
-            return self
+            return surface
         if smallest_wavelength is not None and cut_off is not None:
             raise InputError(
                 "vary smallest_wavelength (the last wave) or cut_off (where the roughness ends), "
                 "not both"
             )
-        if cut_off is not None and (self.correlation is None or not self.fit):
-            raise InputError(f"cut_off varies waves that were fitted; got {self.source}")
-        end = None if cut_off is None else self._length_of(cut_off)
+        if cut_off is not None and (surface.correlation is None or not surface.fit):
+            raise InputError(f"cut_off varies waves that were fitted; got {surface.source}")
+        end = None if cut_off is None else surface._length_of(cut_off)
         if factors is not None:
-            stack = self._magnified(factors, waves, smallest_wavelength, end)
-        elif self.correlation is None or not self.fit:
-            stack = self._shortened(waves, smallest_wavelength)
+            stack = surface._magnified(factors, waves, smallest_wavelength, end)
+        elif surface.correlation is None or not surface.fit:
+            stack = surface._shortened(waves, smallest_wavelength)
         else:
-            stack = self._fitted(self.correlation, waves, smallest_wavelength, end)
-        kept = self.rule if stack.cut_off is not None else None
-        return replace(self, waves=stack, rule=kept if cut_off is None else cut_off)
+            stack = surface._fitted(surface.correlation, waves, smallest_wavelength, end)
+        kept = surface.rule if stack.cut_off is not None else None
+        return replace(surface, waves=stack, rule=kept if cut_off is None else cut_off)
 
     def _length_of(self, rule: CutOffRule) -> float:
-        """Return where the roughness ends by a rule [m]."""
         if isinstance(rule, int | float):
             return rule
         if self.measured is None:
@@ -345,7 +338,6 @@ class Surface(Described):
         return find_cut_off(self.measured.slopes, rule).wavelength
 
     def _of_upper(self, share: float) -> Surface:
-        """Return the surface with waves fitted to the correlation of the upper part."""
         if self.measured is None or not self.fit:
             raise InputError(f"top_height_fraction varies a measured surface; got {self.source}")
         counted = {**self.counted, "top_height_fraction": share}
