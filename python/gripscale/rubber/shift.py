@@ -124,12 +124,7 @@ class Shift(Checked, ABC, eq=False):
         return np.asarray(10.0 ** self.log_b(temperature, reference_temperature))
 
     def _in_limits(self, temperature: ArrayLike) -> Array:
-        try:
-            kelvin = np.asarray(temperature, dtype=float)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise InputError(
-                f"temperature must be finite numbers [K]; got {checks.short_repr(temperature)}"
-            ) from error
+        kelvin = checks.real("temperature", temperature, unit="K")
         low, high = self.limits
         bad = ~((kelvin >= low - EDGE) & (kelvin <= high + EDGE))
         if bad.any():

@@ -73,13 +73,8 @@ class SineStack(Checked, eq=False):
         super().__post_init__()
         wavelength, amplitude = self.wavelength, self.amplitude
         checks.same_length(1, wavelength=wavelength, amplitude=amplitude)
-        rises = np.diff(wavelength) >= 0.0
-        if rises.any():
-            at = int(np.argmax(rises)) + 1
-            raise InputError(
-                f"wavelength must decrease from wave to wave; got {wavelength[at]:g} m at index "
-                f"{at} after {wavelength[at - 1]:g} m"
-            )
+        rises = np.diff(wavelength, prepend=np.inf) >= 0.0
+        checks.refuse_entries(wavelength, rises, "wavelength must decrease from wave to wave", " m")
         if self.cut_off is not None and self.cut_off > wavelength[-1]:
             raise InputError(
                 f"cut_off must not exceed the last wave, {wavelength[-1]:g} m; "
