@@ -21,15 +21,11 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
-from gripscale.core import checks
-from gripscale.core.arrays import Quantity
-from gripscale.core.described import Described
-from gripscale.core.errors import GripscaleError, InputError
+from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, checks
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND
 from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, si_value
-from gripscale.core.wording import CaseKey
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
 from gripscale.model import Load, LoadTime, load_doubts
@@ -51,15 +47,13 @@ from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+# Arguments of `gripscale.clean` where a case states none.
 _CLEANED_AS_USUAL: dict[str, Any] = {
     name: parameter.default
     for name, parameter in signature(clean).parameters.items()
     if parameter.kind is Parameter.KEYWORD_ONLY
 }
-"""Arguments of `gripscale.clean` where a case states none."""
-_WAVES = 8
-"""Sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre."""
-
+_WAVES = 8  # sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre
 RubberLike = Rubber | MasterCurve | MeasuredRubber
 
 
@@ -67,11 +61,9 @@ RubberLike = Rubber | MasterCurve | MeasuredRubber
 class NamedFile:
     """A file that a case names, with its checksum."""
 
-    role: str
-    """Table of the case that names it."""
+    role: str  # table of the case that names it
     name: str
-    size: int
-    """[bytes]"""
+    size: int  # [bytes]
     sha256: str
 
 
@@ -79,12 +71,10 @@ class NamedFile:
 class Origin:
     """Where a case was read from; of a case made in Python everything is empty."""
 
-    name: str = ""
-    """Path of the case file, as it was given."""
-    text: str = ""
-    """The case file, word for word."""
+    name: str = ""  # path of the case file, as it was given
+    text: str = ""  # the case file, word for word
+    # Units that the case states, by key, in which results are shown.
     units: Mapping[str, str] = field(default_factory=dict)
-    """Units that the case states, by key, in which results are shown."""
     files: Sequence[NamedFile] = ()
 
     @property
@@ -349,7 +339,11 @@ class Case(Described):
         """
         surface = self.surface
         others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
-        findings = [*self.doubts(surfaces, loads), *self._of_conditions()]
+        findings = self.doubts(surfaces, loads)
+        if self.conditions is not None and self.conditions.temperature is not None:
+            for text in temperature_doubts({self.rubber.name or "rubber": self.rubber_before}):
+                sentence = f"{text[0].upper()}{text[1:]}."
+                findings.append(Finding(Severity.WARNING, sentence, topic=Topic.RUBBER))
         findings += tester_findings(self.tester, self.rubber.name)
         fit = self.measured_rubber.fit
         if fit is not None and fit.findings:
@@ -399,14 +393,6 @@ class Case(Described):
                 )
             )
         return doubts
-
-    def _of_conditions(self) -> Iterator[Finding]:
-        """Yield what the conditions ask for that was not measured."""
-        if self.conditions is not None and self.conditions.temperature is not None:
-            rubbers = {self.rubber.name or "rubber": self.rubber_before}
-            for text in temperature_doubts(rubbers):
-                sentence = f"{text[0].upper()}{text[1:]}."
-                yield Finding(Severity.WARNING, sentence, topic=Topic.RUBBER)
 
 
 def described_surface(

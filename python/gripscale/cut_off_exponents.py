@@ -19,24 +19,20 @@ from numpy.typing import ArrayLike
 
 from gripscale.core.arrays import Array
 
-OCTAVE = 2.0
-"""Ratio of the wavelengths that are compared, where there are waves so far apart."""
+OCTAVE = 2.0  # ratio of the wavelengths that are compared, where there are waves so far apart
 
 
 @dataclass(frozen=True)
 class CutOffExponents:
     """Exponents of contact fraction and friction; NaN if not known."""
 
-    contact_fraction: float
-    """d ln(A_r/A_0) / d ln(cut-off) [-]."""
-    friction: float
-    """d ln(friction coefficient) / d ln(cut-off) [-]."""
-    why_not: str = ""
-    """Why one of them is not known; empty if both are."""
+    contact_fraction: float  # d ln(A_r/A_0) / d ln(cut-off) [-]
+    friction: float  # d ln(friction coefficient) / d ln(cut-off) [-]
+    why_not: str = ""  # why one of them is not known; empty if both are
 
 
+# Of a model that answers for one cut-off only.
 NOT_TOLD = CutOffExponents(math.nan, math.nan, "the model does not tell it")
-"""Of a model that answers for one cut-off only."""
 NOT_CONVERGED = CutOffExponents(math.nan, math.nan, "not converged")
 
 

@@ -11,12 +11,8 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
-from gripscale.core import checks
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Checked, InputError, Status, checked, checks, display_unit, labelled
 from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
-from gripscale.core.status import Status
-from gripscale.core.units import display_unit
 from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
@@ -28,12 +24,10 @@ if TYPE_CHECKING:
     from gripscale.surface.surface import Surface, SurfacePart
 
 
+# Attribute of an answer: findings that it may be of another road, rubber or load.
 INPUT_DOUBTS = "input_doubts"
-"""Attribute of an answer: findings that it may be of another road, rubber or load."""
-
-
+# Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit.
 PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
-"""Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit."""
 
 
 class Doubtful(Protocol):
@@ -138,8 +132,8 @@ class Load(Checked):
         return depth if self.thickness is None else min(depth, self.thickness / wavelength)
 
 
+# Called with what is known so far, where a model goes step by step.
 OnProgress = Callable[[Any], None] | None
-"""Called with what is known so far, where a model goes step by step."""
 
 
 @runtime_checkable
@@ -185,11 +179,10 @@ class Model(Protocol):
         """
 
 
+# Name of the sentence that says how an answer ended: `converged`, or why there are no totals.
 STATUS = "prediction_status"
-"""Name of the sentence that says how an answer ended: `converged`, or why there are no totals."""
-
+# Name of the word of its `Status`; empty where the sentence is a refusal, which has none.
 STATUS_WORD = f"{STATUS}_word"
-"""Name of the word of its `Status`; empty where the sentence is a refusal, which has none."""
 
 
 def word_of(status: str) -> str:
@@ -208,12 +201,12 @@ def status_words(data: xr.Dataset, sentences: str = STATUS) -> xr.DataArray:
     return data[name] if name in data else xr.full_like(data[sentences], "", dtype=object)
 
 
+# Names and meanings of the numbers every model answers with.
 TOTALS = {
     "total_contact_fraction": "real over nominal contact area",
     "total_friction": "friction coefficient",
     "total_friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
 }
-"""Names and meanings of the numbers every model answers with."""
 
 FRICTION_OUTSIDE_BAND = "total_friction_outside_band"
 OUTSIDE_BAND = {
@@ -245,6 +238,8 @@ def extrapolation_of(data: xr.Dataset) -> Extrapolation:
 
 
 FRICTION_CUT_OFF_EXPONENT = "total_friction_cut_off_exponent"
+# Names of what every model tells of the choice of the smallest wavelength: attribute of
+# `CutOffExponents`, and meaning.
 CUT_OFF_EXPONENTS = {
     "total_contact_fraction_cut_off_exponent": (
         "contact_fraction",
@@ -255,11 +250,9 @@ CUT_OFF_EXPONENTS = {
         "d ln(friction coefficient)/d ln(cut-off length), over the last octave",
     ),
 }
-"""Names of what every model tells of the choice of the smallest wavelength: attribute of
-`CutOffExponents`, and meaning."""
 
+# Name of the text that says why one of them is not known; empty if both are.
 WHY_NO_EXPONENT = "cut_off_exponent_missing"
-"""Name of the text that says why one of them is not known; empty if both are."""
 
 
 def cut_off_exponents_of(data: xr.Dataset) -> CutOffExponents:
@@ -270,14 +263,15 @@ def cut_off_exponents_of(data: xr.Dataset) -> CutOffExponents:
     return CutOffExponents(**numbers, why_not=str(data[WHY_NO_EXPONENT].item()))
 
 
+# Names of how well the measured surface stands for its road, where a model tells it.
 SAMPLING_ERRORS = {
     "total_contact_fraction_sampling_error": "relative standard error of the contact fraction",
     "total_friction_sampling_error": "relative standard error of the friction coefficient",
 }
-"""Names of how well the measured surface stands for its road, where a model tells it."""
 SAMPLING_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
 UPPER_HEIGHT, RELATIVE_LOAD = "total_upper_height", "total_relative_load"
+# Names of what an answer from a measured surface rests on, where a model tells it.
 BASIS = SAMPLING_ERRORS | {
     UPPER_HEIGHT: "height that 1 % of the measured lines exceed, over the rms height",
     RELATIVE_LOAD: "pressure times largest wave, over modulus times rms height of the lines",
@@ -285,10 +279,9 @@ BASIS = SAMPLING_ERRORS | {
     STEEP_SHARE: "share of the friction from contact on slopes above 1",
     MISSING_SHARE: "share of the contact on heights that were missing and interpolated",
 }
-"""Names of what an answer from a measured surface rests on, where a model tells it."""
 
+# Name of the area term's friction, where one was asked for.
 ADHESIVE_FRICTION = "total_adhesive_friction"
-"""Name of the area term's friction, where one was asked for."""
 
 
 def with_adhesive(data: xr.Dataset) -> xr.DataArray | None:
@@ -301,12 +294,10 @@ def with_area_term(data: xr.Dataset, adhesive_friction: float) -> xr.Dataset:
 
     `total_friction` stays that of the hysteresis.
     """
-    import xarray as xr
-
     if math.isnan(adhesive_friction):
         return data
-    attrs = {"units": "1", "long_name": "friction coefficient of the area term", "source": "input"}
-    return data.assign({ADHESIVE_FRICTION: xr.Variable((), adhesive_friction, attrs)})
+    text = "friction coefficient of the area term"
+    return data.assign({ADHESIVE_FRICTION: labelled((), adhesive_friction, "1", text, "input")})
 
 
 def predicted_answer(
@@ -327,11 +318,9 @@ def predicted_answer(
     rests on the rubber beyond its measured frequencies, `cut_off_exponents` how it changes with
     the smallest wavelength; a model that does not know leaves them out.
     """
-    import xarray as xr
 
     def number(value: Any, unit: str, long_name: str) -> xr.Variable:
-        attrs = {"units": unit, "long_name": long_name, "source": model}
-        return xr.Variable((), value, attrs)
+        return labelled((), value, unit, long_name, model)
 
     if set(totals) != set(TOTALS):
         raise ValueError(f"totals must be {', '.join(TOTALS)}; got {', '.join(totals)}")
@@ -357,5 +346,4 @@ def predicted_answer(
     return data.assign(variables).assign_attrs(model=model, load_time=str(load.load_time))
 
 
-MOST_CLASSES = 64
-"""Classes beyond which a wave is not cut up."""
+MOST_CLASSES = 64  # classes beyond which a wave is not cut up

@@ -189,7 +189,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "refused_axis_of_models": ("compare", "plain.toml", "--vary", "colour=red,blue"),
     "refused_model": ("study", "plain.toml", "--vary", "speed=0.1,1", "--model", "zebra"),
     "refused_effects": ("study", "warm.toml", "--vary", "effects=all,zebra"),
-    "refused_model": ("compare", "plain.toml", "--models", "zebra"),
+    "refused_compared_model": ("compare", "plain.toml", "--models", "zebra"),
     "refused_source": ("uncertainty", "plain.toml", "--without", "zebra"),
     "refused_given": ("uncertainty", "plain.toml", "--range", "zebra=1:2"),
     "refused_uncertain_model": ("uncertainty", "plain.toml", "--model", "zebra"),

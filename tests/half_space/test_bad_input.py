@@ -33,6 +33,7 @@ NAN, INF = math.nan, math.inf
         ({"pressure": INF}, r"pressure must be a finite number \[Pa\]; got inf"),
         ({"pressure": 10**400}, r"pressure must be a finite number \[Pa\]; got a whole number"),
         ({"pressure": "3 pints"}, r"pressure = '3 pints': "),
+        ({"pressure": "high"}, r"pressure must be a finite number \[Pa\]; got 'high'"),
         ({"pressure": 1e-90}, r"pressure must be from 1e-12 to 1e\+15 Pa; got 1e-90"),
         ({"speed": NAN}, r"speed must be a finite number \[m/s\]; got nan"),
         ({"speed": -0.3}, r"speed must not be negative \[m/s\]; got -0.3"),

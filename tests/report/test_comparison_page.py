@@ -40,7 +40,9 @@ def test_page_has_table_estimate_and_figures(
     friction = float(compared[0].total_friction[1])
     assert float(rows[1][5]) == pytest.approx(friction, rel=0.005)
     assert all(cell for row in rows for cell in row)
-    solved = re.search(r"finite strain: friction -2.0 %, area \+\d.\d %; profile to surf", page.text)
+    solved = re.search(
+        r"finite strain: friction -2.0 %, area \+\d.\d %; profile to surf", page.text
+    )
     assert solved is not None
 
 

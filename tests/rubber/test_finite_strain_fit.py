@@ -155,7 +155,7 @@ def test_bad_tests_are_named(change, message):
         ({"tests": []}, "at least one UniaxialTest"),
         ({"energy": "ogden"}, "energy must be one of neo_hookean, mooney_rivlin, yeoh, isihara"),
         ({"terms": 0}, "terms must be a whole number from 1 to 40; got 0"),
-        ({"band": (2.0, 1.0)}, r"band \[s\] must be a shorter and a longer time; got \(2"),
+        ({"band": (2.0, 1.0)}, r"band \[s\] must be a lower and a higher value; got \(2"),
         ({"band": (0.0, 1.0)}, "band must be greater than zero"),
     ],
 )

@@ -64,8 +64,8 @@ def test_coefficients_give_the_law_and_its_stress(law: StrainEnergy) -> None:
         ("neo_hookean", {"share": 0.1}, "neo_hookean takes no parameters.* got share"),
         ("mooney_rivlin", {"share": "half"}, "share must be a finite number; got 'half'"),
         ("mooney_rivlin", {"share": np.nan}, "share must be a finite number; got nan"),
-        ("mooney_rivlin", {"share": 1.5}, "share must be from 0 to 1; got 1.5"),
-        ("mooney_rivlin", {"share": -0.1}, "share must be from 0 to 1; got -0.1"),
+        ("mooney_rivlin", {"share": 1.5}, "share must be at most 1; got 1.5"),
+        ("mooney_rivlin", {"share": -0.1}, "share must not be negative; got -0.1"),
     ],
 )
 def test_what_is_no_strain_energy_is_named(
@@ -80,5 +80,5 @@ def test_a_rubber_takes_any_law_and_nothing_else() -> None:
         kind = "stiffer"
 
     assert Rubber(1e6, strain_energy=Stiffer()).strain_energy == Stiffer()
-    with pytest.raises(InputError, match=r"strain_energy must be a StrainEnergy.* got 'yeoh'"):
+    with pytest.raises(InputError, match=r"strain_energy must be a StrainEnergy; got str"):
         Rubber(1e6, strain_energy="yeoh")  # type: ignore[arg-type]

@@ -178,7 +178,7 @@ def test_a_measured_map_has_its_documented_roughness():
         ),
         ({"valid_range": (1.0, 2.0)}, "all missing"),
         ({"valid_range": (1.0, float("nan"))}, r"valid_range\[1\] must be a finite number"),
-        ({"trim": 1.5}, "trim must be a share of the heights, from 0 to 1; got 1.5"),
+        ({"trim": 1.5}, "trim must be at most 1; got 1.5"),
         ({"trim": -0.5}, "trim must not be negative"),
         ({"spike_slope": 0.0}, "spike_slope must be greater than zero"),
         ({"form": 9}, "form must be a whole number from 0 to 8; got 9"),

@@ -60,7 +60,7 @@ def test_the_shortest_wavelength_carried_is_four_steps_or_what_the_instrument_sa
     assert np.sqrt(2.0 * np.mean(slopes**2)) == pytest.approx(0.900, abs=0.001)
     with pytest.raises(InputError, match="reliable must be greater than zero"):
         Profile(X, Z, reliable=0.0)
-    with pytest.raises(InputError, match="each of notes must be a text; got 3"):
+    with pytest.raises(InputError, match="each of notes must be a str; got int"):
         Profile(X, Z, notes=(3,))
 
 

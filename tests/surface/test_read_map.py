@@ -222,7 +222,7 @@ def test_without_the_extra_the_message_names_it(monkeypatch):
 
     def without(name, *args, **kwargs):
         if name.startswith("SurfaceTopography"):
-            raise ImportError(name)
+            raise ModuleNotFoundError(name, name=name)
         return real(name, *args, **kwargs)
 
     monkeypatch.setattr(builtins, "__import__", without)

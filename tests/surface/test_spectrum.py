@@ -239,7 +239,7 @@ def test_moments_of_a_power_law():
         (lambda: profile_spectrum([]), "profile must be a Profile or a list"),
         (lambda: profile_spectrum(rough(), window=1.0), "window must be from 0.0016 m to 0.4096 m"),
         (lambda: profile_spectrum(rough(), taper="welch"), "taper must be one of hann, none"),
-        (lambda: map_spectrum([1.0], x_step=1, y_step=1), r"of shape \(nx, ny\)"),
+        (lambda: map_spectrum([1.0], x_step=1, y_step=1), r"z must be a table of heights \[m\]"),
         (
             lambda: map_spectrum(np.full((16, 16), np.nan), x_step=1, y_step=1),
             "z must have some heights; got 256 points, all missing",

@@ -195,7 +195,7 @@ def test_bad_input(change, message):
 
 
 def test_a_surface_must_be_one():
-    with pytest.raises(InputError, match="surface must be a SelfAffineFit, a HeightDifference"):
+    with pytest.raises(InputError, match="profile must be a Profile or a list of them"):
         klueppel_heinrich(ZENER, [1.0], **STATED)
     straight = HeightDifference(np.geomspace(1e-5, 1e-2, 40), np.geomspace(1e-5, 1e-2, 40))
     with pytest.raises(InputError, match="plateau"):

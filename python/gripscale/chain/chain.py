@@ -22,9 +22,7 @@ from gripscale import model
 from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
 from gripscale.chain.prediction import ChainError, ChainResult, ChainSolve, RubberAt
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Quantity
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Checked, Quantity, checked, checks, provenance
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.model import MOST_CLASSES, Load, LoadTime, OnProgress
 from gripscale.rubber import Rubber
@@ -40,9 +38,8 @@ from gripscale.wave.result import ScaleResult
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
+# Functions that may stand for a solver of one wave.
 SOLVE_FUNCTIONS = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
-"""Functions that may stand for a solver of one wave."""
-
 WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
 
 

@@ -17,8 +17,7 @@ from gripscale.chain.heat import Warming, WaveHeat, strains, warming
 from gripscale.chain.prediction import ChainResult, ChainSolve
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
-from gripscale.core.arrays import Array
-from gripscale.core.status import Status
+from gripscale.core import Array, Status
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Sine
 
@@ -124,8 +123,8 @@ class _ChainEvaluation:
     solver: ChainSolve
     rubber: Rubber
     conditions: Conditions
+    # Of each wave in all evaluations, on the coarse mesh too.
     newton_iterations: Counter[int] = field(default_factory=Counter)
-    """Of each wave in all evaluations, on the coarse mesh too."""
     load_steps: Counter[int] = field(default_factory=Counter)
 
     def __call__(self, x: Array | None, last: ChainResult | None) -> Iteration[ChainResult]:

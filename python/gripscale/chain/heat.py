@@ -24,15 +24,7 @@ import numpy as np
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import StrainNorm
-from gripscale.conditions.flash_temperature import (
-    DepthsOfLoss,
-    LossDepth,
-    LossLayers,
-    ThermalProperties,
-    loss_pattern,
-)
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.errors import InputError
+from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult
 
@@ -44,15 +36,11 @@ class WaveHeat:
     """Patterns of a wave as amplitudes of its harmonics 1, 2, ... over the mean [-]."""
 
     wavelength: float
-    pressure: float
-    """Mean pressure on the wave [Pa]."""
+    pressure: float  # mean pressure on the wave [Pa]
     friction: float
-    contact: ComplexArray
-    """Of the pressure: where the smaller waves lose energy."""
-    lost: ComplexArray
-    """Of its own loss."""
-    depth: DepthsOfLoss
-    """Of its own loss."""
+    contact: ComplexArray  # of the pressure: where the smaller waves lose energy
+    lost: ComplexArray  # of its own loss
+    depth: rise.DepthsOfLoss  # of its own loss
 
     @property
     def wavenumbers(self) -> Array:
@@ -76,14 +64,14 @@ class WaveHeat:
         lost[1:-1] = np.abs(spectrum[1:-1]) ** 2 * modulus.imag / np.abs(modulus) ** 2
         total = lost.sum()
         wavenumber = 2.0 * math.pi / wave.wavelength
-        depth: DepthsOfLoss = LossDepth.under(wavenumber)
+        depth: rise.DepthsOfLoss = rise.LossDepth.under(wavenumber)
         pattern = np.zeros(number.size, dtype=complex)
         if total > 0.0:
-            along = np.fft.rfft(loss_pattern(spectrum, lost))
+            along = np.fft.rfft(rise.loss_pattern(spectrum, lost))
             pattern = along[1:-1] / along[0]
-            depth = LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
+            depth = rise.LossDepth(float(lost[1:-1] @ (1.5 / number) / total / wavenumber))
         if wave.loss_by_depth is not None and wave.friction_from_dissipation > 0.0:
-            depth = LossLayers.of(*wave.loss_by_depth)
+            depth = rise.LossLayers.of(*wave.loss_by_depth)
         return cls(
             wavelength=wave.wavelength,
             pressure=wave.pressure_received,
@@ -98,14 +86,11 @@ class WaveHeat:
 class Warming:
     """Temperature rises over the temperature of the rubber before the contact [K]."""
 
+    # By the heat of all waves, spread over the nominal area, where this wave loses its energy.
     uniform: float
-    """By the heat of all waves, spread over the nominal area, where this wave loses its energy."""
-    larger_waves: float
-    """By the patterns of the larger waves, in their contact."""
-    own_pattern: float
-    """By the pattern of this wave, where it loses its energy."""
-    contact: float
-    """By everything, at the surface in the real contact of this wave."""
+    larger_waves: float  # by the patterns of the larger waves, in their contact
+    own_pattern: float  # by the pattern of this wave, where it loses its energy
+    contact: float  # by everything, at the surface in the real contact of this wave
 
     @property
     def total(self) -> float:
@@ -114,7 +99,7 @@ class Warming:
 
 
 def warming(
-    waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: ThermalProperties
+    waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: rise.ThermalProperties
 ) -> list[Warming]:
     """Return the temperature rise of the rubber on each wave of a chain, largest first.
 
@@ -129,28 +114,23 @@ def warming(
     out, larger_waves = [], 0.0
     for i, wave in enumerate(waves):
         others = sum(h * t for j, (h, t) in enumerate(zip(heats, top, strict=True)) if j != i)
-        own_pattern, contact = _rise_by_patterns(wave, waves[i + 1 :], speed, thermal)
+        # by the harmonics of this wave: where it loses energy, and in its contact
+        k, heat = wave.wavenumbers, speed * wave.pressure
+        m = rise.harmonic_decay(k, k, speed, thermal)
+        loss = heat * wave.friction * wave.lost
+        by_smaller = np.zeros_like(m)
+        for other in waves[i + 1 :]:
+            at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
+            by_smaller += heat * other.friction * wave.contact * at_surface
+        where_lost = loss * rise.harmonic_where_lost(m, wave.depth, thermal)
+        where_lost += wave.depth.decay(m) * by_smaller
+        own_pattern = _mean(where_lost, wave.lost)
+        in_contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
+        contact = _mean(in_contact, wave.contact)
         surface = others + heats[i] * top[i] + larger_waves + contact
         out.append(Warming(others + heats[i] * deep[i], larger_waves, own_pattern, surface))
         larger_waves += contact
     return out
-
-
-def _rise_by_patterns(
-    wave: WaveHeat, smaller: Sequence[WaveHeat], speed: float, thermal: ThermalProperties
-) -> tuple[float, float]:
-    """Return the rise by the wave's harmonics where it loses energy, and in its contact [K]."""
-    k, heat = wave.wavenumbers, speed * wave.pressure
-    m = rise.harmonic_decay(k, k, speed, thermal)
-    loss = heat * wave.friction * wave.lost
-    by_smaller = np.zeros_like(m)
-    for other in smaller:
-        at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
-        by_smaller += heat * other.friction * wave.contact * at_surface
-    contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
-    where_lost = loss * rise.harmonic_where_lost(m, wave.depth, thermal)
-    where_lost += wave.depth.decay(m) * by_smaller
-    return _mean(where_lost, wave.lost), _mean(contact, wave.contact)
 
 
 def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:

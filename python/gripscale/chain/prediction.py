@@ -34,12 +34,8 @@ import xarray as xr
 import gripscale
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.described import Pictured
+from gripscale.core import Array, Pictured, Status, checks, labelled, provenance
 from gripscale.core.errors import ConvergenceError, InputError
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
 from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
 from gripscale.io import netcdf
@@ -55,18 +51,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+# Name of the pressures of the classes [Pa], among the details of a wave.
 CLASS_PRESSURES = "class_pressures"
-"""Name of the pressures of the classes [Pa], among the details of a wave."""
 
 
 @dataclass(frozen=True)
 class PressureClasses:
     """Parts of the nominal area under one pressure each, all of the same load."""
 
-    pressure: Array
-    """On each class [Pa], rising."""
-    area: Array
-    """Of each class over the nominal area [-]."""
+    pressure: Array  # on each class [Pa], rising
+    area: Array  # of each class over the nominal area [-]
 
     @classmethod
     def uniform(cls, pressure: float) -> PressureClasses:
@@ -415,8 +409,7 @@ class ChainSolve:
     empty: ChainResult
     waves: Sequence[Sine]
     solver: WaveSolver
-    classes: int
-    """Number of pressure classes."""
+    classes: int  # number of pressure classes
     on_scale: Callable[[ChainResult], None] | None
 
     def __call__(self, rubber_at: RubberAt | None, start: ChainResult | None) -> ChainResult:

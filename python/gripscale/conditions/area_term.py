@@ -15,13 +15,9 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, checked, checks
 
-BOLTZMANN = 8.617333262e-5
-"""k_B [eV/K]: CODATA 2018."""
+BOLTZMANN = 8.617333262e-5  # k_B [eV/K]: CODATA 2018
 
 
 @runtime_checkable
@@ -84,21 +80,17 @@ class GaussianStress(Checked):
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together."""
         with np.errstate(divide="ignore"):
-            decades = np.log10(_speeds(speed) / self.speed_0)
-        shifted = decades + self._log_shift(temperature)
+            shifted = np.log10(_speeds(speed) / self.speed_0)
+        if self.reference_temperature is not None and self.activation_energy > 0.0:
+            if temperature is None:
+                raise InputError("temperature must be given [K] for an area term with it")
+            kelvin = checks.real("temperature", temperature, unit="K")
+            if (kelvin < checks.LEAST).any():
+                raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
+            difference = 1.0 / kelvin - 1.0 / self.reference_temperature
+            shift = self.activation_energy / BOLTZMANN * difference / math.log(10.0)
+            shifted = shifted + shift
         return np.asarray(self.stress_0 * np.exp(-self.width * shifted**2))
-
-    def _log_shift(self, temperature: ArrayLike | None) -> Array:
-        """Return log10 a_T [-]; zero without an activation energy."""
-        if self.reference_temperature is None or self.activation_energy == 0.0:
-            return np.zeros(())
-        if temperature is None:
-            raise InputError("temperature must be given for an area term that depends on it [K]")
-        kelvin = checks.real("temperature", temperature, unit="K")
-        if (kelvin < checks.LEAST).any():
-            raise InputError(f"temperature must be greater than zero [K]; got {kelvin.min():g}")
-        difference = 1.0 / kelvin - 1.0 / self.reference_temperature
-        return np.asarray(self.activation_energy / BOLTZMANN * difference / math.log(10.0))
 
 
 class LeGalKlueppelStress(Checked):
@@ -161,10 +153,10 @@ class TableStress(Checked):
         return np.asarray(np.interp(at, np.log(self.speed), self.stress_at))
 
 
+# Every law of the interfacial shear stress by its kind.
 SHEAR_STRESSES: dict[str, Any] = {
     law.kind: law for law in (ConstantStress, GaussianStress, LeGalKlueppelStress, TableStress)
 }
-"""Every law of the interfacial shear stress by its kind."""
 
 
 def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:

@@ -27,24 +27,20 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from gripscale.core.arrays import Array
-from gripscale.core.errors import ConvergenceError
+from gripscale.core import Array, ConvergenceError
 
 S = TypeVar("S")
 
-HISTORY = 3
-"""Evaluations before the last one that Anderson's acceleration uses."""
-LONGEST_STEP = 2.0
-"""Largest change of one component from one x to the next."""
-MOST_PASSES = 8
-"""Most evaluations, on the fine mesh and in each fixed point of the coarse one."""
+HISTORY = 3  # evaluations before the last one that Anderson's acceleration uses
+LONGEST_STEP = 2.0  # largest change of one component from one x to the next
+MOST_PASSES = 8  # most evaluations, on the fine mesh and in each fixed point of the coarse one
+# Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
+# that the documentation promises.
 RESULT_TOLERANCE = 3e-4
-"""Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
-that the documentation promises."""
+# Largest component of f(x) - x at a fixed point, in the logarithms of `pack_state`.
 STATE_TOLERANCE = 5e-4
-"""Largest component of f(x) - x at a fixed point, in the logarithms of `pack_state`."""
+# The same on the coarse mesh before the first fine evaluation: the meshes differ by more.
 COARSE_TOLERANCE = 1e-2
-"""The same on the coarse mesh before the first fine evaluation: the meshes differ by more."""
 
 
 @dataclass(frozen=True)
@@ -52,18 +48,14 @@ class Iteration(Generic[S]):
     """One evaluation of F or f: a solution with the state `x`, and the state it leads to."""
 
     solution: S
-    x: Array | None
-    """State the solution assumes; None: the rubber as it is before the contact."""
-    value: Array
-    """State that follows from the solution."""
-    results: Sequence[float]
-    """Numbers that must not change any more at the end."""
-    usable: bool = True
-    """Whether the solution converged."""
+    x: Array | None  # state the solution assumes; None: the rubber as it is before the contact
+    value: Array  # state that follows from the solution
+    results: Sequence[float]  # numbers that must not change any more at the end
+    usable: bool = True  # whether the solution converged
 
 
+# Evaluates the state x, starting from the last solution if there is one.
 _Solve = Callable[[Array | None, S | None], Iteration[S]]
-"""Evaluates the state x, starting from the last solution if there is one."""
 
 
 @dataclass(frozen=True)
@@ -124,10 +116,9 @@ def _solve_on_fine_mesh(
 class AndersonSequence:
     """Arguments of a fixed-point iteration, each from the evaluations before."""
 
-    x: Array
-    """The next argument."""
+    x: Array  # the next argument
+    # The last arguments x and their values f(x).
     history: list[tuple[Array, Array]] = field(default_factory=list)
-    """The last arguments x and their values f(x)."""
 
     @property
     def residual(self) -> float:
@@ -201,11 +192,9 @@ class _Defect:
     x: Array | None
     value: Array
     step: Array
-    change: Array
-    """Of the defect along the step."""
+    change: Array  # of the defect along the step
 
     def __call__(self, x: Array) -> Array:
-        """Return the defect at `x`."""
         length = self.step @ self.step
         if self.x is None or length == 0.0:
             return self.value
@@ -227,9 +216,9 @@ def _evaluated(solve: _Solve[S], x: Array | None, start: S | None) -> Iteration[
     return iteration if iteration.usable else None
 
 
+# Temperature rise [K] above which the state is logarithmic. The first estimate of the heat, from a
+# cold rubber, may be a thousand times too high.
 WARM = 20.0
-"""Temperature rise [K] above which the state is logarithmic. The first estimate of the heat, from a
-cold rubber, may be a thousand times too high."""
 LEAST_STRAIN = 1e-12
 
 

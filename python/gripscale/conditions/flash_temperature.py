@@ -66,10 +66,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, ComplexArray, InputError, checked, checks
 
 
 class ThermalProperties(Checked):
@@ -108,16 +105,11 @@ class DepthsOfLoss(Protocol):
         """Return E ierfc(distance / length), ierfc being the integral of erfc."""
 
 
+# Z, |Z - Z'| and Z + Z'.
 Distances = Literal["depth", "difference", "sum"]
-"""Z, |Z - Z'| and Z + Z'."""
-
-DEEPEST = 60.0
-"""Depth in units of 1/b beyond which the loss is neglected: exp(-60)."""
-WIDEST = 6.5
-"""Argument beyond which ierfc is below 1e-20."""
-STEADY = 4.0
-"""Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8."""
-
+DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(-60)
+WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
+STEADY = 4.0  # Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
 
 
@@ -275,6 +267,8 @@ def _passing(
     *distances: Distances,
 ) -> ComplexArray:
     """Return the steady values, and E r over the `distances` of harmonics that still change."""
+    from scipy.special import wofz
+
     length = _diffusion_length(time, thermal)
     changing = m.real * (0.5 * length) < STEADY
     if not changing.any():
@@ -284,30 +278,25 @@ def _passing(
         out[changing] = 0.0
         return out
     different, inverse = np.unique(m[changing], return_inverse=True)
-    means = [
-        depth.average(of, lambda z: _rise_in_time(z, different, length), length) for of in distances
-    ]
+
+    def rise(z: Array) -> ComplexArray:
+        """Return r at depths, by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
+        at, half = (z / length)[:, None], (0.5 * length * different)[None, :]
+        scale = np.exp(-(at**2) - half**2)
+        faddeeva = wofz(1j * (at - half)) - wofz(1j * (at + half))
+        return np.asarray(scale * faddeeva / (2.0 * different))
+
+    means = [depth.average(of, rise, length) for of in distances]
     out[changing] = (sum(means) / (len(means) * thermal.conductivity))[inverse]
     return out
-
-
-def _rise_in_time(z: Array, m: ComplexArray, length: float) -> ComplexArray:
-    """Return r at depths of shape (n,), shape (n, m), by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
-    from scipy.special import wofz
-
-    at, half = (z / length)[:, None], (0.5 * length * m)[None, :]
-    scale = np.exp(-(at**2) - half**2)
-    return np.asarray(scale * (wofz(1j * (at - half)) - wofz(1j * (at + half))) / (2.0 * m))
 
 
 @dataclass(frozen=True)
 class LossLayers:
     """A distribution of the depth at which energy is lost, by layers."""
 
-    edges: Array
-    """Depths between the layers, rising from the surface [m], shape (layers + 1,)."""
-    share: Array
-    """Of the loss in each layer [-], adding up to one, shape (layers,)."""
+    edges: Array  # depths between the layers, rising from the surface [m], shape (layers + 1,)
+    share: Array  # of the loss in each layer [-], adding up to one, shape (layers,)
 
     @classmethod
     def of(cls, edges: Array, lost: Array) -> LossLayers:

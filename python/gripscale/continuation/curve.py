@@ -50,11 +50,7 @@ from gripscale.continuation.roughness import (
     as_roughness,
     slope_on_faces,
 )
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Mask, Quantity
-from gripscale.core.checks import checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Described, InputError, Mask, Quantity, checked, checks, provenance
 from gripscale.core.parallel import in_threads, worker_count
 from gripscale.core.units import in_mm
 from gripscale.half_space.grid import nearest
@@ -65,38 +61,28 @@ from gripscale.model import STATUS, TOTALS, Load, OnProgress, predicted_answer
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, Surface
 
+# Usual end of a continuation [m]: about the depth of a measured texture of a stone's face.
 DOWN_TO = 10e-6
-"""Usual end of a continuation [m]: about the depth of a measured texture of a stone's face."""
-
+# a, half width of the 90 % band of the logarithm of a number for each octave [-].
 BAND_OF_OCTAVE = 0.11
-"""a, half width of the 90 % band of the logarithm of a number for each octave [-]."""
+BAND_OF_GROWTH = 0.40  # b, the same over the logarithm of what continuation adds [-]
+UNFORETOLD = 0.55  # largest |ln(r_1 / r_2)| of faces that foretell an octave
+QUANTILE_90 = 1.645  # half width of the 90 % interval of a Gaussian over its standard deviation
 
-BAND_OF_GROWTH = 0.40
-"""b, the same over the logarithm of what continuation adds [-]."""
-
-UNFORETOLD = 0.55
-"""Largest |ln(r_1 / r_2)| of faces that foretell an octave."""
-
-QUANTILE_90 = 1.645
-"""Half width of the 90 % interval of a Gaussian over its standard deviation."""
-
+# c, share of ln r of an octave, beyond that of `USUAL_HURST`, that the next octave has [-].
 PERSISTENCE = 0.75
-"""c, share of ln r of an octave, beyond that of `USUAL_HURST`, that the next octave has [-]."""
-
+# Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
+# doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is.
 USUAL_HURST = 0.8
-"""Hurst exponent of fracture surfaces (E. Bouchaud, J. Phys.: Condens. Matter 9 (1997) 4319,
-doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is."""
 
+# ln r that a withheld octave is tried with; r_1 is interpolated between them.
 _LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
-"""ln r that a withheld octave is tried with; r_1 is interpolated between them."""
 
 MOST_OCTAVES = 8
-_LEAST_STEP = 0.05
-"""Rest of an octave, over the last cut-off, that is not a step of its own."""
+_LEAST_STEP = 0.05  # rest of an octave, over the last cut-off, that is not a step of its own
 
+# Largest ratio of the slope of the faces to that of a finer measurement, or its inverse.
 MOST_APART = 3.0
-"""Largest ratio of the slope of the faces to that of a finer measurement, or its inverse."""
-
 OnContact = Callable[[RoughContact], None]
 
 
@@ -104,14 +90,12 @@ OnContact = Callable[[RoughContact], None]
 class Withheld:
     """The last measured octave, continued from those above with constant slope."""
 
-    contact_fraction_error: float
-    """Relative error of the contact fraction [-]."""
-    friction_error: float
-    """Relative error of the friction coefficient [-]."""
+    contact_fraction_error: float  # relative error of the contact fraction [-]
+    friction_error: float  # relative error of the friction coefficient [-]
+    # r_1, the slope over that of the octave above that gives the true friction [-].
     slope_ratio: float
-    """r_1, the slope over that of the octave above that gives the true friction [-]."""
+    # r_2, the same of the octave above; NaN where the line is too short to try it.
     slope_ratio_above: float
-    """r_2, the same of the octave above; NaN where the line is too short to try it."""
 
     @property
     def foretells(self) -> bool:
@@ -123,12 +107,10 @@ class Withheld:
 class CutOffContact:
     """The contacts of all lines with waves down to one cut-off."""
 
-    wavelength: float
-    """Shortest wavelength of the lines [m]."""
+    wavelength: float  # shortest wavelength of the lines [m]
     contacts: tuple[RoughContact, ...] = field(repr=False)
     lines: tuple[PeriodicLine, ...] = field(repr=False)
-    slope: float
-    """Slope of the last octave on the faces that touch [-]; NaN for the first."""
+    slope: float  # slope of the last octave on the faces that touch [-]; NaN for the first
 
     def mean(self, name: str) -> float:
         """Return a number of the contacts, averaged by length."""
@@ -232,17 +214,18 @@ class ContactByCutOff(Described):
         )
 
 
+# Numbers of `RoughContact` over the cut-off.
 _CURVES = {
     "contact_fraction": "real over nominal contact area",
     "friction": "friction coefficient from the contact traction",
     "friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
     "slope_in_contact": "rms slope of the surface in the contact",
 }
-"""Numbers of `RoughContact` over the cut-off."""
 
+# Numbers of an answer, and their curves with a band.
 _BANDS = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
-"""Numbers of an answer, and their curves with a band."""
 
+# What a Dataset holds of a continuation, as far as it is known.
 FACTS = {
     "resolved": "shortest wavelength that was measured",
     "slope_ratio": "slope of the last continued octave over that of the octave above",
@@ -252,7 +235,6 @@ FACTS = {
     "withheld_slope_ratio": "slope ratio that gives the friction of the withheld octave",
     "withheld_slope_ratio_above": "slope ratio that gives the friction of the octave above it",
 }
-"""What a Dataset holds of a continuation, as far as it is known."""
 
 
 def unforetold(resolved: float, last: float, above: float) -> str:

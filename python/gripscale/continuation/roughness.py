@@ -27,41 +27,29 @@ from typing import Any
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
 from gripscale.half_space.grid import periodic_heights, resampled
 from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST
 from gripscale.surface.profile import RESOLVED_STEPS
 
-QUANTILE = 0.68
-"""Share of the points in contact whose slope is below that of an octave."""
-
-LONGEST_SHARE = 0.25
-"""Longest wavelength of a line that counts, over the length of the line."""
-
+QUANTILE = 0.68  # share of the points in contact whose slope is below that of an octave
+LONGEST_SHARE = 0.25  # longest wavelength of a line that counts, over the length of the line
+# Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6 or
+# 2.5 stones with sharp edges and cascades change their friction by 3 % at most.
 _MOST_ABOVE = 1.25
-"""Largest deviation of the logarithm of a local amplitude, over its standard deviation. With 0.6 or
-2.5 stones with sharp edges and cascades change their friction by 3 % at most."""
-
 _LEAST = 1e-100
-_MARGIN = 3
-"""Points of a period on either side that a cubic between two points depends on."""
+_MARGIN = 3  # points of a period on either side that a cubic between two points depends on
 
 
 @dataclass(frozen=True, eq=False)
 class PeriodicLine:
     """A periodic line by its waves."""
 
-    length: float
-    """Period [m]."""
-    points: int
-    """Points of the line as it is sampled, an even number."""
-    waves: ComplexArray
-    """`scipy.fft.rfft` of the heights [m], shape (points // 2 + 1,)."""
+    length: float  # period [m]
+    points: int  # points of the line as it is sampled, an even number
+    waves: ComplexArray  # `scipy.fft.rfft` of the heights [m], shape (points // 2 + 1,)
 
     @classmethod
     def of(
@@ -155,10 +143,8 @@ def slope_on_faces(
 class Intermittency:
     """How the local amplitude of an octave follows that of the octave above."""
 
-    coupling: float
-    """b, zero for random phases [-]."""
-    scatter: float
-    """Standard deviation of the logarithm of the amplitude beyond both [-]."""
+    coupling: float  # b, zero for random phases [-]
+    scatter: float  # standard deviation of the logarithm of the amplitude beyond both [-]
 
     @classmethod
     def of(
@@ -211,11 +197,7 @@ class OwnFaces(Checked):
 class HurstExponent(Checked):
     """Continue the slopes of the faces that touch as a power law with this exponent."""
 
-    hurst: float = checked(checks.positive)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        checks.at_most_one("hurst", self.hurst)
+    hurst: float = checked(checks.fraction)
 
 
 class FinerMeasurement(Checked):
@@ -241,8 +223,8 @@ class FinerMeasurement(Checked):
         return typical_slope(np.concatenate([line.slope(longest, shortest) for line in periodic]))
 
 
+# Where the roughness below the measurement comes from.
 Roughness = OwnFaces | HurstExponent | FinerMeasurement
-"""Where the roughness below the measurement comes from."""
 
 
 def as_roughness(name: str, value: Any) -> Roughness:

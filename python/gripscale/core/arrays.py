@@ -11,8 +11,8 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
+# Quantities beyond these are mistakes; within them no square or product of two overflows.
 LEAST, MOST = 1e-100, 1e100
-"""Quantities beyond these are mistakes; within them no square or product of two overflows."""
 
 if TYPE_CHECKING:
     Quantity = float | Any

@@ -102,25 +102,13 @@ def vector(name: str, value: ArrayLike, *, unit: str = "", missing: bool = False
 
     NaN passes only with `missing`; masked entries become NaN.
     """
-    result = _finite(name, value, unit, missing=missing)
-    if (np.abs(result) > MOST).any():
-        at = int(np.nanargmax(np.abs(result)))
-        raise InputError(
-            f"{name} must be numbers of at most {MOST:g}{_in(unit)}; got {result[at]:g} at "
-            f"index {at}"
-        )
-    return result
-
-
-def _finite(name: str, value: ArrayLike, unit: str, *, missing: bool = False) -> Array:
     expected = f"{name} must be a list of finite numbers{' or NaN' * missing}{_in(unit)}"
     result = array(si_value(name, value, unit, strict=False), expected)
     if result.ndim != 1:
         raise InputError(f"{expected} with one dimension; got {result.ndim} dimensions")
-    bad = np.isinf(result) if missing else ~np.isfinite(result)
-    if bad.any():
-        at = int(np.argmax(bad))
-        raise InputError(f"{expected}; got {result[at]} at index {at}")
+    refuse_entries(result, np.isinf(result) if missing else ~np.isfinite(result), expected)
+    expected = f"{name} must be numbers of at most {MOST:g}{_in(unit)}"
+    refuse_entries(result, np.abs(result) > MOST, expected)
     return result
 
 
@@ -143,16 +131,17 @@ def array(value: ArrayLike, expected: str) -> Array:
 
 
 def positive_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
-    """Return `value` as a 1-D float array; raise `InputError` unless all entries are above zero."""
-    result = _above_zero(name, vector(name, value, unit=unit), unit)
-    _refuse(result, result < LEAST, f"{name} must be at least {LEAST:g}{_in(unit)}")
+    """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
+    result = vector(name, value, unit=unit)
+    refuse_entries(result, result <= 0.0, f"{name} must be greater than zero{_in(unit)}")
+    refuse_entries(result, result < LEAST, f"{name} must be at least {LEAST:g}{_in(unit)}")
     return result
 
 
 def not_negative_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` if an entry is below zero."""
     result = vector(name, value, unit=unit)
-    _refuse(result, result < 0.0, f"{name} must not be negative", f" {unit}")
+    refuse_entries(result, result < 0.0, f"{name} must not be negative", f" {unit}")
     return result
 
 
@@ -160,16 +149,12 @@ def increasing_vector(name: str, value: ArrayLike, *, unit: str = "") -> Array:
     """Return `value` as a 1-D float array; raise `InputError` unless it increases from above 0."""
     result = positive_vector(name, value, unit=unit)
     falls = np.diff(result, prepend=0.0) <= 0.0
-    _refuse(result, falls, f"{name} must increase", f" {unit}")
+    refuse_entries(result, falls, f"{name} must increase", f" {unit}")
     return result
 
 
-def _above_zero(name: str, result: Array, unit: str) -> Array:
-    _refuse(result, result <= 0.0, f"{name} must be greater than zero{_in(unit)}")
-    return result
-
-
-def _refuse(values: Array, bad: Mask, expected: str, unit: str = "") -> None:
+def refuse_entries(values: Array, bad: Mask, expected: str, unit: str = "") -> None:
+    """Raise `InputError`, with what was `expected`, for the first of `values` that is `bad`."""
     if bad.any():
         at = int(np.argmax(bad))
         raise InputError(f"{expected}; got {values[at]:g}{unit} at index {at}")
@@ -177,15 +162,17 @@ def _refuse(values: Array, bad: Mask, expected: str, unit: str = "") -> None:
 
 def fraction(name: str, value: Any) -> float:
     """Return `value` as a float; raise `InputError` unless it is above zero and at most one."""
-    result = positive(name, value)
-    if result > 1.0:
-        raise InputError(f"{name} must not exceed 1; got {result:g}")
-    return result
+    return at_most_one(name, positive(name, value))
+
+
+def share(name: str, value: Any) -> float:
+    """Return `value` as a float; raise `InputError` unless it is from zero to one."""
+    return at_most_one(name, not_negative(name, value))
 
 
 def interval(name: str, value: ArrayLike, *, unit: str = "") -> tuple[float, float]:
     """Return `value` as two rising numbers above zero; raise `InputError` if it is none."""
-    ends = in_limits(name, value, unit=unit)
+    ends = positive_vector(name, value, unit=unit)
     if len(ends) != 2 or ends[0] >= ends[1]:
         raise InputError(
             f"{name}{_in(unit)} must be a lower and a higher value; got {short_repr(value)}"
@@ -248,14 +235,6 @@ def text(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise InputError(f"{name} must be a text; got {short_repr(value)}")
     return value
-
-
-def in_limits(name: str, value: ArrayLike, *, unit: str = "") -> Array:
-    """Return `value` as a 1-D float array; raise `InputError` unless from `LEAST` to `MOST`."""
-    result = _above_zero(name, _finite(name, value, unit), unit)
-    expected = f"{name} must lie between {LEAST:g} and {MOST:g}{_in(unit)}"
-    _refuse(result, (result < LEAST) | (result > MOST), expected)
-    return result
 
 
 def one_of(name: str, value: Any, choices: Iterable[str]) -> str:

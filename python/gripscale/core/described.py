@@ -21,18 +21,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WIDTH = 100
-_FEW = 5
-"""Numbers of an array that are listed."""
-_MOST_LINES = 14
-"""Lines below the name of an object."""
+_FEW = 5  # numbers of an array that are listed
+_MOST_LINES = 14  # lines below the name of an object
 _LENGTHS = "wavelength amplitude smallest_wavelength thickness footprint distance indentation lag x"
+# SI units of fields that state none, by name.
 _UNITS = {
     **dict.fromkeys(f"{_LENGTHS} down_to cut_off lag_range".split(), "m"),
     **dict.fromkeys(("pressure", "pressure_received", "nominal_pressure"), "Pa"),
     **dict.fromkeys(("time", "duration", "load_time"), "s"),
     "speed": "m/s",
 }
-"""SI units of fields that state none, by name."""
 
 
 def shown_value(value: Any, unit: str = "") -> str:
@@ -118,5 +116,5 @@ def with_figure(html: str, drawn: Any) -> str:
     return f'<div style="display:flex;flex-wrap:wrap;gap:1.5em"><div>{html}</div>{image}</div>'
 
 
+# A figure has dark lines: its ground stays white on a dark page.
 _IMAGE = "width:30em;max-width:100%;height:auto;align-self:flex-start;background:white"
-"""A figure has dark lines: its ground stays white on a dark page."""

@@ -49,6 +49,13 @@ class RubberWarning(UserWarning):
     """A rubber with values that no rubber has, or a fit that leaves them open."""
 
 
+def unstated(
+    before: str, key: str, after: str = "", *, kind: type[FileError] | type[InputError] = InputError
+) -> FileError | InputError:
+    """Return the error of a missing `key` of a case or a reader, named between two texts."""
+    return kind(Words(before, CaseKey(key), after), missing=key)
+
+
 @contextmanager
 def using_extra(
     extra: str, user: str, *libraries: str, kind: type[FileError] | type[InputError] = InputError

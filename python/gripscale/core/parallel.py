@@ -37,8 +37,8 @@ def held_back() -> Iterator[None]:
 
 
 _T = TypeVar("_T")
+# Solves one task; stops between two steps once the event is set.
 Job = Callable[[threading.Event], _T]
-"""Solves one task; stops between two steps once the event is set."""
 _here = threading.local()
 
 

@@ -12,10 +12,9 @@ from pathlib import Path
 
 from gripscale import _kernel
 
-CASE_TITLE = "case_title"
-"""Attribute of a result: rubber and surface of its case, in words."""
+CASE_TITLE = "case_title"  # attribute of a result: rubber and surface of its case, in words
+# The command that makes a result, as it was typed; empty in Python.
 COMMAND: ContextVar[str] = ContextVar("command", default="")
-"""The command that makes a result, as it was typed; empty in Python."""
 
 
 def versions() -> dict[str, str]:
@@ -38,8 +37,8 @@ def version_of(name: str) -> str:
         return "unknown (not installed)"
 
 
+# First words of the names of rooms and files that only show results: they change no number.
 FACES = ("app", "charts", "cli", "page", "report", "summary")
-"""First words of the names of rooms and files that only show results: they change no number."""
 
 
 @lru_cache(maxsize=1)

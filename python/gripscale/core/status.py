@@ -63,6 +63,7 @@ _TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuse
 """Sentence and advice by the word of a status, of the kernel and of the solvers in Python."""
 
 _WAVES, _MESHES = "limits.md#where-waves-converge", "limits.md#discretisation"
+# Chapters of statuses that have one of their own.
 _CHAPTERS = {
     Status.CONVERGED: "reading-results.md#how-far-to-trust-a-number",
     Status.FOLD: _WAVES,
@@ -73,4 +74,3 @@ _CHAPTERS = {
     Status.PROFILE_TOO_ROUGH: _MESHES,
     Status.CONDITIONS_NOT_SETTLED: "conditions.md#the-fixed-point",
 }
-"""Chapters of statuses that have one of their own."""

@@ -23,14 +23,13 @@ from gripscale.core.wording import short_repr
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
+# A pound-force per square inch [Pa]: pound, standard gravity and inch are exact.
 _PSI = 0.45359237 * 9.80665 / 0.0254**2
-"""A pound-force per square inch [Pa]: pound, standard gravity and inch are exact."""
-
 _METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12, "in": 0.0254}
 _PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
 
+# Elementary charge times Avogadro's number: both exact in the SI.
 _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
-"""Elementary charge times Avogadro's number: both exact in the SI."""
 
 UNITS: dict[str, dict[str, float]] = {
     "length": _METRES,
@@ -52,17 +51,14 @@ UNITS: dict[str, dict[str, float]] = {
 """The units of each kind of quantity by their usual spelling; the first is the one used inside: the
 SI unit, except for the energy of a bond."""
 
-MILLI, MICRO, MEGA, SQUARE_MM = 1e-3, 1e-6, 1e6, 1e-6
-"""Sizes of mm, um, MPa and mm^2 in SI units."""
+MILLI, MICRO, MEGA, SQUARE_MM = 1e-3, 1e-6, 1e6, 1e-6  # sizes of mm, um, MPa and mm^2 in SI units
 
 ZERO_CELSIUS = 273.15
 """0 C [K]."""
 
+# Zero [K] of the scales of temperature that do not begin at 0 K.
 _ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
-"""Zero [K] of the scales of temperature that do not begin at 0 K."""
-
-_UNIT_NEEDED = ("temperature",)
-"""Kinds whose plain numbers are ambiguous."""
+_UNIT_NEEDED = ("temperature",)  # kinds whose plain numbers are ambiguous
 
 _OTHER_SPELLINGS = {
     "um": ("micron", "microns", "micrometer", "micrometre"),
@@ -177,10 +173,10 @@ def parse_quantity(value: Any, kind: str) -> float:
     return _finite(quantity_in_si(float(number), unit, kind), kind)
 
 
+# Kind of quantity by its SI unit: of pressure and modulus the former, whose units are more.
 _KINDS = {next(iter(sizes)): kind for kind, sizes in reversed(UNITS.items())} | {
     "rad/s": "frequency"
 }
-"""Kind of quantity by its SI unit: of pressure and modulus the former, whose units are more."""
 
 
 def si_value(name: str, value: Any, unit: str, kind: str = "", *, strict: bool = True) -> Any:
@@ -203,8 +199,8 @@ def si_value(name: str, value: Any, unit: str, kind: str = "", *, strict: bool =
         raise InputError(f"{name} = {short_repr(value)}: {error}") from error
 
 
+# SI units with prefixes in steps of a thousand.
 _READABLE = ("m", "mm", "um", "nm", "GPa", "MPa", "kPa", "Pa", "s", "ms", "us", "MHz", "kHz", "Hz")
-"""SI units with prefixes in steps of a thousand."""
 
 
 def readable(value: float, unit: str) -> str:
@@ -255,15 +251,13 @@ def example_unit(kind: str) -> str:
     return _EXAMPLES[kind].partition(" ")[2]
 
 
-DISPLAY_UNITS = "display_units"
-"""Attribute of a result: the units its case states, by key, as JSON."""
+DISPLAY_UNITS = "display_units"  # attribute of a result: the units its case states, by key, as JSON
+GIVEN = "given_unit"  # attribute of a coordinate: the unit in which its values were stated, if any
 
-GIVEN = "given_unit"
-"""Attribute of a coordinate: the unit in which its values were stated, if any."""
-
+# The unit of each kind of quantity stated without one.
 USUAL = {"pressure": "MPa", "speed": "m/s", "length": "mm"}
-"""The unit of each kind of quantity stated without one."""
 
+# Keys of a case that are shown in their stated unit, with their table and kind of quantity.
 KEYS = {
     "pressure": ("load", "pressure"),
     "speed": ("load", "speed"),
@@ -272,7 +266,6 @@ KEYS = {
     "smallest_wavelength": ("surface", "length"),
     "cut_off": ("surface", "length"),
 }
-"""Keys of a case that are shown in their stated unit, with their table and kind of quantity."""
 
 
 @dataclass(frozen=True)

@@ -14,38 +14,26 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gripscale import model
 from gripscale.experiment.solve import Bench, Pick
 from gripscale.experiment.task import Task
-from gripscale.model import (
-    ADHESIVE_FRICTION,
-    BASIS,
-    CUT_OFF_EXPONENTS,
-    OUTSIDE_BAND,
-    STATUS,
-    STATUS_WORD,
-    TOTALS,
-    WHY_NO_EXPONENT,
-    status_words,
-)
 
 Index = tuple[int, ...]
 
-CONVERGED = "converged"
-"""Status of an answer whose numbers may be used."""
-
+CONVERGED = "converged"  # status of an answer whose numbers may be used
 WITH_AREA_TERM = "friction_with_area_term"
+# Names of what an effect changes, relative to the answer without it.
 CHANGES = {
     "total_contact_fraction": "contact_fraction_change",
     "total_friction": "friction_change",
     WITH_AREA_TERM: "friction_with_area_term_change",
 }
-"""Names of what an effect changes, relative to the answer without it."""
 
-_NUMBERS = (*TOTALS, ADHESIVE_FRICTION, *OUTSIDE_BAND, *CUT_OFF_EXPONENTS)
-"""Numbers of the whole surface that an answer may have."""
+# Numbers of the whole surface that an answer may have.
+_NUMBERS = (*model.TOTALS, model.ADHESIVE_FRICTION, *model.OUTSIDE_BAND, *model.CUT_OFF_EXPONENTS)
 
-SURFACE = (*_NUMBERS, WHY_NO_EXPONENT, STATUS, STATUS_WORD)
-"""All an answer says of the whole surface."""
+# All an answer says of the whole surface.
+SURFACE = (*_NUMBERS, model.WHY_NO_EXPONENT, model.STATUS, model.STATUS_WORD)
 
 
 @dataclass(frozen=True)
@@ -93,9 +81,11 @@ class Design:
         for point in self.points:
             key = point.task.key
             answer = answers[key]
-            parts[point.index] = answer.drop_vars([STATUS, STATUS_WORD], errors="ignore")
-            status[point.index] = str(answer[STATUS].item())
-            words[point.index] = str(status_words(answer).item())
+            parts[point.index] = answer.drop_vars(
+                [model.STATUS, model.STATUS_WORD], errors="ignore"
+            )
+            status[point.index] = str(answer[model.STATUS].item())
+            words[point.index] = str(model.status_words(answer).item())
             keys[point.index] = key
             seconds[point.index] = answer.attrs.get("seconds", math.nan)
         dims = tuple(self.sizes)
@@ -119,11 +109,11 @@ def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
     return answer[[name for name in SURFACE if name in answer]]
 
 
+# Names of `error_of_total`, where it is kept.
 ESTIMATED_ERRORS = {
     "total_contact_fraction_error": "error of the contact fraction as the model estimates it",
     "total_friction_error": "error of the friction coefficient as the model estimates it",
 }
-"""Names of `error_of_total`, where it is kept."""
 
 
 def error_of_total(data: xr.Dataset, name: str) -> float:
@@ -151,14 +141,14 @@ def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
 
     Nothing where the model does not tell.
     """
-    if not set(BASIS) <= set(answer):
+    if not set(model.BASIS) <= set(answer):
         return xr.Dataset()
     errors = {
         name: ((), error_of_total(answer, name.removeprefix("total_").removesuffix("_error")),
                variable_attributes(text))
         for name, text in ESTIMATED_ERRORS.items()
     }  # fmt: skip
-    return answer[[*BASIS]].assign(errors)
+    return answer[[*model.BASIS]].assign(errors)
 
 
 def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:

@@ -18,12 +18,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import FileError, InputError
-from gripscale.core.finding import Finding, Topic, doubt
-from gripscale.core.labels import labelled
+from gripscale.core import Array, Checked, Finding, Topic, Vector, checked, checks, doubt, labelled
+from gripscale.core.errors import FileError, about_file
 from gripscale.core.units import (
     UNITS,
     ZERO_CELSIUS,
@@ -36,6 +32,7 @@ from gripscale.core.units import (
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
 from gripscale.model import PLAUSIBLE
 
+# What the titles of the columns may be called, in lower case; the first word is ours.
 _WORDS = {
     "speed": ("speed", "velocity", "v"),
     "friction": ("friction", "friction coefficient", "mu", "µ", "μ", "cof"),
@@ -43,42 +40,31 @@ _WORDS = {
     "temperature": ("temperature", "temp", "t"),
     "pressure": ("pressure", "nominal pressure", "p"),
 }
-"""What the titles of the columns may be called, in lower case; the first word is ours."""
 
+# Kind of unit of a column, and the unit it is in where the title names none, if that is clear.
 _UNITS: dict[str, tuple[str, str | None]] = {
     "speed": ("speed", "m/s"),
     "temperature": ("temperature", None),
     "pressure": ("pressure", "Pa"),
 }
-"""Kind of unit of a column, and the unit it is in where the title names none, if that is clear."""
 
+# Columns that may be absent, and where values may be missing, with their units.
 _OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
-"""Columns that may be absent, and where values may be missing, with their units."""
-
+# Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones.
 _MOST = {"friction": 100.0, "spread": 100.0, "temperature": 3000.0, "pressure": 1e11}
-"""Largest absolute values [-], [K], [Pa]: beyond any rubber's, below what marks missing ones."""
-
-_RATIO = ("1", "-", "–")
-"""Units of what has none."""
+_RATIO = ("1", "-", "–")  # units of what has none
 
 
 def _column(name: str, array: ArrayLike) -> Array:
     """Return a column; raise `InputError` if a value is out of its range."""
     unit = _OPTIONAL.get(name, "")
     values = checks.vector(name, array, unit=unit, missing=name in _OPTIONAL)
-    beyond, low = np.abs(values) > _MOST[name], np.zeros(values.size, dtype=bool)
-    if beyond.any():
-        at = int(np.argmax(beyond))
-        raise InputError(
-            f"{name} must be at most {_MOST[name]:g}; got {values[at]:g} at index {at}: a missing "
-            "value is nan or an empty cell"
-        )
-    if name in _OPTIONAL:
-        low = values < 0.0 if name == "spread" else values <= 0.0
-    if low.any():
-        limit = "not be negative" if name == "spread" else f"be above zero [{unit}]"
-        at = int(np.argmax(low))
-        raise InputError(f"{name} must {limit}; got {values[at]:g} at index {at}")
+    most = f"{name} must be at most {_MOST[name]:g}, missing values nan or an empty cell"
+    checks.refuse_entries(values, np.abs(values) > _MOST[name], most)
+    if name == "spread":
+        checks.refuse_entries(values, values < 0.0, f"{name} must not be negative")
+    elif name in _OPTIONAL:
+        checks.refuse_entries(values, values <= 0.0, f"{name} must be above zero [{unit}]")
     return values
 
 
@@ -122,10 +108,7 @@ class MeasuredFriction(Checked, eq=False):
         for name in _OPTIONAL:
             if columns[name] is None:
                 columns[name] = np.full(self.speed.size, np.nan)
-        sizes = {name: values.size for name, values in columns.items()}
-        if len(set(sizes.values())) > 1 or not sizes["speed"]:
-            counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
-            raise InputError(f"columns must have equal lengths, at least 1; got {counts}")
+        checks.same_length(1, **columns)
         self._set(**columns)
 
 
@@ -169,10 +152,8 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
     if absent:
         titles = table.titles or "no titles"
         raise FileError(f"{path}: expected a column named {absent[0]}; got {titles}")
-    try:
+    with about_file(path):
         return MeasuredFriction(**columns, source=str(path), assumed=" ".join(assumed))
-    except InputError as error:
-        raise FileError(f"{path}: {error}") from error
 
 
 def _word(title: str) -> str | None:
@@ -181,8 +162,7 @@ def _word(title: str) -> str | None:
     return next((word for word, names in _WORDS.items() if plain in names), None)
 
 
-_FAR = 30.0
-"""Ratio of measured speeds to that of the case beyond which another unit is likely."""
+_FAR = 30.0  # ratio of measured speeds to that of the case beyond which another unit is likely
 
 
 def speed_doubts(measured: MeasuredFriction, speed: float) -> list[Finding]:
@@ -208,8 +188,8 @@ def _doubt(sentence: str) -> Finding:
     return doubt(sentence, topic=Topic.SOLUTION)
 
 
+# Attribute of a result that shows measured friction: its `friction_doubts`.
 FRICTION_DOUBTS = "friction_doubts"
-"""Attribute of a result that shows measured friction: its `friction_doubts`."""
 
 
 def friction_doubts(measured: MeasuredFriction | None, speed: float) -> list[Finding]:
@@ -257,6 +237,7 @@ class TemperatureProbe:
         return np.asarray(np.zeros(np.shape(speed)) + kelvin)
 
 
+# Columns of a measurement as result files hold them, with unit and meaning.
 MEASURED = {
     "speed": ("m/s", "speed of the measurement"),
     "friction": ("1", "measured friction coefficient"),
@@ -264,7 +245,6 @@ MEASURED = {
     "temperature": ("K", "temperature of the rubber before the contact"),
     "pressure": ("Pa", "nominal pressure"),
 }
-"""Columns of a measurement as result files hold them, with unit and meaning."""
 
 
 def measured_variables(
@@ -294,15 +274,13 @@ def stored_measurement(data: xr.Dataset) -> MeasuredFriction | None:
 class MeasuredSeries(NamedTuple):
     """Measured friction at one temperature and pressure over rising speed [m/s]."""
 
-    state: str
-    """Temperature, and pressure if there are several; empty if unknown."""
-    temperature: float
-    """[K]; NaN if unknown."""
+    state: str  # temperature, and pressure if there are several; empty if unknown
+    temperature: float  # [K]; NaN if unknown
     speed: Array
     friction: Array
     spread: Array
+    # Their places among the points of the measurement, which are in any order.
     rows: NDArray[np.intp]
-    """Their places among the points of the measurement, which are in any order."""
 
     @property
     def label(self) -> str:

@@ -58,8 +58,8 @@ class Progress:
 
 OnTask = Callable[[Progress], None]
 _Solve = Callable[[list[Task]], Generator[Solved, None, None]]
+# Reduces the answer of a task to what is kept in memory.
 Pick = Callable[[xr.Dataset, Task], xr.Dataset]
-"""Reduces the answer of a task to what is kept in memory."""
 
 
 @dataclass(frozen=True)
@@ -198,8 +198,7 @@ def _ignore_interrupts() -> None:
     warnings.simplefilter("ignore", RubberWarning)  # the caller has seen those of its inputs
 
 
-CONNECT_SECONDS = 10
-"""How long to wait for a scheduler to answer."""
+CONNECT_SECONDS = 10  # how long to wait for a scheduler to answer
 
 
 @contextmanager

@@ -25,18 +25,17 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.core.parallel import Stopped
 from gripscale.core.provenance import software
 from gripscale.io import netcdf
+from gripscale.io.folders import make_folder
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-KEY_LENGTH = 32
-"""Hexadecimal digits of a key (128 bits)."""
+KEY_LENGTH = 32  # hexadecimal digits of a key (128 bits)
 
+# Numbers of an array that are written out; of a larger one its bytes are hashed at once.
 MOST_WRITTEN = 10_000
-"""Numbers of an array that are written out; of a larger one its bytes are hashed at once."""
-
+# Key, result and seconds of a task.
 Solved = tuple[str, xr.Dataset, float]
-"""Key, result and seconds of a task."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,8 +113,7 @@ def load_stored(path: Path) -> xr.Dataset | None:
         return None
 
 
-PREDICTIONS = "predictions"
-"""Folder of the finished predictions, in the folder of a result."""
+PREDICTIONS = "predictions"  # folder of the finished predictions, in the folder of a result
 
 
 class Store:
@@ -134,11 +132,7 @@ class Store:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            reason = error.strerror or error
-            raise FileError(f"folder {self.folder} cannot be made: {reason}") from error
+        make_folder(self.folder)
 
     def path(self, key: str) -> Path:
         """Return where the prediction of `key` is, or would be."""

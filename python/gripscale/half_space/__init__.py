@@ -6,11 +6,11 @@ import lazy_loader
 
 _attribute, _, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
+# Names that `gripscale.continuation` holds; scripts may still import them from here.
 _CONTINUATION = {
     *("ContactByCutOff", "ContinuedContact", "contact_by_cut_off"),
     *("FinerMeasurement", "HurstExponent", "OwnFaces"),
 }
-"""Names that `gripscale.continuation` holds; scripts may still import them from here."""
 __all__ = sorted([*__all__, *_CONTINUATION])
 
 

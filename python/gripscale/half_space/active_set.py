@@ -61,41 +61,37 @@ from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
 _Index = NDArray[np.intp]
+# Called with the number of an iteration and of the points that are to change sides.
 OnIteration = Callable[[int, int], None]
-"""Called with the number of an iteration and of the points that are to change sides."""
-
-_REACH = 1
-"""Steps along each axis to the neighbours that the extension uses."""
-FAR = 2.0
-"""Weight of all farther points, over that of a neighbour along an axis."""
+_REACH = 1  # steps along each axis to the neighbours that the extension uses
+FAR = 2.0  # weight of all farther points, over that of a neighbour along an axis
+# Loss angle, median of the waves, above which a line takes the extension across its gaps [rad].
 LOSSY = 0.6
-"""Loss angle, median of the waves, above which a line takes the extension across its gaps [rad]."""
+# Factor of Q r there: it is 3 to 30 times smaller than the error of the pressure (root mean square,
+# against elimination), and ten times more at the ends of the contacts.
 SHORTFALL = 1e3
-"""Factor of Q r there: it is 3 to 30 times smaller than the error of the pressure (root mean
-square, against elimination), and ten times more at the ends of the contacts."""
+# Factor of the tolerances of the first iterations there. What is missing is long: with less
+# accuracy many points outside the contacts join them, and leave again one after the other.
 SHARPER = 0.1
-"""Factor of the tolerances of the first iterations there. What is missing is long: with less
-accuracy many points outside the contacts join them, and leave again one after the other."""
+# Most products of a run of GMRES, doubled after each run that does not reach its target. As many
+# vectors of the points in contact are kept. Very lossy maps need some hundred.
 _SHORTEST, _LONGEST = 60, 240
-"""Most products of a run of GMRES, doubled after each run that does not reach its target. As many
-vectors of the points in contact are kept. Very lossy maps need some hundred."""
+# Least reduction of the residual in one run: single precision does not resolve more.
 REDUCTION = 1e-4
-"""Least reduction of the residual in one run: single precision does not resolve more."""
 RUNS = 5
+# Points in contact up to which the system is eliminated if a run of GMRES does not reach its
+# target. Not before: elimination wakes the threads of BLAS, whose waiting costs more than the
+# iterations.
 FEW = 600
-"""Points in contact up to which the system is eliminated if a run of GMRES does not reach its
-target. Not before: elimination wakes the threads of BLAS, whose waiting costs more than the
-iterations."""
+# Missing pressure over pressure at which the linear system counts as solved.
 CONTACT_TOLERANCE = 1e-6
-"""Missing pressure over pressure at which the linear system counts as solved."""
+# The same on a grid that another one starts from: its contact fraction is reported, too.
 START_TOLERANCE = 1e-4
-"""The same on a grid that another one starts from: its contact fraction is reported, too."""
 LOOSEST = 1e-2
-TIGHTENING = 1e-2
-"""Missing pressure allowed, over the share of points that changed sides last."""
+TIGHTENING = 1e-2  # missing pressure allowed, over the share of points that changed sides last
+# Iterations without fewer wrong points before only the worse half of them may change sides, and
+# before the iteration ends.
 PATIENCE, GIVING_UP = 6, 18
-"""Iterations without fewer wrong points before only the worse half of them may change sides, and
-before the iteration ends."""
 
 
 def _across_gaps(active: Mask) -> scipy.sparse.csr_array:
@@ -155,14 +151,10 @@ def _around_contacts(active: Mask) -> scipy.sparse.csr_array:
 class ClosedGap:
     """Solution of the linear system of the points in contact."""
 
-    pressure: Array
-    """At the points [Pa]."""
-    displacement: Array
-    """Under this pressure, over the whole grid [m], flattened."""
-    missing: float
-    """Missing pressure over the pressure, both root mean square [-]."""
-    products: int
-    """Products with K and S each."""
+    pressure: Array  # at the points [Pa]
+    displacement: Array  # under this pressure, over the whole grid [m], flattened
+    missing: float  # missing pressure over the pressure, both root mean square [-]
+    products: int  # products with K and S each
 
 
 def is_lossy_line(response: Response) -> bool:

@@ -26,15 +26,13 @@ from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.status import Status
+from gripscale.core import Array, ComplexArray, Mask, Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
-_ROUND_OFF = 1e-12
-"""Share of the friction below which the heat of an octave is neglected."""
+_ROUND_OFF = 1e-12  # share of the friction below which the heat of an octave is neglected
 
 
 def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) -> Array:
@@ -51,12 +49,9 @@ def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) 
 class OctaveHeat:
     """Heat lost by the harmonics of one octave of wavelengths."""
 
-    wavenumber: float
-    """In its middle [rad/m]."""
-    friction: float
-    """mu_b [-]."""
-    density: Array
-    """Of the loss on the grid over its mean [-], shape of the grid."""
+    wavenumber: float  # in its middle [rad/m]
+    friction: float  # mu_b [-]
+    density: Array  # of the loss on the grid over its mean [-], shape of the grid
     depth: LossDepth
 
 
@@ -101,10 +96,8 @@ def _forward_field(grid: Grid, half: ComplexArray) -> ComplexArray:
 class GridTemperature:
     """Temperature rise of the rubber over its temperature before the contact [K]."""
 
-    surface: Array
-    """At the surface, shape of the grid."""
-    octave: Array
-    """Where each octave loses its energy, shape (octaves,)."""
+    surface: Array  # at the surface, shape of the grid
+    octave: Array  # where each octave loses its energy, shape (octaves,)
 
 
 def grid_temperature(
@@ -209,8 +202,7 @@ class _ContactEvaluation:
     rubber: Rubber
     conditions: Conditions
     time: float
-    grids: list[GridRecord] = field(default_factory=list, repr=False)
-    """Of all evaluations."""
+    grids: list[GridRecord] = field(default_factory=list, repr=False)  # of all evaluations
 
     def __call__(
         self, x: Array | None, last: GridSequenceResult | None

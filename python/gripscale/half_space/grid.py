@@ -20,9 +20,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.errors import InputError
+from gripscale.core import Array, ComplexArray, InputError, Mask, checks
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST, transmission, upper_envelope
 from gripscale.surface.resampling import fill_gaps
@@ -30,8 +28,7 @@ from gripscale.surface.resampling import fill_gaps
 Single = NDArray[np.float32]
 SingleComplex = NDArray[np.complex64]
 
-DEFAULT_STEPS = 4
-"""Steps of the surface in the smallest wave that is kept by default."""
+DEFAULT_STEPS = 4  # steps of the surface in the smallest wave that is kept by default
 FEWEST_STEPS = 2
 
 
@@ -40,8 +37,7 @@ class Grid:
     """Equal steps along x, the sliding direction, and for a map along y."""
 
     shape: tuple[int, ...]
-    lengths: tuple[float, ...]
-    """Period along each axis [m]."""
+    lengths: tuple[float, ...]  # period along each axis [m]
 
     @property
     def points(self) -> int:
@@ -161,15 +157,13 @@ class PeriodicHeights:
     """Periodic heights of a line or a map on the grid of the measurement."""
 
     grid: Grid
-    origin: tuple[float, ...]
-    """Position of the first point [m]."""
+    origin: tuple[float, ...]  # position of the first point [m]
+    # `scipy.fft.rfftn` of the heights [m] that rubber follows.
     spectrum: ComplexArray = field(repr=False)
-    """`scipy.fft.rfftn` of the heights [m] that rubber follows."""
     measured: Mask = field(repr=False)
-    smallest_wavelength: float
-    """Cut-off: waves of this length are transmitted by half [m]."""
+    smallest_wavelength: float  # cut-off: waves of this length are transmitted by half [m]
+    # Whether nothing is cut off: the cut-off is four steps of a period taken as it stands.
     whole: bool = False
-    """Whether nothing is cut off: the cut-off is four steps of a period taken as it stands."""
 
     def on(self, shape: tuple[int, ...], cut_off: float | None = None) -> Array:
         """Return the heights [m] at the points of another grid, with a cut-off [m]."""
@@ -178,10 +172,6 @@ class PeriodicHeights:
         if not self.whole or shortest > self.smallest_wavelength:
             passed = passed * transmission(self.grid.wavenumber, shortest)
         return resampled(passed, self.grid.shape, shape)
-
-    def measured_on(self, shape: tuple[int, ...]) -> Mask:
-        """Return where the nearest height was measured."""
-        return nearest(self.measured, shape)
 
 
 def surface_axes(surface: Profile | HeightMap) -> list[Array]:

@@ -56,27 +56,22 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.described import Described
+from gripscale.core import Array, ComplexArray, Described, Mask
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, OnIteration, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
 
 POINTS_IN_WAVE = 4
-COARSEST = {1: 128, 2: 32}
-"""Fewest points along each axis, on lines and maps."""
+COARSEST = {1: 128, 2: 32}  # fewest points along each axis, on lines and maps
+# Fractions of the loss angle, solved in turn if the full angle does not settle.
 LOSSES = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0)
-"""Fractions of the loss angle, solved in turn if the full angle does not settle."""
-ERROR_GRIDS = 3
-"""Grids of the same surface from which the errors of the last one are estimated."""
+ERROR_GRIDS = 3  # grids of the same surface from which the errors of the last one are estimated
 _BORDER = (np.pi - 1.0 + np.log(2.0)) / 24.0
+# Uncertainty of the position of a border, on lines and maps [steps].
 _BORDER_ERROR = {1: 0.5, 2: 0.7}
-"""Uncertainty of the position of a border, on lines and maps [steps]."""
-_ERROR_RATIO = 0.4
-"""c, the error after halving the spacing over the change by it."""
-_OPENING = 0.3
-"""s, over the stiffness of the stiffest wave."""
+_ERROR_RATIO = 0.4  # c, the error after halving the spacing over the change by it
+_OPENING = 0.3  # s, over the stiffness of the stiffest wave
 
 
 def friction_from_traction(grid: Grid, pressure: Array, height: Array) -> float:
@@ -150,18 +145,12 @@ def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
         )
     )
     before = same_surface[-2]
-    area += _new_borders(before, last) * abs(last.contact_fraction - before.contact_fraction)
+    # of a map the share of new borders is zero: `border_error` times the points falls there
+    borders = [(grid.border_error * grid.points) ** 2 for grid in (before, last)]
+    new = max(0.0, 1.0 - borders[0] / borders[1]) if borders[1] > 0.0 else 0.0
+    area += new * abs(last.contact_fraction - before.contact_fraction)
     difference = abs(last.friction - last.friction_from_dissipation)
     return math.hypot(area, last.border_error), max(traction, difference + dissipation)
-
-
-def _new_borders(before: GridRecord, last: GridRecord) -> float:
-    """Return the share of the borders of a line that the grid before did not have.
-
-    Of a map it is zero: there, `border_error` times the points falls from grid to grid.
-    """
-    borders = [(grid.border_error * grid.points) ** 2 for grid in (before, last)]
-    return max(0.0, 1.0 - borders[0] / borders[1]) if borders[1] > 0.0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -199,8 +188,7 @@ class LevelContact:
     """The contact on one level."""
 
     level: Level
-    height: Array
-    """[m], of zero mean."""
+    height: Array  # [m], of zero mean
     contact: GridContact
     record: GridRecord
 
@@ -240,13 +228,12 @@ class GridSequence:
     pressure: float
     workers: int
     most_iterations: int
-    start: KnownLevels = field(default_factory=dict)
-    """Contacts with another rubber, to start from."""
+    start: KnownLevels = field(default_factory=dict)  # contacts with another rubber, to start from
     solved: dict[Level, LevelContact] = field(default_factory=dict)
     last: LevelContact | None = None
     on_iteration: OnIteration | None = None
+    # When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s].
     deadline: float = math.inf
-    """When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s]."""
 
     def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before."""

@@ -28,27 +28,22 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile
 from gripscale.surface.profile import profile_list
 
+# Length of the lines the law was measured on, in largest waves; longer waves count as a slope.
 _PIECE = 16.0
-"""Length of the lines the law was measured on, in largest waves; longer waves count as a slope."""
 _TINY = 1e-12
-EXCEEDED = 0.01
-"""Share of a line that is higher than its upper height."""
+EXCEEDED = 0.01  # share of a line that is higher than its upper height
 
 
 class LineUnderLoad(NamedTuple):
     """What the law needs of a line, or of several, and of the load."""
 
-    upper_height: float | Array
-    """t: height that 1 % of the line exceeds over its rms height [-]."""
-    relative_load: float | Array
-    """P: pressure times largest wave over modulus times rms height [-]."""
+    upper_height: float | Array  # t: height that 1 % of the line exceeds over its rms height [-]
+    relative_load: float | Array  # P: pressure times largest wave over modulus times rms height [-]
 
 
 class RatioLaw(NamedTuple):
@@ -57,10 +52,9 @@ class RatioLaw(NamedTuple):
     constant: float
     slope: float
     low_load: float
+    # Standard deviation of ln y about the law at high load, over maps of all families.
     scatter: float
-    """Standard deviation of ln y about the law at high load, over maps of all families."""
-    low_load_scatter: float
-    """What few summits add to it in squares, times sqrt(P)."""
+    low_load_scatter: float  # what few summits add to it in squares, times sqrt(P)
 
     def at(self, line: LineUnderLoad) -> Array:
         """Return the ratio of lines."""
@@ -73,25 +67,22 @@ class RatioLaw(NamedTuple):
 
 
 CONTACT_FRACTION_LAW = RatioLaw(-0.052, -0.176, -0.0189, 0.12, 0.017)
+# Scatter: between that about the law and that of families which a law of the others misses.
 FRICTION_LAW = RatioLaw(-0.392, 0.149, 0.0216, 0.095, 0.023)
-"""Scatter: between that about the law and that of families which a law of the others misses."""
 FULL_CONTACT_FRICTION = 1.11
+# Degrees of freedom of the scatter: eight families less constant and slope. The third number is
+# known from several loads on each surface.
 FREEDOM = 6
-"""Degrees of freedom of the scatter: eight families less constant and slope. The third number is
-known from several loads on each surface."""
-
-
+# What the law misses of the change of the logarithm of both ratios on one surface, over that of the
+# logarithm of the lines' area: rms of 256 pairs of pressures, a factor of three apart.
 LOAD_SENSITIVITY = 0.08
-"""What the law misses of the change of the logarithm of both ratios on one surface, over that of
-the logarithm of the lines' area: rms of 256 pairs of pressures, a factor of three apart."""
 
 
 class SurfaceOverLines(NamedTuple):
     """Ratio of a number of an isotropic surface to that of its lines, and its standard error."""
 
     ratio: Array
-    uncertainty: Array
-    """Of the logarithm [-]."""
+    uncertainty: Array  # of the logarithm [-]
 
 
 def contact_fraction_ratio(line: LineUnderLoad, contact_fraction: ArrayLike) -> SurfaceOverLines:

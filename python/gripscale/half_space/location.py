@@ -18,25 +18,15 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.labels import labelled
+from gripscale.core import Array, Mask, checks, labelled
 from gripscale.half_space.result import RoughContact
 
+# Length of a stretch that shows some stones [m], the least in smallest waves and the most in
+# lengths of the line.
 STRETCH, LEAST_WAVES, MOST_OF_LINE = 4e-3, 20.0, 0.25
-"""Length of a stretch that shows some stones [m], the least in smallest waves and the most in
-lengths of the line."""
-_PIECES = 2**15
-"""Pieces of a trace: 1.2 MB in single precision."""
-FIELD = 256
-"""Most blocks of the field of a map along a side."""
+_PIECES = 2**15  # pieces of a trace: 1.2 MB in single precision
+FIELD = 256  # most blocks of the field of a map along a side
 _SOURCE = "gripscale direct contact"
-
-
-def stretch_length(contact: RoughContact) -> float:
-    """Return the length [m] of a stretch that shows some summits of a contact."""
-    least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)
-    return min(least, MOST_OF_LINE * contact.grid.lengths[0])
 
 
 def strongest_stretches(amount: Array, active: Mask, points: int, count: int) -> list[int]:
@@ -56,7 +46,6 @@ def strongest_stretches(amount: Array, active: Mask, points: int, count: int) ->
 
 
 def _window_sums(amount: Array, points: int) -> Array:
-    """Return the sums over each window of so many points along the first axis."""
     running = np.cumsum(np.insert(amount, 0, 0.0, axis=0), axis=0)
     return np.asarray(running[points:] - running[:-points])
 
@@ -94,7 +83,10 @@ def contact_trace(
         d ln friction / d height [1/m] of each point, shape of the grid.
     """
     x, step = contact.x, contact.grid.spacing[0]
-    length = stretch_length(contact) if stretch is None else checks.positive("stretch", stretch)
+    least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)
+    length = min(least, MOST_OF_LINE * contact.grid.lengths[0])
+    if stretch is not None:
+        length = checks.positive("stretch", stretch)
     points = min(max(round(length / step), 2), x.size)
     by_point = contact.pressure * contact.grid.slope(contact.height)
     moving = contact.speed > 0.0
@@ -167,10 +159,8 @@ def _field(contact: RoughContact, section: float) -> dict[str, xr.Variable]:
     }
 
 
-ROUNDED = 2**10
-"""Pieces of a trace in a result are a multiple of these."""
-PREFIX = "trace_"
-"""Begin of the names and dimensions of traces in a result."""
+ROUNDED = 2**10  # pieces of a trace in a result are a multiple of these
+PREFIX = "trace_"  # begin of the names and dimensions of traces in a result
 
 
 def with_traces(answer: xr.Dataset, traces: Sequence[xr.Dataset]) -> xr.Dataset:

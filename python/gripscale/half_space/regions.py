@@ -19,10 +19,8 @@ from gripscale.core.arrays import Mask
 class Regions:
     """Connected regions of a mask."""
 
-    labels: NDArray[np.intp]
-    """Number of the region of each point, from 1; 0 outside the mask."""
-    percolates: Mask
-    """Whether each region percolates, shape (regions, axes)."""
+    labels: NDArray[np.intp]  # number of the region of each point, from 1; 0 outside the mask
+    percolates: Mask  # whether each region percolates, shape (regions, axes)
 
     def where(self, chosen: Mask) -> Mask:
         """Return the points of the regions that are `chosen`, one truth for each region."""

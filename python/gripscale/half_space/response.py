@@ -29,9 +29,7 @@ from numpy.typing import NDArray
 
 from gripscale._kernel import LineFilter
 from gripscale.conditions.conditions import RubberByScale
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.errors import InputError
+from gripscale.core import Array, ComplexArray, InputError, checks
 from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of
@@ -47,21 +45,16 @@ class HalfSpace:
     """Rubber that slides at a speed, by its response to the harmonics of a surface."""
 
     rubber: Rubber
-    speed: float
-    """[m/s]; zero is the relaxed rubber."""
-    loss: float = 1.0
-    """Factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself."""
-    by_scale: RubberByScale | None = None
-    """The rubber at each scale under conditions."""
-    thickness: float | None = None
-    """Of the rubber on a rigid base [m]; None: a half-space."""
-    layers: Layers | None = None
-    """A stack in place of one rubber; `rubber` is the layer in contact."""
+    speed: float  # [m/s]; zero is the relaxed rubber
+    loss: float = 1.0  # factor of the loss angle at unchanged |M|, 0 to 1; 1 is the rubber itself
+    by_scale: RubberByScale | None = None  # the rubber at each scale under conditions
+    thickness: float | None = None  # of the rubber on a rigid base [m]; None: a half-space
+    layers: Layers | None = None  # A stack in place of one rubber; `rubber` is the layer in contact
+    # E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
+    # of them.
     _of_lines: dict[tuple[float, ...], ComplexArray] = field(
         default_factory=dict, repr=False, compare=False
     )
-    """E* at the wavenumbers of the finest line so far, by its length: coarser lines have the first
-    of them."""
 
     @property
     def rubbers(self) -> list[Rubber]:
@@ -83,21 +76,15 @@ class HalfSpace:
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
-        value = self._modulus_of_waves(grid)
+        if self.layers is not None:
+            value = np.asarray(2.0 / (_without_mean(grid) * self._stack(grid)[0]))
+        else:
+            value = plane_strain_modulus_of(self.young_modulus(grid), self.rubber.bulk_modulus)
+        if self.thickness is not None:
+            value = value / self._thickness_factor(grid)[0]
         if self.loss != 1.0:
             value = np.abs(value) * np.exp(1j * self.loss * np.angle(value))
         return np.where(grid.own_opposite, np.abs(value), value)
-
-    def _modulus_of_waves(self, grid: Grid) -> ComplexArray:
-        """Return M [Pa] of every wave as if none were its own opposite."""
-        if self.layers is not None:
-            number = _without_mean(grid)
-            return np.asarray(2.0 / (number * self._stack(grid)[0]))
-        modulus = self.young_modulus(grid)
-        value = plane_strain_modulus_of(modulus, self.rubber.bulk_modulus)
-        if self.thickness is None:
-            return value
-        return np.asarray(value / self._thickness_factor(grid)[0])
 
     def _thickness_factor(self, grid: Grid) -> tuple[ComplexArray, ComplexArray]:
         """Return K over that of the half-space [-], and the derivative of its logarithm by nu."""
@@ -191,8 +178,8 @@ class Response:
     compliance: ComplexArray = field(repr=False)
     compliance_single: SingleComplex = field(repr=False)
     stiffness: SingleComplex = field(repr=False)
+    # When, on the clock of `time.monotonic`, displacements raise `OutOfTime` [s].
     deadline: float = math.inf
-    """When, on the clock of `time.monotonic`, displacements raise `OutOfTime` [s]."""
 
     @classmethod
     def of(cls, body: HalfSpace, grid: Grid, workers: int, deadline: float = math.inf) -> Response:
@@ -282,11 +269,11 @@ class Response:
         return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
 
 
+# Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8.
 _LAYER_STEP = 1e-4
-"""Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8."""
+# Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single precision,
+# where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit.
 _LEAST, _MOST = 1e-12, 1e15
-"""Limits of pressures [Pa] and lengths [m]. The solver starts and preconditions in single
-precision, where products must stay within 1e-38 to 1e38: a number beyond has the wrong unit."""
 
 
 def half_space(rubber: Rubber | Layers, speed: float, thickness: float | None = None) -> HalfSpace:

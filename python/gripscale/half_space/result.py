@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from dataclasses import fields as fields_of
 from functools import cached_property
@@ -32,12 +32,8 @@ from numpy.typing import ArrayLike, NDArray
 import gripscale
 from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
-from gripscale.core import provenance
-from gripscale.core.arrays import Array, Mask
+from gripscale.core import Array, InputError, Mask, Status, labelled, provenance
 from gripscale.core.described import Described, Pictured
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
 from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, OCTAVE, CutOffExponents, between
 from gripscale.half_space.grid import Grid
@@ -53,38 +49,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def last_octave(grids: Sequence[GridRecord], *, moving: bool) -> CutOffExponents:
-    """Return the exponents of the cut-off from the `grids` of a contact, coarse to fine."""
-    pairs = [
-        (before, last)
-        for before in grids
-        for last in grids
-        if last.cut_off == grids[-1].cut_off
-        and last.points == OCTAVE * before.points
-        and math.isclose(before.cut_off, OCTAVE * last.cut_off)
-    ]
-    if not pairs:
-        return CutOffExponents(math.nan, math.nan, "solved with one cut-off only")
-    before, last = pairs[0]
-    if not (before.settled and last.settled):
-        return NOT_CONVERGED
-    return between(
-        OCTAVE,
-        (before.contact_fraction, last.contact_fraction),
-        (before.friction_from_dissipation, last.friction_from_dissipation),
-        moving=moving,
-    )
-
-
-STEEP = 0.5
-"""Rms slope in the contact beyond which small strain is not a good approximation."""
-
-VERY_STEEP = 1.0
-"""Slope of flanks where neither small strain nor a laser is to be trusted."""
-
+STEEP = 0.5  # rms slope in the contact beyond which small strain is not a good approximation
+VERY_STEEP = 1.0  # slope of flanks where neither small strain nor a laser is to be trusted
 _SOURCE = "gripscale direct contact"
+# Shares of the contact whose pressures a Dataset holds.
 _SHARES = (0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
-"""Shares of the contact whose pressures a Dataset holds."""
 
 _NUMBERS = {
     "contact_fraction": ("1", "real over nominal contact area"),
@@ -100,14 +69,14 @@ _NUMBERS = {
 }
 
 
+# Lower ends of the classes of |dh/dx|; the last has no upper end.
 SLOPES = (0.0, 0.25, 0.5, 1.0, 2.0)
-"""Lower ends of the classes of |dh/dx|; the last has no upper end."""
+# Numbers of a contact with trapped water.
 TRAPPED_WATER = {
     "water_load_share": "share of the load on water",
     "dry_contact_fraction": "contact fraction without water",
     "dry_friction": "friction without water",
 }
-"""Numbers of a contact with trapped water."""
 SHARES_BY_SLOPE = {
     "friction_by_slope": "share of the friction from contact on slopes of the class",
     "load_by_slope": "share of the load carried on slopes of the class",
@@ -340,7 +309,25 @@ class RoughContact(Pictured):
     @property
     def cut_off_exponents(self) -> CutOffExponents:
         """Exponents of the cut-off, from contacts solved with this cut-off and with twice it."""
-        return last_octave(self.grids, moving=self.speed > 0.0)
+        pairs = [
+            (before, last)
+            for before in self.grids
+            for last in self.grids
+            if last.cut_off == self.grids[-1].cut_off
+            and last.points == OCTAVE * before.points
+            and math.isclose(before.cut_off, OCTAVE * last.cut_off)
+        ]
+        if not pairs:
+            return CutOffExponents(math.nan, math.nan, "solved with one cut-off only")
+        before, last = pairs[0]
+        if not (before.settled and last.settled):
+            return NOT_CONVERGED
+        return between(
+            OCTAVE,
+            (before.contact_fraction, last.contact_fraction),
+            (before.friction_from_dissipation, last.friction_from_dissipation),
+            moving=self.speed > 0.0,
+        )
 
     @property
     def slope_in_contact(self) -> float:

@@ -24,16 +24,12 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core import Array, checks
 from gripscale.half_space.result import RoughContact
 
-FEWEST_PIECES = 4
-"""Pieces below which their scatter says nothing."""
-FEWEST_CARRYING = 1.5
-"""The same of pieces that carry."""
-PIECE = 2.0
-"""Length of a piece in largest waves: long enough to make neighbours nearly independent."""
+FEWEST_PIECES = 4  # pieces below which their scatter says nothing
+FEWEST_CARRYING = 1.5  # the same of pieces that carry
+PIECE = 2.0  # length of a piece in largest waves: long enough to make neighbours nearly independent
 
 
 class SamplingError(NamedTuple):
@@ -41,8 +37,7 @@ class SamplingError(NamedTuple):
 
     contact_fraction: float
     friction: float
-    pieces: float
-    """Pieces that carry, from which they are estimated."""
+    pieces: float  # pieces that carry, from which they are estimated
 
 
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
@@ -64,7 +59,6 @@ def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
 
 
 def _by_piece(field: Array, counts: Sequence[int]) -> Array:
-    """Return the sum of a field over each piece."""
     for axis, count in enumerate(counts):
         ends = np.linspace(0, field.shape[axis], count, endpoint=False).astype(int)
         field = np.add.reduceat(field, ends, axis=axis)
@@ -105,7 +99,6 @@ def _carrying(load: Array) -> float:
 
 
 def _counts(contact: RoughContact, piece: float) -> list[int]:
-    """Return the number of pieces along each axis."""
     return [max(1, int(side / piece * (1.0 + 1e-9))) for side in contact.grid.lengths]
 
 

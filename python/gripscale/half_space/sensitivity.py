@@ -53,10 +53,8 @@ import scipy
 import xarray as xr
 
 from gripscale.conditions.conditions import state_by_scale
-from gripscale.core import checks, provenance
+from gripscale.core import InputError, RubberWarning, checks, labelled, provenance
 from gripscale.core.arrays import Array, ComplexArray, Quantity
-from gripscale.core.errors import InputError, RubberWarning
-from gripscale.core.labels import labelled
 from gripscale.half_space.active_set import START_TOLERANCE, close_gap, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import grid_contact_fraction
@@ -65,21 +63,19 @@ from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.theory.layers import Layers
 
+# Residual of the adjoint system over its right side, both as pressures. Five digits of the
+# derivatives would do; the two frictions' identities hold to this.
 ADJOINT_TOLERANCE = 1e-8
-"""Residual of the adjoint system over its right side, both as pressures. Five digits of the
-derivatives would do; the two frictions' identities hold to this."""
-SPEED_STEP = 1e-3
-"""Change of ln v in the differences of the moduli, which are smooth."""
-TEMPERATURE_STEP = 0.01
-"""[K], likewise."""
+SPEED_STEP = 1e-3  # change of ln v in the differences of the moduli, which are smooth
+TEMPERATURE_STEP = 0.01  # [K], likewise
+# Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
+# too few points of a grid in and out of contact.
 AREA_STEP = 0.2
-"""Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
-too few points of a grid in and out of contact."""
 MOST_ITERATIONS = 60
 _SOURCE = "gripscale adjoint of the direct contact"
 
+# By the end of their name in a Dataset.
 Derivatives = Mapping[str, Array | float]
-"""By the end of their name in a Dataset."""
 
 TEXTS = {
     "ln_storage": ("1", "E' in the band"),
@@ -98,16 +94,11 @@ class FrictionAdjoint:
     """Multipliers of a solved contact, and the derivatives of its friction from dissipation."""
 
     contact: RoughContact = field(repr=False)
-    layer: int
-    """Of a stack, whose moduli count."""
-    multiplier: Array = field(repr=False)
-    """N p_0 lam, shape of the grid [Pa / m]."""
-    rigid: float
-    """N p_0 nu [-]."""
-    products: int
-    """Products with the transposed response."""
-    residual: float
-    """Of the linear system, relative [-]."""
+    layer: int  # of a stack, whose moduli count
+    multiplier: Array = field(repr=False)  # N p_0 lam, shape of the grid [Pa / m]
+    rigid: float  # N p_0 nu [-]
+    products: int  # products with the transposed response
+    residual: float  # of the linear system, relative [-]
 
     @classmethod
     def of(cls, contact: RoughContact, layer: int = 0) -> FrictionAdjoint:
@@ -282,10 +273,8 @@ def scalar_changes(contact: RoughContact, layer: int = 0) -> dict[str, ComplexAr
 class Bands:
     """Bands of the frequencies that the waves of a contact excite, equal in their logarithm."""
 
-    edge: Array
-    """[rad/s], rising, shape (bands + 1,)."""
-    of_wave: Array
-    """Band of each wave, over the half spectrum; the first also holds waves at rest."""
+    edge: Array  # [rad/s], rising, shape (bands + 1,)
+    of_wave: Array  # band of each wave, over the half spectrum; the first also holds waves at rest
 
     @classmethod
     def of(cls, contact: RoughContact, per_decade: int, shift: float = 1.0) -> Bands:

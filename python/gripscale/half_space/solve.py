@@ -17,14 +17,10 @@ from functools import partial
 import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale, water_film
-from gripscale.core import checks
-from gripscale.core.arrays import Quantity
-from gripscale.core.errors import ConvergenceError, InputError
-from gripscale.core.parallel import worker_count
-from gripscale.core.status import Status
+from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
-from gripscale.half_space.grid import PeriodicHeights, periodic_heights
+from gripscale.half_space.grid import PeriodicHeights, nearest, periodic_heights
 from gripscale.half_space.grid_sequence import (
     ERROR_GRIDS,
     GridRecord,
@@ -48,8 +44,7 @@ from gripscale.theory.half_plane import GridContact
 from gripscale.theory.layers import Layers
 
 FEWEST_IN_CONTACT = 8
-LEAST_FRICTION = 0.01
-"""Friction below which its error is relative to this value."""
+LEAST_FRICTION = 0.01  # friction below which its error is relative to this value
 
 LARGEST_MISMATCH = 0.5
 """Largest difference of the two frictions of a grid without a tolerance, relative to the larger.
@@ -61,8 +56,7 @@ and negative in 42; friction from dissipation is off by 10 % (median). In the ot
 from traction is off by 4 % (median; 33 % or less in nine of ten), and negative in 6, by 0.0005 at
 most.
 """
-NEGLIGIBLE_FRICTION = 1e-3
-"""Friction below which their difference is relative to this value."""
+NEGLIGIBLE_FRICTION = 1e-3  # friction below which their difference is relative to this value
 
 
 def solve_rough_contact(
@@ -262,8 +256,7 @@ def _rubber_before(body: HalfSpace, conditions: Conditions) -> HalfSpace:
     return replace(body, rubber=layers.rubbers[0], layers=layers)
 
 
-LEAST_TOLERANCE = 1e-5
-"""Relative error that is still above the rounding of single precision."""
+LEAST_TOLERANCE = 1e-5  # relative error that is still above the rounding of single precision
 
 
 def relative_tolerance(name: str, value: float | None) -> float | None:
@@ -362,7 +355,7 @@ def _solve_sequence(
         height=height,
         pressure=np.maximum(contact.pressure, 0.0),
         gap=np.where(contact.active, 0.0, np.maximum(contact.gap, 0.0)),
-        measured=heights.measured_on(solved.level.grid.shape),
+        measured=nearest(heights.measured, solved.level.grid.shape),
         grids=grids,
         by_scale=body.by_scale,
         thickness=body.thickness,

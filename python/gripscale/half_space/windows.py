@@ -15,10 +15,7 @@ from typing import Any, TypeVar
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Described, InputError, Quantity, checks
 from gripscale.half_space.grid import joined, surface_axes
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
@@ -29,8 +26,7 @@ from gripscale.surface.low_pass import upper_envelope
 from gripscale.surface.profile import FEWEST_POINTS
 from gripscale.surface.resampling import fill_gaps
 
-LEAST_VALID = 0.5
-"""Share of heights that a window must have."""
+LEAST_VALID = 0.5  # share of heights that a window must have
 _POINTS_IN_WAVE = 8
 _MOST_POINTS = 10_000_000
 

@@ -5,31 +5,31 @@ from __future__ import annotations
 import re
 from collections import Counter
 
+# A line with its number in the file, from 1.
 Line = tuple[int, str]
-"""A line with its number in the file, from 1."""
 
+# What marks a missing value, in small letters; Excel has words for errors in each language.
 MISSING = {
     *("", "nan", "na", "n/a", "n.a.", "n. a.", "n.v.", "n.b.", "k.a.", "k. a.", "null", "none"),
     *("-", "--", "---", "–", "—", "bad", "#nv", "#n/v", "#na", "#n/a"),
     *("#num!", "#zahl!", "#value!", "#wert!", "#div/0!", "#ref!", "#bezug!", "#name?", "#null!"),
 }
-"""What marks a missing value, in small letters; Excel has words for errors in each language."""
 MISSING_MARKS = "an empty cell, NaN, n/a, - or #NV marks a missing value"
 NUMBER = re.compile(r"[+-]?(\d++(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA_NUMBER = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
+# The whole part of a number with parted thousands, before its decimal sign.
 _THOUSANDS = re.compile(
     r"(?<![\d.,])(?:\d{1,3}(?:\.\d{3})+(?=,\d+(?![\d.,]))|\d{1,3}(?:,\d{3})+(?=\.\d+(?![\d.,])))"
 )
-"""The whole part of a number with parted thousands, before its decimal sign."""
+# Separators of the cells of a line, in the order they are tried; None: blanks.
 SEPARATORS = ("\t", ";", ",", None)
-"""Separators of the cells of a line, in the order they are tried; None: blanks."""
+# How a comment begins.
 COMMENT = ("#", "%", "!")
-"""How a comment begins."""
 _NO_COMMENT = re.compile(
     rf"({'|'.join(re.escape(word) for word in MISSING if word.startswith('#'))})\s*[\t;, ]", re.I
 )
+# A comment behind the cells of a row.
 _REMARK = re.compile(r"(?<=[\d\s;,])#\s.*")
-"""A comment behind the cells of a row."""
 _MINUS = str.maketrans("\u2212", "-")
 
 
@@ -80,8 +80,7 @@ def cells_of(line: str, separator: str | None) -> list[str]:
     return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
 
 
-_ROWS_WITH_WORDS = 2
-"""Fewest rows by which a column of words is known."""
+_ROWS_WITH_WORDS = 2  # fewest rows by which a column of words is known
 
 
 def without_words(lines: list[Line]) -> list[Line]:

@@ -104,10 +104,9 @@ def _reading(path: str | Path) -> Iterator[Path]:
         raise FileError(f"{path} cannot be read as a netCDF result: {reason}") from error
 
 
+# What a file of HDF5, and so of netCDF-4, begins with; one of netCDF-3 begins with CDF.
 _HDF5 = b"\x89HDF\r\n\x1a\n"
-"""What a file of HDF5, and so of netCDF-4, begins with; one of netCDF-3 begins with CDF."""
-_FULL = 2**16
-"""Free bytes below which a disk counts as full: a file system keeps some for itself."""
+_FULL = 2**16  # free bytes below which a disk counts as full: a file system keeps some for itself
 
 
 def write_whole(path: str | Path, write: Callable[[Path], object]) -> Path:

@@ -23,8 +23,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Described, InputError
 from gripscale.io.netcdf import write_whole
 
 if TYPE_CHECKING:
@@ -33,16 +32,12 @@ if TYPE_CHECKING:
 
 Flags = Sequence[bool] | NDArray[np.bool_]
 
-NONE = "–"
-"""A missing number on a page."""
-LEAST_WORDS = 22
-"""Characters a column of words is wrapped to before a table is divided."""
+NONE = "–"  # a missing number on a page
+LEAST_WORDS = 22  # characters a column of words is wrapped to before a table is divided
+# Characters beyond which the heading of numbers, or of words, is wrapped in the terminal.
 WIDEST_HEAD, WIDEST_WORDS = 14, 30
-"""Characters beyond which the heading of numbers, or of words, is wrapped in the terminal."""
-LONGEST_HEAD = 40
-"""Characters up to which a narrow page may break a heading between any two words."""
-_NARROW = 4
-"""Columns of a table that fits beside a figure."""
+LONGEST_HEAD = 40  # characters up to which a narrow page may break a heading between any two words
+_NARROW = 4  # columns of a table that fits beside a figure
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -319,7 +314,6 @@ class Table(Described):
         return len(self.columns) <= _NARROW and not any(column.as_words for column in self.columns)
 
     def __html__(self) -> str:
-        """Return the table as HTML, all texts escaped."""
         caption = html.escape(self.caption)
         groups = [(g, len(list(c))) for g, c in itertools.groupby(c.group for c in self.columns)]
         above = "".join(

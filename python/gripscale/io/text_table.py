@@ -31,12 +31,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core import Array, FileError, InputError, checks, spelled, unstated, using_extra
 from gripscale.core.checks import MOST, short_repr, shortened, whole
-from gripscale.core.errors import FileError, InputError, using_extra
-from gripscale.core.units import spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.cells import (
     COMMA_NUMBER,
     COMMENT,
@@ -107,15 +103,8 @@ def _sheet_lines(path: Path, sheet: str | int | None, header: int | None) -> lis
     if sheet is None:
         full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
         if len(full) > 1:
-            raise InputError(
-                Words(
-                    f"{path}: ",
-                    CaseKey("sheet"),
-                    f" must be given, because {len(full)} sheets hold rows of numbers "
-                    f"({', '.join(full)})",
-                ),
-                missing="sheet",
-            )
+            hold = f"{len(full)} sheets hold rows of numbers ({', '.join(full)})"
+            raise unstated(f"{path}: ", "sheet", f" must be given, because {hold}")
         return sheets[full[0]] if full else next(iter(sheets.values()))
     if isinstance(sheet, str):
         return sheets[checks.one_of(f"{path}: sheet", sheet, sheets)]
@@ -128,11 +117,11 @@ def _cell_text(value: object) -> str:
     return "" if value is None else " ".join(str(value).split())
 
 
+# Binary files that are mistaken for text, by their first bytes.
 _BINARY = {
     b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
     b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
 }
-"""Binary files that are mistaken for text, by their first bytes."""
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
@@ -140,8 +129,7 @@ _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
 _TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
 _DIGITS = frozenset("0123456789+-.")
-_PLAIN = _DIGITS | {"e", "E"}
-"""Letters of numbers that numpy reads all at once."""
+_PLAIN = _DIGITS | {"e", "E"}  # letters of numbers that numpy reads all at once
 
 
 @dataclass(frozen=True)
@@ -350,8 +338,8 @@ def file_paths(path: object) -> list[Path]:
     return [file_path(path)]
 
 
+# Files that show measured values instead of holding them, by their first bytes.
 PICTURES = {b"\x89PNG": "PNG", b"\xff\xd8\xff": "JPEG", b"GIF8": "GIF", b"%PDF": "PDF"}
-"""Files that show measured values instead of holding them, by their first bytes."""
 
 
 def read_bytes(path: Path) -> bytes:

@@ -19,8 +19,8 @@ _MOST_ROWS = 1_048_576
 MOST_LETTERS = 32_767
 MOST_TITLE = 31
 CUT = " ... [cut: longer than a cell of a workbook; csv has all of it]"
+# What XML 1.0 cannot hold.
 _NO_LETTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-"""What XML 1.0 cannot hold."""
 _WIDEST = 40
 
 

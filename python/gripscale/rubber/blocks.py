@@ -17,9 +17,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import CaseKey, FileError, InputError, Words, unstated
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io import text_table
 from gripscale.io.cells import Line, is_row, parse_number
 from gripscale.io.text_table import ColumnTitle, TextTable
@@ -31,8 +30,7 @@ from gripscale.rubber.side_by_side import split_blocks
 _ROWS = "rows of frequency, storage and loss"
 KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
-_STEP = re.compile(r"\[\w+\]")
-"""Begins a step of a file of TRIOS: [step]."""
+_STEP = re.compile(r"\[\w+\]")  # begins a step of a file of TRIOS: [step]
 _REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
 
 
@@ -41,8 +39,7 @@ class Block:
     """A table with what the lines above it state."""
 
     table: TextTable
-    temperature: float | None = None
-    """Temperature [K]."""
+    temperature: float | None = None  # temperature [K]
     shift: WLF | None = None
 
     def states_temperature(self, layout: FileLayout) -> bool:
@@ -71,21 +68,15 @@ def read_blocks(
     chosen = {name: blocks for name, blocks in with_moduli.items() if blocks} or sheets
     every = [block for blocks in chosen.values() for block in blocks]
     if len(chosen) > 1 and not all(block.states_temperature(layout) for block in every):
-        raise InputError(
-            Words(
-                f"{path}: ",
-                CaseKey("sheet"),
-                f" must be given, because {len(chosen)} sheets hold numbers ({', '.join(chosen)})",
-            ),
-            missing="sheet",
-        )
+        hold = f"{len(chosen)} sheets hold numbers ({', '.join(chosen)})"
+        raise unstated(f"{path}: ", "sheet", f" must be given, because {hold}")
     if not every:
         raise FileError(f"{path}: expected {_ROWS}; got none in {len(every_sheet)} sheets")
     return every
 
 
+# A temperature in the name of a file or a sheet.
 _NAMED = re.compile(r"(?<![A-Za-z\d])([-+]?\d+(?:[.,]\d+)?)\s?(?:°|deg)?\s?(C|K|F)(?![A-Za-z\d])")
-"""A temperature in the name of a file or a sheet."""
 
 
 def _blocks_in(
@@ -182,15 +173,8 @@ def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float
         value, written = statement
         chosen = unit if spelled(written, "temperature") is None else written
         if chosen is None:
-            raise InputError(
-                Words(
-                    f"{path}, line {number}: ",
-                    CaseKey("temperature_unit"),
-                    f" must be given ({listed('temperature')}), because the line states none with "
-                    f"{value}",
-                ),
-                missing="temperature_unit",
-            )
+            why = f"({listed('temperature')}), because the line states none with {value}"
+            raise unstated(f"{path}, line {number}: ", "temperature_unit", f" must be given {why}")
         degrees = float(value.replace(",", "."))
         return float(quantity_in_si(degrees, chosen, "temperature", "temperature_unit"))
     return None

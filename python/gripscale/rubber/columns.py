@@ -34,12 +34,9 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core import Array, CaseKey, FileError, InputError, Mask, Words, checks, unstated
 from gripscale.core.checks import Checked, checked, shortened
-from gripscale.core.errors import FileError, InputError
-from gripscale.core.units import listed, parse_quantity, quantity_in_si, spelled
-from gripscale.core.wording import CaseKey, Words
+from gripscale.core.units import listed, quantity_in_si, spelled
 from gripscale.io.text_table import TextTable
 
 _TITLES = {
@@ -58,10 +55,10 @@ _KINDS = {
     "E": re.compile(r"(?<![A-Za-z])E(?![A-Za-z])|(?i:young|tensile)"),
     "G": re.compile(r"(?<![A-Za-z])G(?![A-Za-z])|(?i:shear|schub)"),
 }
+# A logarithm in a line of titles: log f, log10(E'/Pa).
 _LOGARITHM = re.compile(
     r"(?<![A-Za-z])(log10|log|lg|ln)(?:[\s_]*\(([^()]*)\)|[\s_]+(?=[A-Za-zωγ|]))", re.IGNORECASE
 )
-"""A logarithm in a line of titles: log f, log10(E'/Pa)."""
 _RAISED = re.compile(r"(log10|ln)_(.*)")
 _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 _OTHER = re.compile(
@@ -69,11 +66,12 @@ _OTHER = re.compile(
 )
 _COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
 _PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
+# Letters that are a title by themselves: t is a time and F a force.
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
-"""Letters that are a title by themselves: t is a time and F a force."""
 _BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
 _PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
+# A line that states the temperature or the frequency of the rows below it.
 _STATED = {
     kind: re.compile(
         rf"(?:^|[\s;,#%!])(?:{names})\.?\s*"
@@ -86,7 +84,6 @@ _STATED = {
         "frequency": r"f|Freq\w*|Test freq\w*|Messfreq\w*|Prüffreq\w*",
     }.items()
 }
-"""A line that states the temperature or the frequency of the rows below it."""
 
 
 def quantity(name: str) -> str | None:
@@ -158,8 +155,8 @@ def stated_in(line: str, kind: str = "temperature") -> tuple[str, str | None] | 
 
 
 MODULI = ("storage", "loss", "loss_factor", "magnitude", "phase")
-RATIOS = ("loss_factor", "phase")
-"""Those without the unit of a modulus."""
+RATIOS = ("loss_factor", "phase")  # those without the unit of a modulus
+# Two that state the modulus, the first choice first.
 PAIRS = (
     ("storage", "loss"),
     ("storage", "loss_factor"),
@@ -169,11 +166,8 @@ PAIRS = (
     ("loss", "phase"),
     ("magnitude", "phase"),
 )
-"""Two that state the modulus, the first choice first."""
 _QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
-THREE = ("frequency", "storage", "loss")
-"""What three columns without names hold, in this order."""
-
+THREE = ("frequency", "storage", "loss")  # what three columns without names hold, in this order
 _Columns = Mapping[str, str | int] | Sequence[str | int]
 
 
@@ -181,14 +175,6 @@ def unit_name(name: str, value: object) -> str:
     """Return a unit; raise `InputError` unless it is one of the kind `name` says: `strain_unit`."""
     quantity_in_si(1.0, value, name.removesuffix("_unit"), name)  # type: ignore[arg-type]
     return str(value)
-
-
-def _hertz(name: str, value: object) -> float:
-    """Return a frequency [Hz] above zero; raise `InputError` for what is none."""
-    try:
-        return checks.positive(name, parse_quantity(value, "frequency"), unit="Hz")
-    except ValueError as error:
-        raise InputError(f"{name} = {checks.short_repr(value)}: {error}") from error
 
 
 class FileLayout(Checked):
@@ -215,7 +201,7 @@ class FileLayout(Checked):
     """Unit of the strains: 1 or %."""
     modulus: str | None = checked(checks.one_of, choices=("E", "G"), default=None)
     """Whether they are Young's (E) or shear moduli (G, multiplied by 3)."""
-    frequency: Any = checked(_hertz, default=None)
+    frequency: Any = checked(checks.positive, unit="Hz", default=None)
     """Frequency of all rows, as of a temperature ramp, where no column holds it: a number [Hz], or
     a text such as "10 Hz"."""
     titles_first: bool = False
@@ -264,15 +250,9 @@ class FileLayout(Checked):
         titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
         hits = [at for at in titled if at not in taken]
         if not all(_agree(table, hits[0], at) for at in hits[1:]):
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey("columns"),
-                    f" must say which is the {wanted}, because {len(hits)} titles mean it "
-                    f"({shortened(', '.join(table.columns[at].name for at in hits))})",
-                ),
-                missing="columns",
-            )
+            titles = shortened(", ".join(table.columns[at].name for at in hits))
+            why = f"because {len(hits)} titles mean it ({titles})"
+            raise unstated(f"{table.path}: ", "columns", f" must say which is the {wanted}, {why}")
         return hits[0] if hits else None
 
     def needed_column(self, table: TextTable, wanted: str) -> int:
@@ -298,14 +278,8 @@ class FileLayout(Checked):
         if unit is None:
             what = "no unit" if header is None else checks.short_repr(header)
             title = shortened(table.columns[column].name) or f"column {column + 1}"
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey(f"{kind}_unit"),
-                    f" must be given ({listed(kind)}), because the header states {what} of {title}",
-                ),
-                missing=f"{kind}_unit",
-            )
+            why = f"({listed(kind)}), because the header states {what} of {title}"
+            raise unstated(f"{table.path}: ", f"{kind}_unit", f" must be given {why}")
         return unit
 
     def modulus_of(self, table: TextTable, chosen: Sequence[int]) -> str:
@@ -315,15 +289,8 @@ class FileLayout(Checked):
         if self.modulus is not None and not (self.titles_first and title):
             return self.modulus
         if title is None:
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey("modulus"),
-                    " must be given (E for Young's or G for shear), because the header does not "
-                    "tell",
-                ),
-                missing="modulus",
-            )
+            why = "(E for Young's or G for shear), because the header does not tell"
+            raise unstated(f"{table.path}: ", "modulus", f" must be given {why}")
         return title
 
 
@@ -364,17 +331,13 @@ def missing(table: TextTable, what: str) -> InputError:
     if any(_COMPLIANCE.match(name) for name in table.names):
         header += "; compliances are not read, moduli are"
     words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
-    if what != "frequency":
-        return InputError(words, missing="columns")
-    ramp = any(quantity(name) == "temperature" for name in table.names)
-    if not ramp:
+    if what != "frequency" or all(quantity(name) != "temperature" for name in table.names):
         return InputError(words, missing="columns")
     key, where = CaseKey("frequency"), "; where all rows are at the same frequency, "
     return InputError(Words(words, where, key, ' states it, such as "10 Hz"'), missing="frequency")
 
 
-_ROUNDING = 0.05
-"""Relative error of a loss factor by the digits it is printed with."""
+_ROUNDING = 0.05  # relative error of a loss factor by the digits it is printed with
 
 
 def young_moduli(table: TextTable, layout: FileLayout) -> tuple[Array, Array]:
@@ -441,12 +404,12 @@ def _refuse_swapped(table: TextTable, quotient: Array, printed: Array) -> None:
         )
 
 
+# Frequencies that differ by less than this share, temperatures by less than this [K], are one.
 _SAME_FREQUENCY, _SAME_TEMPERATURE = 0.01, 0.2
-"""Frequencies that differ by less than this share, temperatures by less than this [K], are one."""
+# Ratio of moduli measured twice that no scatter explains: ten per cent of noise makes 1.3.
 APART = 1.5
-"""Ratio of moduli measured twice that no scatter explains: ten per cent of noise makes 1.3."""
+# Conditions measured over those that come again, at most, in a table that repeats itself.
 _OFTEN = 3
-"""Conditions measured over those that come again, at most, in a table that repeats itself."""
 
 
 def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:

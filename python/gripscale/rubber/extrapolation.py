@@ -14,15 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core.arrays import Array
-from gripscale.core.errors import ExtrapolationError
+from gripscale.core import Array, ExtrapolationError
 from gripscale.rubber.material import Rubber
 
-CHOICES = ("warn", "refuse")
-"""What may be done about excitation beyond the band."""
+CHOICES = ("warn", "refuse")  # what may be done about excitation beyond the band
 
+# Share of the friction that does not count: of a spectrum, which has no end, both tails.
 WORTH_SAYING = 0.01
-"""Share of the friction that does not count: of a spectrum, which has no end, both tails."""
 
 
 @dataclass(frozen=True)
@@ -52,10 +50,9 @@ class Extrapolation:
         return f"up to {' and '.join(ends)} the measured band" if ends else ""
 
 
+# Of a rubber without a measured band, or a model that does not tell.
 UNKNOWN = Extrapolation(math.nan, math.nan, math.nan)
-"""Of a rubber without a measured band, or a model that does not tell."""
-NOTHING_BEYOND = Extrapolation(0.0, 0.0, 0.0)
-"""At rest, where nothing is excited."""
+NOTHING_BEYOND = Extrapolation(0.0, 0.0, 0.0)  # at rest, where nothing is excited
 
 
 def of_frequencies(rubber: Rubber, omega: ArrayLike) -> Extrapolation:

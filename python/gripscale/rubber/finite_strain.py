@@ -34,10 +34,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, Checked, FileError, InputError, Vector, checked, checks
 from gripscale.core.units import quantity_in_si
 from gripscale.io.text_table import file_path, read_sheets
 from gripscale.rubber.material import Rubber
@@ -60,9 +57,8 @@ class UniaxialTest(Checked, eq=False):
         super().__post_init__()
         name = self.name
         checks.same_length(2, time=self.time, stretch=self.stretch, stress=self.stress)
-        if (np.diff(self.time) <= 0.0).any():
-            at = int(np.argmax(np.diff(self.time) <= 0.0)) + 1
-            raise InputError(f"{name}: time must rise [s]; got {self.time[at]:g} at index {at}")
+        falls = np.diff(self.time, prepend=-np.inf) <= 0.0
+        checks.refuse_entries(self.time, falls, f"{name}: time must rise [s]")
         if self.peak <= 0.0:
             raise InputError(f"{name}: stress must be above zero [Pa] somewhere")
 
@@ -96,8 +92,8 @@ def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> Uniaxial
         raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
 
 
+# Below this x = dt/tau the weights are taken from their power series (next term below 1e-14).
 _SMALL_STEP = 1e-3
-"""Below this x = dt/tau the weights are taken from their power series (next term below 1e-14)."""
 
 
 def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Array:
@@ -175,22 +171,15 @@ def network_states(
 
 def _times(time: ArrayLike, driven: Array, name: str) -> Array:
     elapsed = checks.vector("time", time, unit="s")
-    if len(elapsed) != len(driven) or len(elapsed) == 0:
-        raise InputError(
-            f"time and {name} must have the same length, at least 1; "
-            f"got {len(elapsed)} and {len(driven)}"
-        )
-    falls = np.diff(elapsed) < 0.0
-    if falls.any():
-        at = int(np.argmax(falls)) + 1
-        raise InputError(f"time must not fall [s]; got {elapsed[at]:g} at index {at}")
+    checks.same_length(1, time=elapsed, **{name: driven})
+    falls = np.diff(elapsed, prepend=-np.inf) < 0.0
+    checks.refuse_entries(elapsed, falls, "time must not fall [s]")
     return elapsed
 
 
+# The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one.
 _LEAST_EQUILIBRIUM = 1e-3
-"""The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one."""
-_FASTEST = 0.01
-"""Shortest fitted relaxation time, as a share of the shortest test."""
+_FASTEST = 0.01  # shortest fitted relaxation time, as a share of the shortest test
 
 
 @dataclass(frozen=True)
@@ -266,11 +255,7 @@ def fit_finite_strain(
     if band is None:
         durations = [test.duration for test in tests]
         band = _FASTEST * min(durations), max(durations)
-    ends = checks.positive_vector("band", band, unit="s")
-    if len(ends) != 2 or ends[0] >= ends[1]:
-        got = checks.short_repr(band)
-        raise InputError(f"band [s] must be a shorter and a longer time; got {got}")
-    low, high = ends
+    low, high = checks.interval("band", band, unit="s")
     times = np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
     # Nominal stress per unit of each coefficient; the squares of a test sum to its rms_error^2.
     columns, measured = [], []

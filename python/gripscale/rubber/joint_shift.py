@@ -28,12 +28,10 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array
 from gripscale.rubber.sweeps import Sweeps
 
-_DEGREE, _SPACING = 3, 0.5
-"""Of the splines, and of their knots [decades]."""
-_PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))
-"""Tried, over the mean trust of a row."""
+_DEGREE, _SPACING = 3, 0.5  # of the splines, and of their knots [decades]
+_PENALTIES = tuple(10.0 ** np.arange(-2.0, 5.0))  # tried, over the mean trust of a row
+# Penalty of the coefficients themselves, over the same: one row determines no straight line.
 _RIDGE = 1e-9
-"""Penalty of the coefficients themselves, over the same: one row determines no straight line."""
 
 
 def splines(x: Array) -> tuple[Array, Array, Array]:
@@ -86,27 +84,24 @@ def smooth(
     return best
 
 
+# What a shift may rest on. E''/E' is no third measurement beside E' and E''; alone it is what the
+# shape of a specimen, a factor of both, does not change.
 SHIFTED_MODULI = {
     "both": ("storage", "loss"),
     "storage": ("storage",),
     "loss": ("loss",),
     "loss_factor": ("loss_factor",),
 }
-"""What a shift may rest on. E''/E' is no third measurement beside E' and E''; alone it is what the
-shape of a specimen, a factor of both, does not change."""
 
 
 @dataclass(frozen=True)
 class Rows:
     """Decades of frequency and of each modulus, and the sweep of each row from the coldest."""
 
-    x: Array
-    """log10 of the frequency over 1 Hz, shape (rows,)."""
-    y: Array
-    """log10 of the moduli over 1 Pa, or of the loss factor, shape (moduli, rows)."""
+    x: Array  # log10 of the frequency over 1 Hz, shape (rows,)
+    y: Array  # log10 of the moduli over 1 Pa, or of the loss factor, shape (moduli, rows)
     sweep: NDArray[np.intp]
-    lifts: Array
-    """1 for each modulus that b_T multiplies, 0 for the loss factor, shape (moduli,)."""
+    lifts: Array  # 1 for each modulus that b_T multiplies, 0 for the loss factor, shape (moduli,)
 
     @property
     def sweeps(self) -> int:
@@ -129,29 +124,24 @@ def sweep_rows(sweeps: Sweeps, moduli: str) -> Rows:
     return Rows(x, y, np.repeat(np.arange(len(counts)), counts), lifts)
 
 
-_AT = 1e-9
-"""Distance from a limit that is rounding [decades]."""
+_AT = 1e-9  # distance from a limit that is rounding [decades]
 _MOST_ITERATIONS = 60
-_FREE_PENALTY = 8
-"""Iterations after which the weight of the penalty stays as it is."""
-_LARGEST_STEP = 0.3
-"""By which a shift may change in an iteration [decades]."""
+_FREE_PENALTY = 8  # iterations after which the weight of the penalty stays as it is
+_LARGEST_STEP = 0.3  # by which a shift may change in an iteration [decades]
 _CONVERGED = 1e-4
-_FAR = 2.0
-"""Standard deviations from which a row counts less."""
+_FAR = 2.0  # standard deviations from which a row counts less
+# Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a
+# pair that does not meet moved sweeps of exact moduli by decades.
 _LEAST_SCATTER = 2e-3
-"""Of a modulus [decades]: half a per cent, below which no laboratory repeats itself. With 1e-5 a
-pair that does not meet moved sweeps of exact moduli by decades."""
 _MOST_CORRELATED = 0.9
+# How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01.
 _LIFT = 0.02
-"""How far log10 b_T of neighbours is expected apart [decades]; entropy and density say 0.01."""
-_LEAST_SHARE = 0.1
-"""Least overlap of neighbours, over the shorter of them."""
+_LEAST_SHARE = 0.1  # least overlap of neighbours, over the shorter of them
+# Standard error of a step that is a bound [decades]: sweeps of 2.7 decades with a true step of 2.8
+# were taken 0.4 decades too near.
 _BOUND_ERROR = 1.0
-"""Standard error of a step that is a bound [decades]: sweeps of 2.7 decades with a true step of 2.8
-were taken 0.4 decades too near."""
+# Weight that keeps a shift no row determines from being infinite: its error is 1000 decades.
 _SOFT = 1e-6
-"""Weight that keeps a shift no row determines from being infinite: its error is 1000 decades."""
 
 
 @dataclass(frozen=True)
@@ -160,10 +150,9 @@ class Joint:
 
     log_a: Array
     log_b: Array
-    covariance: Array
-    """Of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held."""
+    covariance: Array  # of log_a, then log_b, shape (2 sweeps, 2 sweeps); zero for what is held
+    # Of each modulus about the curve, in the median sweep [decades], shape (moduli,).
     scatter: Array
-    """Of each modulus about the curve, in the median sweep [decades], shape (moduli,)."""
 
 
 def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
@@ -216,10 +205,8 @@ class _Step:
     step: Array
     covariance: Array
     residual: Array
-    freedoms: Array
-    """Of each spline, and a share of the shifts, shape (moduli,)."""
-    weights: tuple[float, ...]
-    """Of the penalty of each spline over the scatter."""
+    freedoms: Array  # of each spline, and a share of the shifts, shape (moduli,)
+    weights: tuple[float, ...]  # of the penalty of each spline over the scatter
 
 
 def _gauss_newton_step(

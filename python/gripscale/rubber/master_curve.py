@@ -10,11 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import gripscale
-from gripscale.core import checks
+from gripscale.core import Checked, FileError, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, Quantity, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Pictured, shown_value
-from gripscale.core.errors import FileError
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
@@ -36,10 +33,10 @@ class MasterCurve(Checked, Pictured, eq=False):
         array([0.2 , 0.25])
     """
 
-    frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    frequency: Vector = checked(checks.positive_vector, unit="Hz", repr=False)
     """Frequency [Hz], shape (rows,), in any order; it may repeat where sets overlap."""
-    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    storage: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    loss: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
     """Temperature the curve holds for [K]."""
@@ -105,8 +102,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     return write_text(file_path(path), "\n".join([*lines, ""]))
 
 
-_ONE_TEMPERATURE = 2.0
-"""Temperatures this close [K] are one: no oven is quieter."""
+_ONE_TEMPERATURE = 2.0  # temperatures this close [K] are one: no oven is quieter
 _TWO_ROWS = "expected at least 2 rows of frequency, storage and loss"
 
 

@@ -34,10 +34,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import gripscale
-from gripscale.core import checks
+from gripscale.core import Checked, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Pictured, shown_value
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS, celsius, readable
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict, shown_state
@@ -46,8 +44,7 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEn
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_BLOCK = 256
-"""Frequencies at once: with a hundred terms an array of them is 200 kB."""
+_BLOCK = 256  # frequencies at once: with a hundred terms an array of them is 200 kB
 
 
 def storage_shape(phase: Array) -> Array:
@@ -82,16 +79,16 @@ def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
     return total.reshape(np.shape(omega))
 
 
+# What files hold of admissible series.
 _SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
-"""What files hold of admissible series."""
 
 
 class AdmissibleSeries(Checked, eq=False):
     """Prony series on common relaxation times, one a row; `InputError` for other shapes."""
 
-    relaxation_times: Vector = checked(checks.in_limits, unit="s", repr=False)
+    relaxation_times: Vector = checked(checks.positive_vector, unit="s", repr=False)
     """Relaxation times [s], shape (terms,), above zero."""
-    equilibrium_moduli: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    equilibrium_moduli: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E_inf of each series [Pa], shape (series,), above zero."""
     moduli: Vector = field(repr=False)
     """Moduli of their Maxwell elements [Pa], shape (series, terms), not negative."""
@@ -147,10 +144,9 @@ class AdmissibleSeries(Checked, eq=False):
         raise InputError(f"admissible must have the keys {keys}; got {checks.short_repr(values)}")
 
 
-BULK_MODULUS = 2e9
-"""That of rubber [Pa], where none was measured."""
+BULK_MODULUS = 2e9  # that of rubber [Pa], where none was measured
+# Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small.
 LEAST_POISSON_RATIO = 0.3
-"""Below this no rubber and hardly a glassy polymer is: the bulk modulus is too small."""
 
 
 def poisson_ratio(bulk: ArrayLike, modulus: ArrayLike) -> Array:
@@ -190,18 +186,6 @@ def warn_once(sentence: str) -> None:
     warnings.warn(sentence, RubberWarning, stacklevel=4)
 
 
-def check_modulus(name: str, value: float) -> float:
-    """Return one modulus [Pa] within reason."""
-    return float(checks.in_limits(name, [checks.number(name, value, unit="Pa")], unit="Pa")[0])
-
-
-def check_strain_energy(name: str, value: StrainEnergy) -> StrainEnergy:
-    """Return `value`; raise `InputError` if it is something else."""
-    if isinstance(value, StrainEnergy):
-        return value
-    raise InputError(f"{name} must be a StrainEnergy, such as Yeoh; got {checks.short_repr(value)}")
-
-
 class Rubber(Checked, Pictured, eq=False):
     """Generalized Maxwell solid with constant bulk modulus.
 
@@ -214,20 +198,20 @@ class Rubber(Checked, Pictured, eq=False):
         array(15000000.+10000000.j)
     """
 
-    equilibrium_modulus: float = checked(check_modulus)
+    equilibrium_modulus: float = checked(checks.positive, unit="Pa")
     """Young's modulus after infinite time, E_inf = 3 G_inf [Pa], above zero."""
-    moduli: Vector = checked(checks.in_limits, unit="Pa", default=(), repr=False)
+    moduli: Vector = checked(checks.positive_vector, unit="Pa", default=(), repr=False)
     """Young's moduli of the Maxwell elements, E_i = 3 G_i [Pa], shape (terms,). Empty: elastic."""
-    relaxation_times: Vector = checked(checks.in_limits, unit="s", default=(), repr=False)
+    relaxation_times: Vector = checked(checks.positive_vector, unit="s", default=(), repr=False)
     """Their relaxation times [s], shape (terms,), above zero."""
-    bulk_modulus: float = checked(check_modulus, default=BULK_MODULUS)
+    bulk_modulus: float = checked(checks.positive, unit="Pa", default=BULK_MODULUS)
     """Bulk modulus [Pa]; more than 2/9 of E_inf + sum E_i, so that Poisson's ratio is positive."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     """What the rubber is and where its numbers come from."""
     valid_band: tuple[float, float] | None = checked(checks.interval, unit="rad/s", default=None)
     """Lowest and highest angular frequency the numbers rest on [rad/s]."""
-    strain_energy: StrainEnergy = checked(check_strain_energy, default=NeoHookean())
+    strain_energy: StrainEnergy = checked(checks.instance, kind=StrainEnergy, default=NeoHookean())
     """Strain energy of the permanent network at finite strain."""
     admissible: AdmissibleSeries | None = checked(
         checks.instance, kind=AdmissibleSeries, default=None, repr=False
@@ -453,8 +437,7 @@ class Rubber(Checked, Pictured, eq=False):
         return np.asarray((frequency < low) | (frequency > high))
 
 
-BEYOND = 100.0
-"""How far beyond the data uncertainty is stated: a factor of frequency, two decades."""
+BEYOND = 100.0  # how far beyond the data uncertainty is stated: a factor of frequency, two decades
 _CHANGE = 1.25
 
 
@@ -462,10 +445,8 @@ _CHANGE = 1.25
 class End:
     """One end of what is known of a rubber."""
 
-    modulus: float
-    """Storage modulus [Pa]: of the plateau, or at the last frequency measured."""
-    plateau: bool
-    """Whether it is the relaxed, or the glassy, modulus."""
+    modulus: float  # storage modulus [Pa]: of the plateau, or at the last frequency measured
+    plateau: bool  # whether it is the relaxed, or the glassy, modulus
 
 
 def slow_end(rubber: Rubber) -> End:
@@ -492,9 +473,9 @@ def _end(rubber: Rubber, limit: float, side: int) -> End:
     return End(limit if plateau else last, plateau)
 
 
+# Mean pressure over relaxation modulus that is let through: far beyond, no contact is partial; at
+# slopes near one, three is full.
 MOST_PRESSURE = 10.0
-"""Mean pressure over relaxation modulus that is let through: far beyond, no contact is partial; at
-slopes near one, three is full."""
 
 
 def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> None:
@@ -516,8 +497,7 @@ def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> N
     )
 
 
-_SAME = 0.5
-"""Temperatures that differ by less are one [K]: 20 °C and 293 K."""
+_SAME = 0.5  # temperatures that differ by less are one [K]: 20 °C and 293 K
 
 
 def temperature_doubts(rubbers: Mapping[str, Rubber]) -> tuple[str, ...]:

@@ -45,16 +45,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
+from gripscale.core import Array, Mask, checks
 from gripscale.rubber.material import loss_shape, storage_shape
 
+# E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must.
 _LEAST_EQUILIBRIUM = 1e-3
-"""E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must."""
+# Weight of the limit on E_inf + sum E_i: kept to 1e-5 of it against rows of weight one.
 _LIMIT_WEIGHT = 300.0
-"""Weight of the limit on E_inf + sum E_i: kept to 1e-5 of it against rows of weight one."""
+# Decades between relaxation times beyond the band, where the data resolve no more.
 _LEAST_SPACING = 0.5
-"""Decades between relaxation times beyond the band, where the data resolve no more."""
 _FEWEST_FOR_SLOPE = 5
 
 
@@ -98,8 +97,7 @@ class Prior:
 
     smoothing: float
     shrinkage: float
-    largest_modulus: float
-    """Upper limit of E_inf + sum E_i [Pa]."""
+    largest_modulus: float  # upper limit of E_inf + sum E_i [Pa]
     storage_weight: float = 1.0
     loss_weight: float = 1.0
 
@@ -251,22 +249,16 @@ def choose_terms(
 
 _NEIGHBOURS = 8
 _PASSES = 10
-LEAST_SCATTER = 0.02
-"""Scatter below this (2 %, a good laboratory) is not believed."""
+LEAST_SCATTER = 0.02  # scatter below this (2 %, a good laboratory) is not believed
 _FEWEST_ROWS = _NEIGHBOURS + 3
 
 
 @dataclass(frozen=True)
 class Screening:
-    """Which rows are kept, and how far each is from its neighbours."""
+    """Which rows are kept, and how the data scatter."""
 
     kept: Mask
-    storage_deviation: Array
-    """Log deviation of E' from the local trend [-], shape (rows,)."""
-    loss_deviation: Array
-    """The same of E''."""
-    storage_scatter: float
-    """Robust relative scatter of E' about its local trend [-]."""
+    storage_scatter: float  # robust relative scatter of E' about its local trend [-]
     loss_scatter: float
 
     @property
@@ -294,7 +286,7 @@ def screen_outliers(curve: Curve, times: Array, prior: Prior, threshold: float) 
         if len(kept) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
             break
         kept = new
-    return Screening(kept, raw[0], raw[1], _spread(raw[0][kept]), _spread(raw[1][kept]))
+    return Screening(kept, *(_spread(deviation[kept]) for deviation in raw))
 
 
 def _deviation(position: Array, value: Array, kept: Mask) -> Array:

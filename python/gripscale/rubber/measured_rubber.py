@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
+from gripscale.core import Finding, InputError
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.prony_report import PronyFit
@@ -21,16 +20,11 @@ class MeasuredRubber:
 
     rubber: Rubber
     source: str
-    master: MasterCurve | None = None
-    """The master curve that the Prony series was fitted to."""
-    fit: PronyFit | None = None
-    """The report on that fit."""
-    sweeps: Sweeps | None = None
-    """Sweeps at several temperatures that make the master curve."""
-    superposition: Superposition | None = None
-    """How these sweeps meet."""
-    note: str = ""
-    """What was assumed when its file was read, as a sentence; empty if nothing was."""
+    master: MasterCurve | None = None  # the master curve that the Prony series was fitted to
+    fit: PronyFit | None = None  # the report on that fit
+    sweeps: Sweeps | None = None  # sweeps at several temperatures that make the master curve
+    superposition: Superposition | None = None  # how these sweeps meet
+    note: str = ""  # what was assumed when its file was read, as a sentence; empty if nothing was
 
     @property
     def doubts(self) -> tuple[Finding, ...]:

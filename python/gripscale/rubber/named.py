@@ -7,9 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import ComplexArray, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core import ComplexArray, InputError, Quantity, checks
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.prony import fit_prony_report

@@ -26,9 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core import Array, InputError, Quantity, RubberWarning, checks
 from gripscale.rubber import material, maxwell_fit
 from gripscale.rubber import prony_report as report
 from gripscale.rubber.master_curve import MasterCurve
@@ -36,18 +34,14 @@ from gripscale.rubber.material import BULK_MODULUS, AdmissibleSeries, Rubber
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
 from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
 
-_RISE = 9.0
-"""Allowed rise of the sum of squares in units of the scatter."""
+_RISE = 9.0  # allowed rise of the sum of squares in units of the scatter
 EXTREME_SMOOTHING = 1.0
-_PER_DECADE = 2.0
-"""Relaxation times per decade: E'' of equal elements then ripples by 0.04 %."""
+_PER_DECADE = 2.0  # relaxation times per decade: E'' of equal elements then ripples by 0.04 %
 _MOST_TERMS = 80
-_INSIDE = 2.0
-"""Decades between the frequencies within the band at which extremes are sought."""
+_INSIDE = 2.0  # decades between the frequencies within the band at which extremes are sought
 _HEAVY = 1e3
 _FIRST_STEP, _LARGEST_STEP, _HALVINGS = 0.02, 12.0, 6
-_LEAST_SHARE = 1e-4
-"""Share of the smallest measured E'' below which a modulus counts as nothing."""
+_LEAST_SHARE = 1e-4  # share of the smallest measured E'' below which a modulus counts as nothing
 _DIGITS = 6
 
 
@@ -126,7 +120,6 @@ def _furthest(
 
 
 def _rounded(values: Array) -> Array:
-    """Return values to six digits."""
     with np.errstate(divide="ignore"):
         digit = 10.0 ** (np.floor(np.log10(np.where(values > 0.0, values, 1.0))) - _DIGITS + 1)
     return np.asarray(np.round(values / digit) * digit)
@@ -134,16 +127,13 @@ def _rounded(values: Array) -> Array:
 
 _FEWEST_ROWS = 4
 _SMOOTHING = 0.1
-_SHRINKAGE = 10.0
-"""Weight of slow relaxations beyond the data over that of the smoothing."""
+_SHRINKAGE = 10.0  # weight of slow relaxations beyond the data over that of the smoothing
 DECADES_BEYOND, _MOST_DECADES = 2.0, 20.0
 _MOST_WEIGHT = 1e6
+# Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it.
 _GLASS = 1.38
-"""Largest modulus of the series over the bulk modulus: Poisson's ratio 0.3, as glasses have it."""
-_OVER_MEASURED = 1.5
-"""The same over the largest measured E', where that is more."""
-_STIFFEST = 4.4
-"""The same of any series: Poisson's ratio is zero at 9/2."""
+_OVER_MEASURED = 1.5  # the same over the largest measured E', where that is more
+_STIFFEST = 4.4  # the same of any series: Poisson's ratio is zero at 9/2
 
 
 def fit_prony(master: MasterCurve, **options: Any) -> Rubber:
@@ -220,7 +210,7 @@ def fit_prony_report(
     beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
-    bulk = material.check_modulus("bulk_modulus", bulk_modulus)
+    bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
     swapped = report.swapped_moduli(master)
     if swapped.certain and not likely_reading(master, swapped):
         raise InputError(str(swapped))

@@ -26,19 +26,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from gripscale.core.arrays import Array
-from gripscale.core.described import Described
-from gripscale.core.finding import Finding, Topic, doubt
+from gripscale.core import Array, CaseKey, Described, Finding, Topic, doubt
 from gripscale.core.units import UNITS
-from gripscale.core.wording import CaseKey
 from gripscale.rubber import maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
 from gripscale.rubber.maxwell_fit import Candidate, Curve, Prior, Screening
 
 _WINDOW = 9
-_ALLOWED = 1.5
-"""Local mean over scatter that is believed: four and a half times its own scatter."""
+_ALLOWED = 1.5  # local mean over scatter that is believed: four and a half times its own scatter
 END_ROWS = 5
 
 
@@ -85,27 +81,22 @@ def local_misfits(
 
 
 _CERTAIN, _CERTAIN_RATIO = 0.5, 3.0
+# Misfit as the curves are, and its ratio to that of the swapped ones. Measured and synthetic
+# rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; swapped, they
+# have 0.37 to 2.6, those with a loss factor of one all over less.
 _LIKELY, _LIKELY_RATIO = 0.25, 2.0
-"""Misfit as the curves are, and its ratio to that of the swapped ones. Measured and synthetic
-rubbers with ten per cent of noise and loss factors up to 2.7 have at most 0.16; swapped, they
-have 0.37 to 2.6, those with a loss factor of one all over less."""
-_WORST = 3.0
-"""Log error of a row that counts, at most: a modulus of zero has no logarithm."""
+_WORST = 3.0  # log error of a row that counts, at most: a modulus of zero has no logarithm
 _TIMES_PER_DECADE, _MOST_TIMES = 2.0, 60
-_BEYOND = 2.0
-"""Decades of relaxation times beyond both ends: all that a band can tell of."""
-_OVER_MEASURED = 100.0
-"""Limit of the sum of all moduli over the largest measured: none in practice."""
+_BEYOND = 2.0  # decades of relaxation times beyond both ends: all that a band can tell of
+_OVER_MEASURED = 100.0  # limit of the sum of all moduli over the largest measured: none in practice
 
 
 @dataclass(frozen=True)
 class SwappedModuli:
     """Root mean square log misfit [-] of the best series to E' and E''."""
 
-    as_given: float
-    """To the moduli as they are."""
-    swapped: float
-    """To the moduli the other way round."""
+    as_given: float  # to the moduli as they are
+    swapped: float  # to the moduli the other way round
 
     @property
     def certain(self) -> bool:
@@ -146,14 +137,13 @@ def misfit(curve: Curve) -> float:
         return root_mean_square(np.clip(np.log(spectrum.ratios(curve)), -_WORST, _WORST))
 
 
+# Root mean square log misfit [-] above which a curve is in doubt; the most that rubbers have.
 _NO_SOLID, _SOLID = 0.35, 0.16
-"""Root mean square log misfit [-] above which a curve is in doubt; the most that rubbers have."""
+# Misfit of a reading over that of exchanged moduli, below which it is the likelier cause.
 _BETTER = 0.5
-"""Misfit of a reading over that of exchanged moduli, below which it is the likelier cause."""
-_SCATTER = 0.3
-"""Relative scatter of E' about its neighbours that no measurement of one rubber has."""
+_SCATTER = 0.3  # relative scatter of E' about its neighbours that no measurement of one rubber has
+# Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa.
 _SOFTEST, _STIFFEST = 1e4, 2e10
-"""Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa."""
 
 
 def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[Finding]:
@@ -269,10 +259,6 @@ class PronyFit(Described):
     """Numbers of terms tried and their cross-validation error; empty if the number was given."""
     outlier_frequency: Array
     """Frequencies of the rows left out [Hz]."""
-    outlier_storage_deviation: Array = field(repr=False)
-    """Their log deviation in E' from the local trend [-]."""
-    outlier_loss_deviation: Array = field(repr=False)
-    """The same in E''."""
     rms_storage: float
     """Root mean square of E'_fit/E' - 1 [-]."""
     rms_loss: float
@@ -345,8 +331,6 @@ def report_prony(
         terms=len(rubber.moduli),
         candidates=candidates,
         outlier_frequency=master.frequency[left_out],
-        outlier_storage_deviation=screening.storage_deviation[left_out],
-        outlier_loss_deviation=screening.loss_deviation[left_out],
         rms_storage=root_mean_square(errors[0]),
         rms_loss=root_mean_square(errors[1]),
         rms_loss_factor=root_mean_square(loss_factor_error),

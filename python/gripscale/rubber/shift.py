@@ -29,24 +29,17 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Vector, checked, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
 
-_MOST = 100.0
-"""Largest log10 a_T that is a factor and no mistake: WLF has a pole."""
+_MOST = 100.0  # largest log10 a_T that is a factor and no mistake: WLF has a pole
 
+# Temperatures this little beyond a range [K] are within it: printed numbers are rounded.
 EDGE = 1e-6
-"""Temperatures this little beyond a range [K] are within it: printed numbers are rounded."""
-
-GAS_CONSTANT = 8.314462618
-"""R [J/(mol K)]."""
+GAS_CONSTANT = 8.314462618  # R [J/(mol K)]
+# Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there.
 _FROM_POLE = 1e-3
-"""Distance from the pole of WLF at which it ends, over c2: log a_T is a thousand c1 there."""
-_COLDEST, _HOTTEST = 1.0, 1e4
-"""Ends of what a law is asked for [K]."""
+_COLDEST, _HOTTEST = 1.0, 1e4  # ends of what a law is asked for [K]
 
 
 class Shift(Checked, ABC, eq=False):
@@ -131,12 +124,7 @@ class Shift(Checked, ABC, eq=False):
         return np.asarray(10.0 ** self.log_b(temperature, reference_temperature))
 
     def _in_limits(self, temperature: ArrayLike) -> Array:
-        try:
-            kelvin = np.asarray(temperature, dtype=float)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise InputError(
-                f"temperature must be finite numbers [K]; got {checks.short_repr(temperature)}"
-            ) from error
+        kelvin = checks.real("temperature", temperature, unit="K")
         low, high = self.limits
         bad = ~((kelvin >= low - EDGE) & (kelvin <= high + EDGE))
         if bad.any():
@@ -261,8 +249,7 @@ def arrhenius(activation_energy: float, temperature: Array) -> Array:
 def standard_errors(name: str, value: ArrayLike) -> Array:
     """Return standard errors, NaN where unknown; raise `InputError` if one is negative."""
     errors = checks.vector(name, value, missing=True)
-    if (errors < 0.0).any():
-        raise InputError(f"{name} must not be negative; got {np.nanmin(errors):g}")
+    checks.refuse_entries(errors, errors < 0.0, f"{name} must not be negative")
     return errors
 
 
@@ -273,7 +260,7 @@ class ShiftTable(Shift, eq=False):
     there is none.
     """
 
-    temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    temperature: Vector = checked(checks.positive_vector, unit="K", repr=False)
     """In any order [K], shape (rows,), no two alike."""
     horizontal: Vector = checked(checks.vector, repr=False)
     """log10 a_T [-], shape (rows,); what counts is the difference of two."""
@@ -319,13 +306,6 @@ class ShiftTable(Shift, eq=False):
     def limits(self) -> tuple[float, float]:
         """The lowest and the highest temperature of the table [K]."""
         return float(self.temperature[0]), float(self.temperature[-1])
-
-    def horizontal_error_at(self, temperature: ArrayLike) -> Array:
-        """Return the standard error of log10 a_T [-] at `temperature` [K], same shape.
-
-        Straight lines between those of the table; `InputError` beyond it.
-        """
-        return np.interp(self._in_limits(temperature), self.temperature, self.horizontal_error)
 
     def bound(self, reference_temperature: float) -> Self:
         """Return the table as it is: its factors need no reference temperature."""

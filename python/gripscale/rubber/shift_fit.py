@@ -1,14 +1,8 @@
-"""Formulas fitted to shift tables, with standard errors.
-
-    WLF        log10 a_T = -c1 (T - T_0) / (c2 + T - T_0)
-    Arrhenius  log10 a_T = H / (R ln 10) (1/T - 1/T_0)
+"""The formulas of `gripscale.rubber.shift` fitted to shift tables, with standard errors.
 
 Rows count by their standard errors, but none as more certain than a hundredth of a decade. Where
 the formula misses the rows by more than their errors, the errors of its constants grow in
 proportion.
-Sources: M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701,
-doi:10.1021/ja01619a008; J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 11.
-
 Shift tables are CSV files, to be looked at, edited and given back:
 
     # reference temperature (C): 20
@@ -26,18 +20,14 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, FileError, InputError, about_file, checks
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path, read_table, read_text
 from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
 
-_LEAST_ERROR = 0.01
-"""Standard error of log10 a_T below which none is believed [decades]."""
-_SECOND = 51.6
-"""Universal c2 of WLF [K], to begin with."""
+_LEAST_ERROR = 0.01  # standard error of log10 a_T below which none is believed [decades]
+_SECOND = 51.6  # universal c2 of WLF [K], to begin with
 
 
 @dataclass(frozen=True)
@@ -192,8 +182,7 @@ def _errors(matrix: Array, residual: Array) -> list[float]:
 
 _TITLES = "temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T"
 _REFERENCE = re.compile(r"^\s*[#%!].*reference temperature \((\w)\):\s*([-+.\deE]+)", re.MULTILINE)
-_DECIMALS = 6
-"""Of a temperature in degrees Celsius: 20.1, not 20.100000000000023."""
+_DECIMALS = 6  # of a temperature in degrees Celsius: 20.1, not 20.100000000000023
 
 
 def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
@@ -263,10 +252,8 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
                 f"{file}: expected a number as reference temperature; got {match[2]}"
             ) from error
     errors = columns.get("log_a_error"), columns.get("log_b_error")
-    try:
+    with about_file(file, InputError):
         return ShiftTable(kelvin, columns["log_a"], errors[0], vertical, errors[1], reference)
-    except InputError as error:
-        raise InputError(f"{file}: {error}") from error
 
 
 def _meaning(name: str) -> str | None:

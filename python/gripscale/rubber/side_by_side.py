@@ -22,24 +22,19 @@ _MARK = re.compile(
     r"(?P<unit>(?:°|deg\.?)?\s?[CF]|K|[kM]?Hz)\s*[)\]]?(?![A-Za-z/])"
 )
 _UNIT = re.compile(r"[\[(/]\s*(°?[CFK])\b")
+# Separators of cells that may be empty, as those of a line with one mark for each block are.
 _SEPARATORS = ("\t", ";", ",")
-"""Separators of cells that may be empty, as those of a line with one mark for each block are."""
-_MOST_TITLES = 4
-"""Lines above the rows that may hold titles, units and marks."""
-_FEWEST_COLUMNS = 4
-"""Two blocks of two moduli."""
+_MOST_TITLES = 4  # lines above the rows that may hold titles, units and marks
+_FEWEST_COLUMNS = 4  # two blocks of two moduli
 
 
 @dataclass(frozen=True)
 class _Column:
     """What the lines above the rows say of a column."""
 
-    name: str
-    """Its title without its mark."""
-    others: list[str]
-    """The cells above it without title and mark, such as its unit; a line each."""
-    mark: str
-    """A line that states the temperature or the frequency, or empty."""
+    name: str  # its title without its mark
+    others: list[str]  # the cells above it without title and mark, such as its unit; a line each
+    mark: str  # a line that states the temperature or the frequency, or empty
 
 
 def split_blocks(lines: list[Line]) -> list[list[Line]]:

@@ -36,11 +36,8 @@ from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Quantity, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import FileError, InputError
-from gripscale.core.wording import CaseKey, Words
+from gripscale.core import Array, Checked, Mask, Quantity, Vector, checked, checks
+from gripscale.core.errors import FileError, InputError, unstated
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import MODULI, RATIOS, FileLayout, young_moduli
@@ -52,20 +49,17 @@ DEFORMATIONS = ("tension", "shear")
 UNIAXIAL_OF_SHEAR = 1.0 / np.sqrt(3.0)
 
 _SMOOTHING, KEEPING = 0.03, 0.02
-_LEAST = 1.0 / 3.0
-"""Smallest multiplier of E_inf over f."""
+_LEAST = 1.0 / 3.0  # smallest multiplier of E_inf over f
 
 
 @dataclass(frozen=True)
 class SofteningFactors:
     """Factors of both moduli at some strains, arrays of one shape."""
 
-    storage: Array
-    """f(e), of E' [-]."""
-    loss: Array
-    """g(e), of E'' [-]."""
+    storage: Array  # f(e), of E' [-]
+    loss: Array  # g(e), of E'' [-]
+    # Where the strain (or the temperature) lies beyond what was measured, the ends held.
     outside: Mask
-    """Where the strain (or the temperature) lies beyond what was measured, the ends held."""
 
 
 @runtime_checkable
@@ -91,10 +85,8 @@ class SoftenedSeries:
     """A rubber with both moduli softened where it is excited."""
 
     rubber: Rubber
+    # Largest relative difference from f E' and g E'' at the lowest frequency asked for [-].
     misfit: float
-    """Largest relative difference from f E' and g E'' at the lowest frequency asked for [-]."""
-    misfit_of_all: float
-    """The same at all frequencies asked for [-]."""
 
 
 def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> SoftenedSeries:
@@ -107,7 +99,7 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
     f, g = checks.positive("storage", storage), checks.positive("loss", loss)
     at = checks.positive_vector("omega", omega, unit="rad/s") if np.size(omega) else np.empty(0)
     if f == g or at.size == 0 or rubber.moduli.size == 0:
-        return SoftenedSeries(_multiplied(rubber, np.full(rubber.moduli.size + 1, f)), 0.0, 0.0)
+        return SoftenedSeries(_multiplied(rubber, np.full(rubber.moduli.size + 1, f)), 0.0)
     from scipy.optimize import nnls  # half a second, which reading a case does not pay
 
     at = np.sort(at)
@@ -128,11 +120,10 @@ def softened(rubber: Rubber, storage: float, loss: float, omega: ArrayLike) -> S
     least = np.zeros(count)
     least[0] = _LEAST * f
     multiplier = nnls(system, right - system @ least)[0] + least
-    misfit = np.abs(rows @ multiplier - 1.0).reshape(2, -1)
+    misfit = np.abs(rows @ multiplier - 1.0).reshape(2, -1)[:, 0]
     in_order = np.empty(count)
     in_order[0], in_order[1 + slowest_first] = multiplier[0], multiplier[1:]
-    softer = _multiplied(rubber, in_order)
-    return SoftenedSeries(softer, float(misfit[:, 0].max()), float(misfit.max()))
+    return SoftenedSeries(_multiplied(rubber, in_order), float(misfit.max()))
 
 
 def _multiplied(rubber: Rubber, multiplier: Array) -> Rubber:
@@ -304,8 +295,7 @@ _DOUBLE = re.compile(
     r"peak[\s-]*(to[\s-]*)?peak|p\s?-\s?p\b|pk-pk|double|dsa\b|doppel|spitze", re.I
 )
 _SINGLE = re.compile(r"single|ssa\b|0\s?-\s?p|zero[\s-]*to[\s-]*peak|einfach", re.I)
-_ONE_FREQUENCY = 0.02
-"""Share by which frequencies of one sweep may differ."""
+_ONE_FREQUENCY = 0.02  # share by which frequencies of one sweep may differ
 
 
 class StrainSweep(Checked, eq=False):
@@ -315,10 +305,10 @@ class StrainSweep(Checked, eq=False):
     lengths differ.
     """
 
-    strain: Vector = checked(checks.in_limits, repr=False)
+    strain: Vector = checked(checks.positive_vector, repr=False)
     """Single amplitude of strain [-], shape (rows,), above zero."""
-    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    storage: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    loss: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     deformation: str = checked(checks.one_of, choices=("uniaxial", "shear"))
     """What the strain is: of length (uniaxial), or shear."""
@@ -416,21 +406,14 @@ def read_strain_sweep(
 
 
 def _single_amplitude(table: TextTable, layout: FileLayout, amplitude: str | None) -> Array:
-    """Return the single amplitude of strain [-]."""
     title = table.columns[layout.needed_column(table, "strain")].name
     if amplitude is None:
         patterns = {"peak-to-peak": _DOUBLE, "single": _SINGLE}
         meanings = [word for word, pattern in patterns.items() if pattern.search(title)]
         if len(meanings) != 1:
-            raise InputError(
-                Words(
-                    f"{table.path}: ",
-                    CaseKey("amplitude"),
-                    " must be given (single or peak-to-peak), because the title "
-                    f"{title or 'of the strain'} does not tell",
-                ),
-                missing="amplitude",
-            )
+            why = f"because the title {title or 'of the strain'} does not tell"
+            words = f" must be given (single or peak-to-peak), {why}"
+            raise unstated(f"{table.path}: ", "amplitude", words)
         amplitude = meanings[0]
     size = AMPLITUDES[checks.one_of("amplitude", amplitude, AMPLITUDES)]
     return size * layout.read(table, "strain")

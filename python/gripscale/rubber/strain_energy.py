@@ -19,18 +19,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-
-
-def modulus_share(name: str, value: float) -> float:
-    """Return a share of a shear modulus [-]; raise `InputError` unless it is from 0 to 1."""
-    result = checks.number(name, value)
-    if not 0.0 <= result <= 1.0:
-        raise InputError(f"{name} must be from 0 to 1; got {result:g}")
-    return result
+from gripscale.core import Array, Checked, checked, checks
 
 
 class StrainEnergy(Checked, ABC):
@@ -107,7 +96,7 @@ class MooneyRivlin(StrainEnergy):
     doi:10.1098/rsta.1948.0024.
     """
 
-    share: float = checked(modulus_share)
+    share: float = checked(checks.share)
     """Share s of the second invariant in the shear modulus, 0 to 1 [-]."""
 
     kind: ClassVar[str] = "mooney_rivlin"
@@ -157,7 +146,7 @@ class Isihara(StrainEnergy):
     Tatibana, J. Chem. Phys. 19 (1951) 1508.
     """
 
-    share: float = checked(modulus_share)
+    share: float = checked(checks.share)
     """Share s of the second invariant in the shear modulus, 0 to 1 [-]."""
     second: float = checked(checks.number)
     """Coefficient c2 of (I1 - 3)^2 over G/2 [-]."""

@@ -21,28 +21,20 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, CaseKey, Described, InputError, Quantity, Words, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
-from gripscale.core.wording import CaseKey, Words
 from gripscale.rubber.joint_shift import SHIFTED_MODULI, Rows, align, sweep_rows
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.shift import Shift, ShiftTable
 from gripscale.rubber.sweeps import Sweeps
 
-_STEP = 0.02
-"""Steps of the shifts that are tried [decades]."""
-_BACK = 0.5
-"""How far a colder sweep may seem to be faster [decades]: by scatter on a plateau."""
-_LEAST_SHARE = 0.1
-"""Least overlap that is tried, over the shorter of the two sweeps."""
-_LEAST_NOISE = 2e-3
-"""Scatter of a modulus about lines between its rows [decades], at least."""
+_STEP = 0.02  # steps of the shifts that are tried [decades]
+_BACK = 0.5  # how far a colder sweep may seem to be faster [decades]: by scatter on a plateau
+_LEAST_SHARE = 0.1  # least overlap that is tried, over the shorter of the two sweeps
+_LEAST_NOISE = 2e-3  # scatter of a modulus about lines between its rows [decades], at least
 
+# x of shape (rows,) rising, y of shape (moduli, rows).
 _Points = tuple[Array, Array]
-"""x of shape (rows,) rising, y of shape (moduli, rows)."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -121,12 +113,10 @@ def _distance(cold: _Points, warm: _Points, noise: Array, lifts: Array) -> tuple
     return best
 
 
-_LITTLE = 0.5
-"""Overlap below which a shift rests on a few rows [decades]."""
-_LARGE = 0.3
-"""Standard error of log10 a_T that is worth a sentence [decades]."""
+_LITTLE = 0.5  # overlap below which a shift rests on a few rows [decades]
+_LARGE = 0.3  # standard error of log10 a_T that is worth a sentence [decades]
+# Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades].
 _MISFIT = 0.04
-"""Distance of a modulus between neighbours that no scatter explains: a tenth of it [decades]."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -227,10 +217,10 @@ def superposition_warnings(overlaps: Sequence[Overlap], shift: Shift) -> Iterato
         )
 
 
+# Scatter of a good laboratory [decades], for whether two sweeps have a value in common.
 _NOISE = 0.01
-"""Scatter of a good laboratory [decades], for whether two sweeps have a value in common."""
+# How far beyond the first or the last sweep a reference temperature still is that sweep's [K].
 _NOMINAL = 0.5
-"""How far beyond the first or the last sweep a reference temperature still is that sweep's [K]."""
 
 
 def superpose(sweeps: Sweeps, *, reference_temperature: Quantity, **options: Any) -> MasterCurve:

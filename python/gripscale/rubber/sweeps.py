@@ -17,20 +17,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Quantity, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.core import Array, Checked, Mask, Quantity, Vector, checked, checks
+from gripscale.core.errors import FileError, GripscaleError, InputError, about_file
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
 from gripscale.rubber.shift import WLF
 
+# Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1.
 TEMPERATURE_TOLERANCE = 1.0
-"""Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1."""
-_WIDEST = 3.0
-"""Largest span of a sweep's temperatures over the tolerance; a ramp runs on."""
+_WIDEST = 3.0  # largest span of a sweep's temperatures over the tolerance; a ramp runs on
 _ROW = ("temperature", "frequency", "storage", "loss")
 
 
@@ -59,12 +56,12 @@ class Sweeps(Checked, eq=False):
     lengths differ, there is no row, or temperatures run on without a gap, as on a ramp.
     """
 
-    temperature: Vector = checked(checks.in_limits, unit="K", repr=False)
+    temperature: Vector = checked(checks.positive_vector, unit="K", repr=False)
     """Temperature as measured [K], shape (rows,)."""
-    frequency: Vector = checked(checks.in_limits, unit="Hz", repr=False)
+    frequency: Vector = checked(checks.positive_vector, unit="Hz", repr=False)
     """Frequency [Hz], shape (rows,)."""
-    storage: Vector = checked(checks.in_limits, unit="Pa", repr=False)
-    loss: Vector = checked(checks.in_limits, unit="Pa", repr=False)
+    storage: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
+    loss: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
     """E' and E'' of the nearly incompressible solid (3 G' and 3 G'') [Pa], shape (rows,)."""
     tolerance: float = checked(
         checks.not_negative,
@@ -102,7 +99,6 @@ class Sweeps(Checked, eq=False):
         return [slice(a, b) for a, b in pairwise(cuts)]
 
     def __len__(self) -> int:
-        """Return the number of sweeps."""
         return len(self._rows())
 
     def __iter__(self) -> Iterator[Sweep]:
@@ -209,8 +205,7 @@ def _repeats(block: Block, layout: FileLayout) -> bool:
     return len(np.unique(hertz)) <= len(hertz) // 2 or is_single_frequency(hertz)
 
 
-_ONE_FREQUENCY = 0.01
-"""Frequencies that differ by less than this share are one."""
+_ONE_FREQUENCY = 0.01  # frequencies that differ by less than this share are one
 
 
 def is_single_frequency(hertz: Array) -> bool:
@@ -219,8 +214,8 @@ def is_single_frequency(hertz: Array) -> bool:
 
 
 _LEAST_STEP = 0.01
+# Distance of a row from a nominal temperature, over the step, so that it can be interpolated.
 _NEAR = 0.5
-"""Distance of a row from a nominal temperature, over the step, so that it can be interpolated."""
 
 
 def sweeps_from_ramps(
@@ -242,7 +237,7 @@ def sweeps_from_ramps(
     """
     units = ("K", "Hz", "Pa", "Pa")
     columns = zip(_ROW, (temperature, frequency, storage, loss), units, strict=True)
-    rows = {name: checks.in_limits(name, values, unit=unit) for name, values, unit in columns}
+    rows = {name: checks.positive_vector(name, values, unit=unit) for name, values, unit in columns}
     checks.same_length(1, **rows)
     step = checks.positive("step", si_value("step", step, "K", "temperature difference"), unit="K")
     if step < _LEAST_STEP:
@@ -350,10 +345,8 @@ def read_sweeps(
     name = paths[0].stem if name is None else name
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)
-    try:
+    with about_file(paths[0], InputError):
         return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
-    except InputError as error:
-        raise InputError(f"{paths[0]}: {error}") from error
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

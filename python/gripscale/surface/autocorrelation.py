@@ -23,27 +23,21 @@ from gripscale.surface.cleaning import subtract_form
 from gripscale.surface.profile import HeightMap
 from gripscale.surface.resampling import fill_gaps
 
-_FALLEN = 0.2
-"""Autocorrelation to which lengths are measured."""
+_FALLEN = 0.2  # autocorrelation to which lengths are measured
+_WAYS = 180  # directions that are followed, one a degree
 
-_WAYS = 180
-"""Directions that are followed, one a degree."""
-
+# Weights of neighbouring degrees, without which the strongest wave of a random texture decides.
 _SMOOTHING = np.hanning(33)[1:-1]
-"""Weights of neighbouring degrees, without which the strongest wave of a random texture decides."""
-
+# Share of the largest wavenumber within which the direction is sought: a square grid has more waves
+# along its diagonals beyond it.
 _LONGEST_PART = 0.5
-"""Share of the largest wavenumber within which the direction is sought: a square grid has more
-waves along its diagonals beyond it."""
 
 
 class TextureLengths(NamedTuple):
     """Shortest and longest way from the middle of an autocorrelation to where it falls to 0.2."""
 
-    shortest: float
-    """Sal [m]."""
-    longest: float
-    """[m]; half the map where it does not fall that far."""
+    shortest: float  # Sal [m]
+    longest: float  # [m]; half the map where it does not fall that far
 
     @property
     def aspect_ratio(self) -> float:

@@ -23,24 +23,15 @@ from typing import TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.units import in_mm
+from gripscale.core import Array, Described, InputError, Mask, checks, in_mm
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
 
-SPIKE_RULES = ("isolated", "iso13473")
-"""Rules for spikes, the first by default; None keeps all."""
-
+SPIKE_RULES = ("isolated", "iso13473")  # rules for spikes, the first by default; None keeps all
+# Samples of the longest run that is a spike: laser spots are one to three samples wide.
 _LONGEST_SPIKE = 3
-"""Samples of the longest run that is a spike: laser spots are one to three samples wide."""
-
-_HIGHEST_ORDER = 8
-"""Highest order of a form: beyond it a polynomial follows the roughness."""
-
+_HIGHEST_ORDER = 8  # highest order of a form: beyond it a polynomial follows the roughness
 Limits = tuple[float, float]
 _Heights = TypeVar("_Heights", Profile, HeightMap)
 
@@ -330,9 +321,7 @@ def crop_map(
 
 def trim_map(surface: HeightMap, share: float = 0.5) -> tuple[HeightMap, StepReport]:
     """Cut off border lines with more than a share of missing heights, the barest line first."""
-    most = checks.not_negative("trim", share)
-    if most > 1.0:
-        raise InputError(f"trim must be a share of the heights, from 0 to 1; got {most:g}")
+    most = checks.share("trim", share)
     missing = np.isnan(surface.z)
     (start, stop), (low, high) = (0, surface.x.size), (0, surface.y.size)
     while True:
@@ -431,7 +420,6 @@ def _in_turn(
     steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]],
     measured: _Heights,
 ) -> tuple[_Heights, CleaningReport]:
-    """Return a profile or map after all steps, and their reports."""
     reports = []
     for step in steps:
         measured, report = step(measured)

@@ -36,11 +36,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, Described, InputError, checked, checks
 from gripscale.core.units import in_mm, parse_quantity, unit_of
 from gripscale.surface.low_pass import STEEPEST, followed
 from gripscale.surface.profile import RESOLVED_STEPS, HeightMap, Profile
@@ -52,17 +48,13 @@ from gripscale.surface.spectrum import (
     profile_spectrum,
 )
 
+# Whose slope: the length of the surface's gradient, or the slope along its lines.
 DEFINITIONS = ("surface", "profile")
-"""Whose slope: the length of the surface's gradient, or the slope along its lines."""
+_ROUNDING = 1e-9  # relative difference below which two wavelengths are the same
 
-_ROUNDING = 1e-9
-"""Relative difference below which two wavelengths are the same."""
-
+# Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted.
 _FITTED = 10.0
-"""Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted."""
-
-_FEWEST = 4
-"""Points this range must have."""
+_FEWEST = 4  # points this range must have
 
 
 @dataclass(frozen=True)
@@ -256,11 +248,10 @@ def _mean_square(line: ProfileSpectrum) -> Array:
     return np.asarray(line.wavenumber**2 * line.density * line.width)
 
 
-_INSTRUMENT = "instrument"
-"""The word for the shortest wavelength that the measurement resolves."""
+_INSTRUMENT = "instrument"  # the word for the shortest wavelength that the measurement resolves
 
+# Ratio of the shortest wavelength measured to the shortest that it may be continued to.
 _MOST_CONTINUED = 100.0
-"""Ratio of the shortest wavelength measured to the shortest that it may be continued to."""
 
 
 class RmsSlope(Checked):

@@ -20,29 +20,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.core.units import in_mm
-from gripscale.core.wording import CaseKey, Words
+from gripscale.core import CaseKey, Finding, Severity, Topic, Words, checks, in_mm
 from gripscale.surface.autocorrelation import texture_lengths
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import HeightMap, Profile
 
 _SLOPE_RATIO = np.array([0.201, 0.393, 0.567, 0.725, 1.0, 1.38, 1.76, 2.54, 4.91])
+# Contact area from lines over that of the map, at these ratios of slopes.
 AREA_OVER_TRUTH = np.array([2.55, 1.52, 1.29, 1.11, 1.0, 0.87, 0.86, 0.73, 0.68])
-"""Contact area from lines over that of the map, at these ratios of slopes."""
-
+# Factor by which the area may be wrong on ridges three times as long as wide, either way.
 ERROR_OF_RIDGES = float(max(AREA_OVER_TRUTH[1], 1.0 / AREA_OVER_TRUTH[-2]))
-"""Factor by which the area may be wrong on ridges three times as long as wide, either way."""
-
-_HARMLESS = 1.1
-"""Error of the area near the scatter of the step on isotropic surfaces, 8 %."""
-
-_WIDEST = math.log(10.0)
-"""Half width of the band of a profile that is too short for one."""
-
-_NO_DIRECTION = 0.5
-"""Texture aspect ratio above which a map counts as without direction."""
+_HARMLESS = 1.1  # error of the area near the scatter of the step on isotropic surfaces, 8 %
+_WIDEST = math.log(10.0)  # half width of the band of a profile that is too short for one
+_NO_DIRECTION = 0.5  # texture aspect ratio above which a map counts as without direction
 
 
 def area_over_truth(slope_ratio: float) -> float:
@@ -61,11 +51,20 @@ def direction_of_profiles(
     that changes the area less than the step from lines to a surface errs does not.
     """
     if not across:
-        return _unknown_direction()
+        sentence = Words(
+            f"Profiles in one direction do not show ridges: ridges 3:1 make the area up to "
+            f"{ERROR_OF_RIDGES:.1f} times too large or too small. A second profile, with ",
+            CaseKey("lay", "across"),
+            ", decides.",
+        )
+        error = 1.0 / ERROR_OF_RIDGES - 1.0
+        topic, key = Topic.SURFACE, "surface.lay"
+        return Finding(Severity.WARNING, sentence, area=error, topic=topic, key=key)
     ratios = [_SlopeRatio.over(lag, along, across) for lag in lags]
     counting = [ratio for ratio in ratios if abs(math.log(ratio.value)) > ratio.half_width]
     slopes = ratios[0]
-    if all(map(_harmless, (*slopes.ends, *(ratio.value for ratio in counting)))):
+    errors = map(area_over_truth, (*slopes.ends, *(ratio.value for ratio in counting)))
+    if all(abs(math.log(error)) < math.log(_HARMLESS) for error in errors):
         return Finding(Severity.GOOD, f"The surface is isotropic: {slopes}.", topic=Topic.SURFACE)
     if counting:
         worst = max(counting, key=lambda ratio: abs(math.log(area_over_truth(ratio.value))))
@@ -89,11 +88,9 @@ def direction_of_map(surface: HeightMap) -> Finding | None:
 class _SlopeRatio(NamedTuple):
     """Ratio of slopes along and across sliding."""
 
-    lag: float
-    """[m]"""
+    lag: float  # [m]
     value: float
-    half_width: float
-    """Of its 95 % band, in its logarithm."""
+    half_width: float  # of its 95 % band, in its logarithm
 
     @classmethod
     def over(cls, lag: float, along: Sequence[Profile], across: Sequence[Profile]) -> _SlopeRatio:
@@ -121,26 +118,6 @@ class _SlopeRatio(NamedTuple):
             f"the rms slope over {in_mm(self.lag, 2)} along sliding is {self.value:.3g} "
             f"({low:.3g} to {high:.3g}) times that across"
         )
-
-
-def _harmless(slope_ratio: float) -> bool:
-    return abs(math.log(area_over_truth(slope_ratio))) < math.log(_HARMLESS)
-
-
-def _unknown_direction() -> Finding:
-    sentence = Words(
-        f"Profiles in one direction do not show ridges: ridges 3:1 make the area up to "
-        f"{ERROR_OF_RIDGES:.1f} times too large or too small. A second profile, with ",
-        CaseKey("lay", "across"),
-        ", decides.",
-    )
-    return Finding(
-        Severity.WARNING,
-        sentence,
-        area=1.0 / ERROR_OF_RIDGES - 1.0,
-        topic=Topic.SURFACE,
-        key="surface.lay",
-    )
 
 
 def _warning(sentence: str, error: float) -> Finding:

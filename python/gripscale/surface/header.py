@@ -33,8 +33,7 @@ _NAMES = {
     "z": rf"(?:height|value|höhen|z)[ -]?{_UNIT}|{_UNIT}{_OF}(?:heights?|höhen?|z)",
     "xz": rf"(?:length )?{_UNIT}",
 }
-_MOST_LINES = 100
-"""Lines of a header."""
+_MOST_LINES = 100  # lines of a header
 
 
 @dataclass(frozen=True)
@@ -43,8 +42,7 @@ class Header:
 
     x_unit: str | None = None
     z_unit: str | None = None
-    step: tuple[float, float] | None = None
-    """Along x and along y, the same if one is stated."""
+    step: tuple[float, float] | None = None  # along x and along y, the same if one is stated
 
 
 def read_header(lines: Sequence[Line]) -> Header:

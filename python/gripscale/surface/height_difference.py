@@ -32,10 +32,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Mask, Quantity, checked, checks
 from gripscale.surface.low_pass import STEEPEST, followed_lines
 from gripscale.surface.profile import HeightMap, Profile, of_one_step
 
@@ -43,14 +40,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_BAND_LEVEL = 0.95
-"""Nominal confidence level of the band."""
+_BAND_LEVEL = 0.95  # nominal confidence level of the band
 
+# Half width in log C_z beyond which there is no band: too few blocks hold pairs.
 _WIDEST_BAND = 20.0
-"""Half width in log C_z beyond which there is no band: too few blocks hold pairs."""
-
-_FEWEST_PAIRS = 16
-"""Pairs a lag must have to be kept."""
+_FEWEST_PAIRS = 16  # pairs a lag must have to be kept
 
 
 class HeightDifference(Checked, eq=False):
@@ -202,14 +196,10 @@ def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
 class BlockSums:
     """Contribution of each block of the profiles to C_z, for resampling of blocks."""
 
-    lag: Array
-    """[m], shape (lags,)."""
-    squares: Array
-    """Sums of squared height differences [m^2], shape (blocks, lags)."""
-    pairs: Array
-    """Numbers of pairs whose first point is in a block, shape (blocks, lags)."""
-    resolution_limit: float
-    """Shortest wavelength that the measurement resolves [m]."""
+    lag: Array  # [m], shape (lags,)
+    squares: Array  # sums of squared height differences [m^2], shape (blocks, lags)
+    pairs: Array  # numbers of pairs whose first point is in a block, shape (blocks, lags)
+    resolution_limit: float  # shortest wavelength that the measurement resolves [m]
 
     def drawn(self, blocks: NDArray[np.intp]) -> HeightDifference:
         """Return C_z of a selection of blocks, with repetitions, without a band."""
@@ -244,8 +234,7 @@ def block_sums(
             f"max_lag must be at least one step, {step:g} m, and within the profile, "
             f"{longest:g} m; got {limit:g} m"
         )
-    share = checks.positive("top_height_fraction", top_height_fraction)
-    checks.at_most_one("top_height_fraction", share)
+    share = checks.fraction("top_height_fraction", top_height_fraction)
     # the distinct whole numbers of steps nearest to evenly spaced log lags
     most = int(np.floor(limit / step + 1e-6))
     count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1
@@ -298,11 +287,10 @@ def require_positive(hdc: HeightDifference) -> None:
         )
 
 
-_REACHED = 0.9
-"""Fraction of the mean over all larger lags at which the plateau begins."""
+_REACHED = 0.9  # fraction of the mean over all larger lags at which the plateau begins
 
+# Ratio of the largest lag to the plateau's first lag below which it is not called a plateau.
 _SHORTEST_PLATEAU = 2.0
-"""Ratio of the largest lag to the plateau's first lag below which it is not called a plateau."""
 
 
 class Plateau(NamedTuple):
@@ -338,8 +326,7 @@ def log_weights(lag: Array) -> Array:
     return np.diff(edges)
 
 
-_FEWEST_LAGS = 4
-"""Lags a power law must cover."""
+_FEWEST_LAGS = 4  # lags a power law must cover
 
 
 class SelfAffineFit(Checked):

@@ -26,16 +26,13 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError
+from gripscale.core import Array, FileError, checks
 
 _LONGEST_HEADER = 2**16
 _PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")
 _ESRI = re.compile(rb"\s*ncols[\s=:]", re.IGNORECASE)
 _BINARY = (b"bISO", b"bBCR")
-_MOST_POINTS = 10**9
-"""Points along an axis beyond which a header is taken as damaged."""
+_MOST_POINTS = 10**9  # points along an axis beyond which a header is taken as damaged
 
 
 def is_esri_grid(raw: bytes) -> bool:

@@ -33,18 +33,13 @@ from typing import TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, profile_list
 from gripscale.surface.resampling import fill_gaps
 
+# Slope that rubber is taken to follow: stretched to 4.1, near the elongation at break of tread.
 STEEPEST = 4.0
-"""Slope that rubber is taken to follow: stretched to 4.1, near the elongation at break of tread."""
-
-POINTS_IN_CUT_OFF = 4
-"""Points of a line in one wave of its cut-off length."""
-
+POINTS_IN_CUT_OFF = 4  # points of a line in one wave of its cut-off length
 _ROUNDING = 1e-12
 
 _Heights = TypeVar("_Heights", Profile, HeightMap)

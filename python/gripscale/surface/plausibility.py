@@ -12,57 +12,34 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic, doubt
-from gripscale.core.units import in_mm
+from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, doubt, in_mm
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
 from gripscale.surface.supports import road_between, support_plates
 
-_SPIKE_SLOPE = 3.0
-"""Height change per step that is steep (ISO 13473-1:2019, section 7.5)."""
+_SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
 
+# Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %.
 _MOST_STEEP = 0.5
-"""Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %."""
+_TALLEST = 0.1  # rms height over length beyond which one of the two probably has a wrong unit
+_LARGEST_HEIGHT = 0.1  # rms height [m] that no pavement has
+_COARSEST_STEP = 0.01  # step [m] beyond which no texture is measured
 
-_TALLEST = 0.1
-"""Rms height over length beyond which one of the two probably has a wrong unit."""
-
-_LARGEST_HEIGHT = 0.1
-"""Rms height [m] that no pavement has."""
-
-_COARSEST_STEP = 0.01
-"""Step [m] beyond which no texture is measured."""
-
+# Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction.
 _SMOOTHEST = 5e-3
-"""Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction."""
-
+# Height change over a short way that is a jump, in robust standard deviations of such changes.
 _JUMP = 10.0
-"""Height change over a short way that is a jump, in robust standard deviations of such changes."""
+_SHORT_WAY = 1 / 400  # the short way, as a share of the profile
+_MOST_JUMPS = 8  # jumps beyond which they belong to the surface, as grooves do
+_STRETCHES = 40  # parts into which a profile is cut to find flat ones
+_SHORTEST_STRETCH = 16  # heights a part must have for its roughness to be compared
 
-_SHORT_WAY = 1 / 400
-"""The short way, as a share of the profile."""
-
-_MOST_JUMPS = 8
-"""Jumps beyond which they belong to the surface, as grooves do."""
-
-_STRETCHES = 40
-"""Parts into which a profile is cut to find flat ones."""
-
-_SHORTEST_STRETCH = 16
-"""Heights a part must have for its roughness to be compared."""
-
+# Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau.
 _LONGEST_WAVE = 4.0
-"""Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau."""
-
+# Distance of the logarithm of a factor from its limit below which the factor is at the limit.
 _AT_THE_EDGE = 1e-3
-"""Distance of the logarithm of a factor from its limit below which the factor is at the limit."""
-
-_FLAT = 0.02
-"""Roughness of a part, over the usual one, below which it is flat."""
+_FLAT = 0.02  # roughness of a part, over the usual one, below which it is flat
 
 
 def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[Finding, ...]:
@@ -104,11 +81,9 @@ class _Doubts(NamedTuple):
     """Reasons to doubt that a profile is a road."""
 
     texts: tuple[str, ...] = ()
-    heights: Array | None = None
-    """Valid heights [m]; None if they are meaningless."""
+    heights: Array | None = None  # valid heights [m]; None if they are meaningless
     plates: bool = False
-    units: bool = False
-    """Whether a length suggests another unit."""
+    units: bool = False  # whether a length suggests another unit
 
 
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
@@ -205,7 +180,9 @@ def _flat_warnings(z: Array) -> Iterator[str]:
     """Warn of parts that bend much less than the others: filled or held, not measured."""
     count = min(_STRETCHES, z.size // (2 * _SHORTEST_STRETCH))
     parts = [part[np.isfinite(part)] for part in np.array_split(z, max(count, 1))]
-    bends = np.array([_rms(np.diff(part, 2)) for part in parts if part.size >= _SHORTEST_STRETCH])
+    bends = np.array(
+        [np.sqrt(np.mean(np.diff(p, 2) ** 2)) for p in parts if p.size >= _SHORTEST_STRETCH]
+    )
     flat = bends < _FLAT * np.median(bends) if bends.size else np.zeros(0, dtype=bool)
     if flat.any():
         yield (
@@ -215,9 +192,9 @@ def _flat_warnings(z: Array) -> Iterator[str]:
 
 
 def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
-    """Warn of lengths that no texture has."""
     rms = float(np.nanstd(z))
-    slopes = _between_neighbours(z) / profile.step
+    changes = np.abs(np.diff(z))  # between neighbours that are both valid
+    slopes = changes[np.isfinite(changes)] / profile.step
     lengths = (in_mm(length, 3) for length in (rms, profile.length, profile.step))
     sizes = "rms height {} over {} in steps of {}".format(*lengths)
     if rms > min(_TALLEST * profile.length, _LARGEST_HEIGHT):
@@ -226,16 +203,6 @@ def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
         yield f"{sizes}: hardly any slope; is the unit of heights right?"
     if profile.step > _COARSEST_STEP:
         yield f"{sizes}: too coarse for a texture; is the unit of distances right?"
-
-
-def _between_neighbours(z: Array) -> Array:
-    """Return the sizes of height changes between neighbours that are both valid."""
-    changes = np.abs(np.diff(z))
-    return changes[np.isfinite(changes)]
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[Finding]:

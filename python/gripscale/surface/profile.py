@@ -12,18 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, Finding, InputError, checked, checks
 from gripscale.core.described import Pictured, shown_value
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding
 from gripscale.core.units import readable
 
 if TYPE_CHECKING:
@@ -36,17 +32,16 @@ A distance rounded to a tenth of a step is just within. Uniform departures up to
 the squared distance of neighbours, 0.2 % of it.
 """
 
+# Largest last decimal place of printed distances, in steps, that still separates neighbours.
 _COARSEST_PRINT = 0.5
-"""Largest last decimal place of printed distances, in steps, that still separates neighbours."""
-
 _SINGLE = 1.6
 """Length, in the shortest step, up to which a step counts as single.
 
 Printed steps differ by the last decimal, at most half as much again; double steps are longer.
 """
 
+# Steps in a gap beyond which floating point cannot tell the grid number of its points.
 _LARGEST_NUMBER = 1e12
-"""Steps in a gap beyond which floating point cannot tell the grid number of its points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,34 +110,24 @@ def uneven_step(x: Array) -> int:
     return int(np.argmax(steps <= 0.0 if (steps <= 0.0).any() else uneven))
 
 
+# Points a profile must have: fewer leave no lag that has both a power law and pairs to average.
 FEWEST_POINTS = 16
-"""Points a profile must have: fewer leave no lag that has both a power law and pairs to average."""
+MOST_PROFILE_POINTS = 10_000_000  # points beyond which no profile is made
 
-MOST_PROFILE_POINTS = 10_000_000
-"""Points beyond which no profile is made."""
-
+# Steps in the shortest wavelength that sampling resolves: with fewer, the slope of a sine is a
+# tenth too small, sin(pi/n)/(pi/n) with n steps in a wavelength.
 RESOLVED_STEPS = 4.0
-"""Steps in the shortest wavelength that sampling resolves: with fewer, the slope of a sine is a
-tenth too small, sin(pi/n)/(pi/n) with n steps in a wavelength."""
+LAYS = ("along", "across")  # how a profile may lie to the sliding direction
 
-LAYS = ("along", "across")
-"""How a profile may lie to the sliding direction."""
-
+# Note of a profile whose rows were reversed.
 TURNED_ROUND = "distances fell from row to row: the rows were turned round"
-"""Note of a profile whose rows were reversed."""
+_T = TypeVar("_T")
 
 
-def _texts(name: str, value: Any) -> tuple[str, ...]:
-    """Return `value` as a tuple; raise `InputError` unless it holds texts only."""
+def _tuple_of(name: str, value: Any, *, kind: type[_T]) -> tuple[_T, ...]:
     if not isinstance(value, tuple | list):
-        raise InputError(f"{name} must be a tuple of texts; got {checks.short_repr(value)}")
-    return tuple(checks.text(f"each of {name}", item) for item in value)
-
-
-def _findings(name: str, value: Any) -> tuple[Finding, ...]:
-    if not isinstance(value, tuple | list):
-        raise InputError(f"{name} must be a tuple of findings; got {checks.short_repr(value)}")
-    return tuple(checks.instance(f"each of {name}", item, Finding) for item in value)
+        raise InputError(f"{name} must be a tuple; got {checks.short_repr(value)}")
+    return tuple(checks.instance(f"each of {name}", item, kind) for item in value)
 
 
 class Profile(Checked, Pictured, eq=False):
@@ -182,16 +167,13 @@ class Profile(Checked, Pictured, eq=False):
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
-    notes: tuple[str, ...] = checked(_texts, default=())
-    doubts: tuple[Finding, ...] = checked(_findings, default=())
+    notes: tuple[str, ...] = checked(_tuple_of, kind=str, default=())
+    doubts: tuple[Finding, ...] = checked(_tuple_of, kind=Finding, default=())
     lay: str = checked(checks.one_of, choices=LAYS, default="along")
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.x.size != self.z.size:
-            raise InputError(
-                f"x and z must have the same length; got {self.x.size} and {self.z.size}"
-            )
+        checks.same_length(0, x=self.x, z=self.z)
         if self.x.size < FEWEST_POINTS:
             raise InputError(
                 f"a profile must have at least {FEWEST_POINTS} points; got {self.x.size}"
@@ -283,7 +265,7 @@ def _axis(name: str, value: ArrayLike) -> Array:
     return axis
 
 
-def _height_table(name: str, value: ArrayLike) -> Array:
+def height_table(name: str, value: ArrayLike) -> Array:
     """Return the heights of a map; raise `InputError` unless they are a table of numbers."""
     expected = f"{name} must be a table of heights [m], numbers or NaN, with two dimensions"
     z = checks.array(value, expected)
@@ -291,6 +273,8 @@ def _height_table(name: str, value: ArrayLike) -> Array:
         raise InputError(f"{expected}; got {z.ndim} dimensions")
     if (np.abs(z) > checks.MOST).any():
         raise InputError(f"{expected}; got {z[np.abs(z) > checks.MOST][0]:g}")
+    if np.isnan(z).all():
+        raise InputError(f"{name} must have some heights; got {z.size} points, all missing")
     return z
 
 
@@ -325,11 +309,11 @@ class HeightMap(Checked, Pictured, eq=False):
 
     x: Array = checked(_axis)
     y: Array = checked(_axis)
-    z: Array = checked(_height_table)
+    z: Array = checked(height_table)
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
-    doubts: tuple[Finding, ...] = checked(_findings, default=())
+    doubts: tuple[Finding, ...] = checked(_tuple_of, kind=Finding, default=())
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -338,8 +322,6 @@ class HeightMap(Checked, Pictured, eq=False):
             raise InputError(
                 f"z must have shape {shape}, heights along x and then y; got {self.z.shape}"
             )
-        if np.isnan(self.z).all():
-            raise InputError(f"z must have some heights; got {self.z.size} points, all missing")
 
     @property
     def step(self) -> tuple[float, float]:
@@ -419,8 +401,7 @@ def line_label(text: str, number: int, direction: str) -> str:
     return f"{text}, line {number} along {direction}".lstrip(", ")
 
 
-_SAME_STEP = 1e-3
-"""Relative difference of steps up to which they are the same."""
+_SAME_STEP = 1e-3  # relative difference of steps up to which they are the same
 
 
 def profile_list(profile: Profile | Sequence[Profile]) -> list[Profile]:

@@ -17,11 +17,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError, about_file
+from gripscale.core import Array, FileError, InputError, about_file, checks, unstated, using_extra
 from gripscale.core.units import quantity_in_si
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text
 from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
@@ -33,8 +30,8 @@ from gripscale.surface.text_files import (
 )
 from gripscale.surface.triangles import read_stl
 
+# Deflate, the densest packing of all formats, packs at most 1032 bytes into one.
 _MOST_POINTS_PER_BYTE = 1032
-"""Deflate, the densest packing of all formats, packs at most 1032 bytes into one."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +41,8 @@ class HeightField:
     heights: Array
     x: Array
     y: Array | None
+    # Shortest wavelength [m] free of the instrument's artifacts, if the file states it.
     reliable: float | None = None
-    """Shortest wavelength [m] free of the instrument's artifacts, if the file states it."""
 
     def profile(self, path: Path, direction: str, line: int) -> Profile:
         """Return one line along a direction as a profile."""
@@ -87,13 +84,8 @@ def read_instrument_file(
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        try:
+        with using_extra("formats", f"{path}: its format", "SurfaceTopography", kind=FileError):
             from SurfaceTopography import open_topography
-        except ImportError as error:
-            raise FileError(
-                f"{path}: instrument formats need SurfaceTopography; "
-                "install it with: pip install 'gripscale[formats]'"
-            ) from error
         try:
             reader = open_topography(io.BytesIO(raw))
             try:
@@ -151,12 +143,8 @@ def _topography(
                 f"{checks.short_repr(wanted)}"
             )
     if len(of_heights) > 1:
-        raise FileError(
-            Words(
-                f"{path}: expected one channel of heights; got {names}; give ", CaseKey("channel")
-            ),
-            missing="channel",
-        )
+        words = f"{path}: expected one channel of heights; got {names}; give "
+        raise unstated(words, "channel", kind=FileError)
     channel = of_heights[0]
     if channel.physical_sizes is not None:
         if step is not None:
@@ -164,25 +152,22 @@ def _topography(
         return channel.topography()
     if step is None:
         size = " x ".join(map(str, channel.nb_grid_pts))
-        raise FileError(
-            Words(
-                f"{path}: expected a lateral size; the file gives none: give ",
-                CaseKey("step"),
-                f", for an array of {size} heights whose first index runs along x, the way of "
-                "sliding",
-            ),
-            missing="step",
+        raise unstated(
+            f"{path}: expected a lateral size; the file gives none: give ",
+            "step",
+            f", for an array of {size} heights whose first index runs along x, the way of sliding",
+            kind=FileError,
         )
     sizes = tuple(n * d for n, d in zip(channel.nb_grid_pts, step, strict=False))
     return channel.topography(physical_sizes=sizes)
 
 
 TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
+# Points or a table of heights as text; some instruments write .asc, too.
 _POINT_SUFFIXES = (".xyz", ".asc")
-"""Points or a table of heights as text; some instruments write .asc, too."""
 _ANY_TEXT = (*TEXT_SUFFIXES, *_POINT_SUFFIXES, *EXCEL)
+# Sheets of a Mitutoyo roughness tester's Excel file.
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
-"""Sheets of a Mitutoyo roughness tester's Excel file."""
 
 
 def read_profile(

@@ -24,23 +24,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, FileError, InputError, Quantity, checks
 from gripscale.io.text_table import TextTable
-from gripscale.surface.profile import (
-    FEWEST_POINTS,
-    MOST_PROFILE_POINTS,
-    RESOLVED_STEPS,
-    TURNED_ROUND,
-    EvenGrid,
-    Profile,
-    even_grid,
-    uneven_step,
-)
+from gripscale.surface import profile
 
+# Longest distance of neighbours that is bridged by default, in usual distances or new steps.
 _LONGEST_BRIDGE = 2.0
-"""Longest distance of neighbours that is bridged by default, in usual distances or new steps."""
 
 
 def resample(
@@ -51,7 +40,7 @@ def resample(
     bridge: float | None = None,
     name: str = "",
     source: str = "",
-) -> Profile:
+) -> profile.Profile:
     """Return a profile with equal steps from heights at unequal ones.
 
     Heights are interpolated between neighbours, not averaged: with a step longer than the measured
@@ -78,7 +67,7 @@ def resample(
         Name and source of the profile.
     """
     old, height = checks.vector("x", x, unit="m"), checks.vector("z", z, unit="m", missing=True)
-    checks.same_length(FEWEST_POINTS, x=old, z=height)
+    checks.same_length(profile.FEWEST_POINTS, x=old, z=height)
     falling = old[0] > old[-1]
     if falling:
         old, height = old[::-1], height[::-1]
@@ -91,9 +80,9 @@ def resample(
         )
     even = checks.positive("step", step, unit="m")
     points = int(np.floor((old[-1] - old[0]) / even * (1.0 + 1e-12))) + 1
-    if not FEWEST_POINTS <= points <= MOST_PROFILE_POINTS:
+    if not profile.FEWEST_POINTS <= points <= profile.MOST_PROFILE_POINTS:
         raise InputError(
-            f"step must give {FEWEST_POINTS} to {MOST_PROFILE_POINTS} points over "
+            f"step must give {profile.FEWEST_POINTS} to {profile.MOST_PROFILE_POINTS} points over "
             f"{old[-1] - old[0]:g} m; {even:g} m gives {points}"
         )
     usual = float(np.median(distances))
@@ -110,28 +99,27 @@ def resample(
     apart = old[before + 1] - old[before] > longest * (1.0 + 1e-9)
     between = np.where(apart & (share > 0.0) & (share < 1.0), np.nan, between)
     note = f"put on steps of {even * 1e3:.4g} mm by straight lines; {usual * 1e3:.4g} mm were usual"
-    return Profile(
+    return profile.Profile(
         new,
         between,
         name,
         source,
-        reliable=RESOLVED_STEPS * max(usual, even),
-        notes=(TURNED_ROUND, note) if falling else (note,),
+        reliable=profile.RESOLVED_STEPS * max(usual, even),
+        notes=(profile.TURNED_ROUND, note) if falling else (note,),
     )
 
 
-_MOST_LEFT_OUT = 0.5
-"""Largest share of the points of a grid that a file may leave out."""
+_MOST_LEFT_OUT = 0.5  # largest share of the points of a grid that a file may leave out
 
 
 def printed_grid(
     table: TextTable, column: int, distances: Array, lines: list[int] | None = None
-) -> EvenGrid:
+) -> profile.EvenGrid:
     """Return the even grid of increasing `distances` printed in a column, some rows left out.
 
     `lines` are the line numbers of a profile's rows; a map repeats its distances in many lines.
     """
-    grid = even_grid(distances, table.resolution(column))
+    grid = profile.even_grid(distances, table.resolution(column))
     if grid is not None and grid.left_out <= _MOST_LEFT_OUT * grid.size:
         return grid
     if grid is not None:
@@ -147,7 +135,7 @@ def printed_grid(
 
 
 def _uneven(table: TextTable, column: int, distances: Array, lines: list[int] | None) -> FileError:
-    at = uneven_step(distances)
+    at = profile.uneven_step(distances)
     first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
     where = f"{table.path}"
     if lines is not None:

@@ -57,9 +57,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, Quantity, checks
 from gripscale.surface.height_difference import HeightDifference, log_weights
 from gripscale.surface.sines import (
     FACTOR_RANGE,
@@ -72,24 +70,17 @@ from gripscale.surface.sines import (
     search,
 )
 
-MOST_SINE_WAVES = 24
-"""Waves beyond which a stack is refused."""
-
-_NUMBERS = range(2, MOST_SINE_WAVES + 1)
-"""Numbers of waves tried where none is stated."""
+MOST_SINE_WAVES = 24  # waves beyond which a stack is refused
+_NUMBERS = range(2, MOST_SINE_WAVES + 1)  # numbers of waves tried where none is stated
 
 
+# C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little.
 _CONSISTENT = 1.05
-"""C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little."""
+_CUT_OFF_COUNTED = 0.25  # smallest lag that counts by default, in wavelengths of the cut-off
 
-_CUT_OFF_COUNTED = 0.25
-"""Smallest lag that counts by default, in wavelengths of the cut-off."""
-
+# Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count.
 _SHORTER_WAVES = 3
-"""Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count."""
-
-_AS_GOOD = 1.1
-"""Ratio of a residual to the least one up to which fewer waves are preferred."""
+_AS_GOOD = 1.1  # ratio of a residual to the least one up to which fewer waves are preferred
 
 
 def fit_sines(
@@ -305,10 +296,8 @@ def _closest(target: TargetCurve, trials: list[WaveTrial], as_good: float) -> Cl
     return search(target, min(good, key=lambda trial: trial.waves))
 
 
-_AMBIGUITY_WAVES = range(2, 13)
-"""Numbers of waves tried for the range of stacks."""
-_FIRST_WAVELENGTHS = np.geomspace(0.5, 2.0, 9)
-"""First wavelengths tried, over the fitted one."""
+_AMBIGUITY_WAVES = range(2, 13)  # numbers of waves tried for the range of stacks
+_FIRST_WAVELENGTHS = np.geomspace(0.5, 2.0, 9)  # first wavelengths tried, over the fitted one
 
 
 class Span(NamedTuple):

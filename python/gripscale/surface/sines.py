@@ -23,10 +23,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, checked, checks
 from gripscale.surface.height_difference import (
     HeightDifference,
     find_plateau,
@@ -34,8 +31,8 @@ from gripscale.surface.height_difference import (
     require_positive,
 )
 
+# Largest departure of a ratio from the mean ratio for waves to count as geometric.
 _GEOMETRIC_TOLERANCE = 0.01
-"""Largest departure of a ratio from the mean ratio for waves to count as geometric."""
 
 
 class SineStack(Checked, eq=False):
@@ -76,13 +73,8 @@ class SineStack(Checked, eq=False):
         super().__post_init__()
         wavelength, amplitude = self.wavelength, self.amplitude
         checks.same_length(1, wavelength=wavelength, amplitude=amplitude)
-        rises = np.diff(wavelength) >= 0.0
-        if rises.any():
-            at = int(np.argmax(rises)) + 1
-            raise InputError(
-                f"wavelength must decrease from wave to wave; got {wavelength[at]:g} m at index "
-                f"{at} after {wavelength[at - 1]:g} m"
-            )
+        rises = np.diff(wavelength, prepend=np.inf) >= 0.0
+        checks.refuse_entries(wavelength, rises, "wavelength must decrease from wave to wave", " m")
         if self.cut_off is not None and self.cut_off > wavelength[-1]:
             raise InputError(
                 f"cut_off must not exceed the last wave, {wavelength[-1]:g} m; "
@@ -138,14 +130,9 @@ def _factor(name: str, lengths: Array, argument: float | None) -> float | None:
 
 FIRST_WAVELENGTH, FIRST_AMPLITUDE, S_WAVELENGTH, S_AMPLITUDE = range(4)
 
-FACTOR_RANGE = (1.5, 30.0)
-"""Smallest and largest magnification of wavelength tried."""
-
-AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)
-"""Smallest and largest magnification of amplitude tried."""
-
-_PLATEAU_COUNTED = 4.0
-"""Largest lag that counts by default, in lags at which the plateau begins."""
+FACTOR_RANGE = (1.5, 30.0)  # smallest and largest magnification of wavelength tried
+AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)  # smallest and largest magnification of amplitude tried
+_PLATEAU_COUNTED = 4.0  # largest lag that counts by default, in lags at which the plateau begins
 
 
 @dataclass(frozen=True, eq=False)

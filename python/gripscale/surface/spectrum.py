@@ -40,17 +40,12 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Quantity, checked, checks
 from gripscale.surface.low_pass import STEEPEST, followed_lines, upper_envelope
-from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, of_one_step
+from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile, height_table, of_one_step
 from gripscale.surface.resampling import fill_gaps, without_line
 
-_PER_DECADE = 10
-"""Wavenumbers a decade where a spectrum is averaged."""
-
+_PER_DECADE = 10  # wavenumbers a decade where a spectrum is averaged
 _ABSCISSAE, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
@@ -180,11 +175,9 @@ def first_of_bins(values: NDArray[Any], per_decade: int) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff(bins, prepend=-1.0))
 
 
+# Weights of a window: with "hann" its straight line is subtracted before, else its mean.
 _TAPERS = ("hann", "none")
-"""Weights of a window: with "hann" its straight line is subtracted before, else its mean."""
-
-_WINDOWS = 4
-"""Windows a tapered line is cut into by default; as many fit again between them."""
+_WINDOWS = 4  # windows a tapered line is cut into by default; as many fit again between them
 
 
 def profile_spectrum(
@@ -280,14 +273,11 @@ def map_spectrum(
         As in `profile_spectrum`.
     """
     steps = checks.positive("x_step", x_step, unit="m"), checks.positive("y_step", y_step, unit="m")
-    expected = f"z must be heights of shape (nx, ny), at least {FEWEST_POINTS} each way [m]"
-    heights = checks.array(z, expected)
-    if heights.ndim != 2 or min(heights.shape) < FEWEST_POINTS:
-        raise InputError(f"{expected}; got shape {heights.shape}")
-    if (np.abs(heights) > checks.MOST).any():
-        raise InputError(f"{expected}; got one beyond {checks.MOST:g}")
-    if np.isnan(heights).all():
-        raise InputError(f"z must have some heights; got {heights.size} points, all missing")
+    heights = height_table("z", z)
+    if min(heights.shape) < FEWEST_POINTS:
+        raise InputError(
+            f"z must have at least {FEWEST_POINTS} heights each way; got shape {heights.shape}"
+        )
     each = checks.whole("per_decade", per_decade, least=1, most=1000)
     periodic = checks.one_of("taper", taper, _TAPERS) == "none"
     slope = checks.positive("steepest", steepest, infinite=True)
@@ -324,11 +314,8 @@ def map_spectrum(
     )
 
 
-_TAIL_POINTS = 4
-"""Last points of a spectrum whose power law is continued."""
-
-_SLOWEST_FALL = 1.0
-"""Least exponent of C_1 beyond them: with less the variance would be infinite."""
+_TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
+_SLOWEST_FALL = 1.0  # least exponent of C_1 beyond them: with less the variance would be infinite
 
 
 def areal_spectrum(
@@ -363,7 +350,7 @@ def areal_spectrum(
             f"of a surface; got {int((density >= checks.LEAST).sum())}"
         )
     if hurst is not None:
-        exponent = checks.at_most_one("hurst", checks.positive("hurst", hurst))
+        exponent = checks.fraction("hurst", hurst)
         ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
         return ArealSpectrum(q, density / (2.0 * np.sqrt(np.pi) * q * ratio), mean.interpolated)
     certainty = np.sqrt(mean.width) / density

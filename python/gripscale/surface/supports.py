@@ -17,49 +17,35 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.units import in_mm
+from gripscale.core import Array, Mask, checks, in_mm
 from gripscale.surface.profile import Profile
 
-_OFF_THE_LINE = 6.0
-"""Distance from the line, in robust standard deviations, that no road reaches."""
+_OFF_THE_LINE = 6.0  # distance from the line, in robust standard deviations, that no road reaches
 
+# Roughness of two pieces in a row, over the usual one, below which they are a plate.
 _SMOOTH_SHARE = 0.02
-"""Roughness of two pieces in a row, over the usual one, below which they are a plate."""
+_SIDE_STEP = 0.5  # change of height at the side of a stretch, over its height, that is a step
+_PIECES = 50  # pieces of a profile whose level and roughness are compared
 
-_SIDE_STEP = 0.5
-"""Change of height at the side of a stretch, over its height, that is a step."""
-
-_PIECES = 50
-"""Pieces of a profile whose level and roughness are compared."""
-
+# Heights that tell the roughness of a piece, and that a stretch off the line must have.
 _FEWEST_HEIGHTS = 16
-"""Heights that tell the roughness of a piece, and that a stretch off the line must have."""
-
+# Length of a plate, as a share of the profile: shorter are joints and cracks.
 _SHORTEST_SHARE = 1 / 400
-"""Length of a plate, as a share of the profile: shorter are joints and cracks."""
+_MOST_STRETCHES = 6  # stretches beyond which they belong to the surface
 
-_MOST_STRETCHES = 6
-"""Stretches beyond which they belong to the surface."""
-
+# Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it.
 _GUARD_SHARE = 1 / 40
-"""Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it."""
 
 
 @dataclass(frozen=True)
 class Support:
     """A stretch of a profile that is a plate or a support."""
 
-    first: float
-    """Where it begins [m]."""
-    last: float
-    """Where it ends [m]."""
-    height: float
-    """Median of its heights over the road [m]."""
+    first: float  # where it begins [m]
+    last: float  # where it ends [m]
+    height: float  # median of its heights over the road [m]
 
     def __str__(self) -> str:
-        """Return the stretch in words."""
         side = "above" if self.height > 0.0 else "below"
         span = f"{in_mm(self.first, 4)} to {in_mm(self.last, 4)}"
         return f"{span} ({in_mm(abs(self.height), 2)} {side} the road)"

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core import Described, Finding, InputError, Severity, Topic
+from gripscale.surface import plausibility
 from gripscale.surface.cleaning import CleaningReport, clean
 from gripscale.surface.cut_off import (
     CutOffRule,
@@ -24,11 +23,6 @@ from gripscale.surface.cut_off import (
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.low_pass import followed, followed_lines
-from gripscale.surface.plausibility import (
-    extrapolation_notes,
-    profile_warnings,
-    stack_notes,
-)
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
@@ -169,7 +163,7 @@ class Measured(Described):
         findings = []
         for raw, cleaned in (*self.profiles, *self.across):
             changes = [Finding(Severity.WARNING, f"{n}.", topic=Topic.SURFACE) for n in raw.notes]
-            implausible = profile_warnings(raw, cleaned)
+            implausible = plausibility.profile_warnings(raw, cleaned)
             if self.map is not None:  # its lines are no profiles between plates
                 implausible = tuple(replace(f, severity=Severity.WARNING) for f in implausible)
             of_line = (*changes, *raw.doubts, *implausible)
@@ -260,7 +254,7 @@ class Surface(Described):
         if self.correlation is None:
             return of_measurement
         ridges = [f for f in self.direction if f.severity != Severity.GOOD]
-        of_waves = stack_notes(self.sines, self.correlation, self.fit)
+        of_waves = plausibility.stack_notes(self.sines, self.correlation, self.fit)
         return (*of_measurement, *ridges, *of_waves, *self.extrapolated)
 
     @cached_property
@@ -285,7 +279,7 @@ class Surface(Described):
         """Findings on waves and roughness beyond the resolution of the measurement."""
         if self.correlation is None:
             return ()
-        return tuple(extrapolation_notes(self.sines, self.correlation))
+        return tuple(plausibility.extrapolation_notes(self.sines, self.correlation))
 
     def varied(
         self,
@@ -316,34 +310,27 @@ class Surface(Described):
             Fraction of the heights that counts, see `height_difference`; of a measured
             surface only.
         """
-        if top_height_fraction is not None:
-            return self._of_upper(top_height_fraction).varied(
-                factors=factors,
-                waves=waves,
-                smallest_wavelength=smallest_wavelength,
-                cut_off=cut_off,
-            )
+        surface = self if top_height_fraction is None else self._of_upper(top_height_fraction)
         if factors is None and waves is None and smallest_wavelength is None and cut_off is None:
-            return self
+            return surface
         if smallest_wavelength is not None and cut_off is not None:
             raise InputError(
                 "vary smallest_wavelength (the last wave) or cut_off (where the roughness ends), "
                 "not both"
             )
-        if cut_off is not None and (self.correlation is None or not self.fit):
-            raise InputError(f"cut_off varies waves that were fitted; got {self.source}")
-        end = None if cut_off is None else self._length_of(cut_off)
+        if cut_off is not None and (surface.correlation is None or not surface.fit):
+            raise InputError(f"cut_off varies waves that were fitted; got {surface.source}")
+        end = None if cut_off is None else surface._length_of(cut_off)
         if factors is not None:
-            stack = self._magnified(factors, waves, smallest_wavelength, end)
-        elif self.correlation is None or not self.fit:
-            stack = self._shortened(waves, smallest_wavelength)
+            stack = surface._magnified(factors, waves, smallest_wavelength, end)
+        elif surface.correlation is None or not surface.fit:
+            stack = surface._shortened(waves, smallest_wavelength)
         else:
-            stack = self._fitted(self.correlation, waves, smallest_wavelength, end)
-        kept = self.rule if stack.cut_off is not None else None
-        return replace(self, waves=stack, rule=kept if cut_off is None else cut_off)
+            stack = surface._fitted(surface.correlation, waves, smallest_wavelength, end)
+        kept = surface.rule if stack.cut_off is not None else None
+        return replace(surface, waves=stack, rule=kept if cut_off is None else cut_off)
 
     def _length_of(self, rule: CutOffRule) -> float:
-        """Return where the roughness ends by a rule [m]."""
         if isinstance(rule, int | float):
             return rule
         if self.measured is None:
@@ -351,7 +338,6 @@ class Surface(Described):
         return find_cut_off(self.measured.slopes, rule).wavelength
 
     def _of_upper(self, share: float) -> Surface:
-        """Return the surface with waves fitted to the correlation of the upper part."""
         if self.measured is None or not self.fit:
             raise InputError(f"top_height_fraction varies a measured surface; got {self.source}")
         counted = {**self.counted, "top_height_fraction": share}

@@ -8,9 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, Quantity, checks
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import FEWEST_POINTS, MOST_PROFILE_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines
@@ -52,7 +50,7 @@ def self_affine_profile(
     seed : int
         Seed of the random numbers.
     """
-    exponent = 2.0 * checks.at_most_one("hurst", checks.positive("hurst", hurst))
+    exponent = 2.0 * checks.fraction("hurst", hurst)
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
     x = _points(length, step)
@@ -119,6 +117,7 @@ class Statistics:
     smallest_wavelength: float
 
 
+# Synthetic surfaces by name. Numbers are of the order of a dense asphalt; none was measured.
 SYNTHETIC_SURFACES = {
     "synthetic_dense_asphalt": Statistics(
         hurst=0.8,
@@ -131,7 +130,6 @@ SYNTHETIC_SURFACES = {
         smallest_wavelength=0.1e-3,
     )
 }
-"""Synthetic surfaces by name. Numbers are of the order of a dense asphalt; none was measured."""
 
 
 def synthetic_profile(name: str) -> Profile:

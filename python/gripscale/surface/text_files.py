@@ -26,12 +26,9 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError, about_file
-from gripscale.core.finding import Finding, Topic, doubt
+from gripscale.core import Array, CaseKey, Finding, Topic, Words, checks, doubt
+from gripscale.core.errors import FileError, InputError, about_file, unstated
 from gripscale.core.units import in_mm, quantity_in_si, spelled
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.cells import Line
 from gripscale.io.text_table import TextTable, column_in, read_lines, table_in
 from gripscale.surface.header import Header, read_header
@@ -46,14 +43,10 @@ from gripscale.surface.resampling import printed_grid
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
+# Codes in use, without sign: nines, and the limits of the whole numbers instruments store.
 _CODES = np.array([*_NINES, *_WORDS])
-"""Codes in use, without sign: nines, and the limits of the whole numbers instruments store."""
-
-_BEYOND = 1e30
-"""Height, in any unit of length, beyond which every number is a code."""
-
-_ALONE = 10.0
-"""Least distance of a code from all heights, in the largest difference of two of them."""
+_BEYOND = 1e30  # height, in any unit of length, beyond which every number is a code
+_ALONE = 10.0  # least distance of a code from all heights, in the largest difference of two of them
 
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:
@@ -87,17 +80,10 @@ def length_unit(
         return argument
     if unit is not None:
         return unit
+    problem = f"names no unit of length; {remedy} "
     if named:
-        raise FileError(
-            Words(
-                f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of "
-                "length; give ",
-                CaseKey(name),
-            ),
-            missing=name,
-        )
-    words = Words(f"{path}: {part} names no unit of length; {remedy} ", CaseKey(name))
-    raise FileError(words, missing=name)
+        problem = f"is in {checks.short_repr(named)}, which is no known unit of length; give "
+    raise unstated(f"{path}: {part} {problem}", name, kind=FileError)
 
 
 def _column_unit(
@@ -119,8 +105,8 @@ _HEIGHT_TITLE = re.compile(
 )
 
 
+# Most points of a grid, in points of the file: with fewer on it, the file is not on a grid.
 _MOST_TIMES = 100
-"""Most points of a grid, in points of the file: with fewer on it, the file is not on a grid."""
 
 
 def _read_table(
@@ -160,24 +146,13 @@ def read_text_profile(
     if column is not None:
         steps = _stated_steps(path, None if step is None else (step, step), header)
         if steps is not None:
-            return _equal_steps(
-                column, steps[0], _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
-            )
-    elif step is not None:
-        raise InputError(
-            f"step must be left out; {path} has more than one column, and states where its points "
-            "are"
-        )
-    if column is not None:
-        raise FileError(
-            Words(
-                f"{path}: expected two columns, distance and height; got one column of numbers: "
-                "give ",
-                CaseKey("step"),
-                ', the distance between its points, such as "0.1 mm"',
-            ),
-            missing="step",
-        )
+            unit = _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
+            return _equal_steps(column, steps[0], unit)
+        before = "expected two columns, distance and height; got one column of numbers: give "
+        after = ', the distance between its points, such as "0.1 mm"'
+        raise unstated(f"{path}: {before}", "step", after, kind=FileError)
+    if step is not None:
+        raise InputError(f"step must be left out; {path} states where its points are")
     table, columns = _read_table(
         path, lines, "rows with two columns of numbers", (_DISTANCE_TITLE, _HEIGHT_TITLE)
     )
@@ -210,8 +185,8 @@ def read_text_profile(
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
+# What a title says of heights that may be counted downwards.
 _DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
-"""What a title says of heights that may be counted downwards."""
 
 
 def is_captif(lines: Sequence[Line]) -> bool:
@@ -317,14 +292,12 @@ def read_text_map(
             f"a table of heights with at least {FEWEST_POINTS}; got {count}{line}"
         )
     elif step is None:
-        raise FileError(
-            Words(
-                f"{table.path}: a table of heights has no steps; give ",
-                CaseKey("step"),
-                ", the distance between points along x and y, such as 0.1 mm; a line above it may "
-                "state it, too: # Spacing: 0.1 mm",
-            ),
-            missing="step",
+        raise unstated(
+            f"{table.path}: a table of heights has no steps; give ",
+            "step",
+            ", the distance between points along x and y, such as 0.1 mm; a line above it may "
+            "state it, too: # Spacing: 0.1 mm",
+            kind=FileError,
         )
     else:
         z_unit = length_unit(table.path, "the table", header.z_unit, "z_unit", z_unit)

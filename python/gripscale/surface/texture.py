@@ -46,21 +46,16 @@ from gripscale.surface.resampling import fill_gaps, without_line
 if TYPE_CHECKING:
     import xarray as xr
 
-_SEGMENT = 0.1
-"""Length of a segment [m]."""
+_SEGMENT = 0.1  # length of a segment [m]
 
+# Steps to which a finer profile is averaged, and beyond which it has no profile depth [m].
 _SAMPLE, _COARSEST = 0.5e-3, 1e-3
-"""Steps to which a finer profile is averaged, and beyond which it has no profile depth [m]."""
+_SHORTEST_WAVE = 2.4e-3  # wavelength at which the filter of the standard begins [m]
+_PADDING = 9  # samples by which the filter continues a line at either end
 
-_SHORTEST_WAVE = 2.4e-3
-"""Wavelength at which the filter of the standard begins [m]."""
-
-_PADDING = 9
-"""Samples by which the filter continues a line at either end."""
-
+# Share of missing heights beyond which a segment does not count: the standard allows 10 % of
+# dropouts and 5 % of spikes.
 _MOST_MISSING = 0.15
-"""Share of missing heights beyond which a segment does not count: the standard allows 10 % of
-dropouts and 5 % of spikes."""
 
 TEXTURE_NUMBERS = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
@@ -82,8 +77,7 @@ TEXTURE_NUMBERS = {
 }
 """Symbols of profiles and maps, unit and meaning of each number."""
 
-DEPTH_NOTE = "depth_note"
-"""Why there is no mean profile depth, or empty."""
+DEPTH_NOTE = "depth_note"  # why there is no mean profile depth, or empty
 
 
 def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
@@ -136,8 +130,7 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     return _dataset(values, note)
 
 
-Heights = Profile | Sequence[Profile] | HeightMap
-"""A profile, several together, or a map."""
+Heights = Profile | Sequence[Profile] | HeightMap  # a profile, several together, or a map
 
 
 def textures(surfaces: Mapping[str, Heights | None], dim: str) -> xr.Dataset:
@@ -194,11 +187,11 @@ def _segments(profile: Profile, *, smooth: bool = True) -> Array:
     return np.asarray(without_line(segments)[gaps.mean(axis=1) <= _MOST_MISSING])
 
 
+# Estimated texture depth, which a patch of sand would show, over the mean profile depth (ISO
+# 13473-1:2019).
 ESTIMATED_DEPTH = 1.1
-"""Estimated texture depth, which a patch of sand would show, over the mean profile depth
-(ISO 13473-1:2019)."""
+# Texture depth of the asphalt on which tyres are labelled [m] (ISO 23671:2021: 0.7 +- 0.3 mm).
 LABEL_DEPTH = 0.4e-3, 1.0e-3
-"""Texture depth of the asphalt on which tyres are labelled [m] (ISO 23671:2021: 0.7 +- 0.3 mm)."""
 
 
 def beside_label(depth: float) -> str:

@@ -15,25 +15,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gripscale.core.errors import InputError
-from gripscale.core.units import in_mm
+from gripscale.core import InputError, in_mm
 from gripscale.surface.profile import HeightMap, Profile, profile_list
 from gripscale.surface.spectrum import profile_spectrum
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_REFERENCE = 1e-6
-"""Root mean square height of the level zero [m]."""
+_REFERENCE = 1e-6  # root mean square height of the level zero [m]
+_LENGTHS = 12.0  # length of a profile over the longest wavelength of its bands
+_HALF_BAND = 10.0**0.05  # edge of a band over its middle
 
-_LENGTHS = 12.0
-"""Length of a profile over the longest wavelength of its bands."""
-
-_HALF_BAND = 10.0**0.05
-"""Edge of a band over its middle."""
-
+# Numbers by which the middles of the bands are called (ISO 3, R10).
 _PREFERRED = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
-"""Numbers by which the middles of the bands are called (ISO 3, R10)."""
 
 
 def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:

@@ -17,18 +17,15 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError
+from gripscale.core import Array, FileError
 from gripscale.surface.profile import even_grid
 
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
-_HEAD = 84
-"""Bytes before the first triangle of a binary file."""
+_HEAD = 84  # bytes before the first triangle of a binary file
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+# Distance of coordinates, in the size of the mesh, that single precision cannot tell apart.
 _ROUNDING = 1e-6
-"""Distance of coordinates, in the size of the mesh, that single precision cannot tell apart."""
-_OVERLAP = 1.01
-"""Area of the triangles over that of their rectangle beyond which some cover others."""
+_OVERLAP = 1.01  # area of the triangles over that of their rectangle beyond which some cover others
 _MOST_POINTS = 10**8
 
 

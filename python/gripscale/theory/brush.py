@@ -32,28 +32,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, checked, checks
 
+# mu [-] of sliding speed [m/s], pressure [Pa] and temperature rise [K], of one shape.
 SlidingFriction = Callable[[Array, Array, Array], Array]
-"""mu [-] of sliding speed [m/s], pressure [Pa] and temperature rise [K], of one shape."""
 
+# Points of a quadrature along the sliding part. With a friction that is smooth over speed they are
+# within 1e-4 of 64 points.
 _NODES = 12
-"""Points of a quadrature along the sliding part. With a friction that is smooth over speed they are
-within 1e-4 of 64 points."""
+# Of the interval in which a sliding speed lies, in its logarithm, before a secant through what is
+# left, some 15 %.
 _HALVINGS = 7
-"""Of the interval in which a sliding speed lies, in its logarithm, before a secant through what is
-left, some 15 %."""
+# Of the patch, for where sliding begins. The force is stationary there: 6e-5 leave 1e-8.
 _EDGE_HALVINGS = 14
-"""Of the patch, for where sliding begins. The force is stationary there: 6e-5 leave 1e-8."""
-_SLOWEST = 1e-4
-"""Sliding speed that counts as none, over the speed of the road."""
+_SLOWEST = 1e-4  # sliding speed that counts as none, over the speed of the road
+# Iterations of friction and temperature, half way each, and the change that ends them [K].
 _WARMING_STEPS, _WARMING_TOLERANCE = 40, 0.05
-"""Iterations of friction and temperature, half way each, and the change that ends them [K]."""
+# Longest time that a bristle is heated for, over the time in which the road passes the patch.
 _LONGEST_PASSAGE = 20.0
-"""Longest time that a bristle is heated for, over the time in which the road passes the patch."""
 
 
 class Brush(Checked):

@@ -77,9 +77,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, Quantity, checks
 from gripscale.rubber import Rubber
 
 

@@ -39,11 +39,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gripscale.core import checks
+from gripscale.core import Checked, InputError, Status, checked, checks
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of, require_load_bearing
 from gripscale.theory import elastic, layers
@@ -52,10 +49,8 @@ from gripscale.wave.result import ScaleResult
 
 Compliance = Callable[[Array], ComplexArray]
 
-_ALIASES = 16
-"""Harmonics summed, in units of N; the neglected ones fall off as m^-3."""
-_PATIENCE = 5
-"""Iterations without fewer wrong nodes before single nodes change sides."""
+_ALIASES = 16  # harmonics summed, in units of N; the neglected ones fall off as m^-3
+_PATIENCE = 5  # iterations without fewer wrong nodes before single nodes change sides
 _COARSEST = 64
 _FEWEST_IN_CONTACT = 8
 
@@ -64,18 +59,14 @@ _FEWEST_IN_CONTACT = 8
 class GridContact:
     """Contact on a periodic grid by an active set: arrays of the shape of the grid."""
 
-    pressure: Array
-    """In the unit of the solver: [Pa], or over the mean pressure."""
-    gap: Array
-    """In the unit of the solver: [m], or over the amplitude."""
+    pressure: Array  # in the unit of the solver: [Pa], or over the mean pressure
+    gap: Array  # in the unit of the solver: [m], or over the amplitude
     active: Mask
     iterations: int
-    settled: bool
-    """Whether the active set stopped changing, with the linear system solved."""
-    products: int = 0
-    """Products with the influence matrix, of an iterative solver."""
+    settled: bool  # whether the active set stopped changing, with the linear system solved
+    products: int = 0  # products with the influence matrix, of an iterative solver
+    # Residual of the linear system over the pressure [-], of an iterative solver.
     missing: float = 0.0
-    """Residual of the linear system over the pressure [-], of an iterative solver."""
 
 
 def nodes(points: int) -> Array:

@@ -30,10 +30,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Quantity, checked, checks
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightDifference, SelfAffineFit, fit_self_affine, height_difference
@@ -52,14 +49,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+# Share of the heights of a profile that counts, from the highest down: valleys have no contact.
 _TOP_HEIGHT_FRACTION = 0.5
-"""Share of the heights of a profile that counts, from the highest down: valleys have no contact."""
-_TOLERANCE = 1e-6
-"""Relative error of the integral below which a result is converged."""
-_NODES = 33
-"""Wavelengths of the running friction."""
-_COARSEST, _FINEST = 4, 1024
-"""Intervals between them, doubled from the first to the last."""
+_TOLERANCE = 1e-6  # relative error of the integral below which a result is converged
+_NODES = 33  # wavelengths of the running friction
+_COARSEST, _FINEST = 4, 1024  # intervals between them, doubled from the first to the last
 
 
 @dataclass(frozen=True, repr=False)
@@ -119,17 +113,7 @@ def klueppel_heinrich(
         surface by default.
     """
     if not isinstance(surface, SelfAffineFit | HeightDifference):
-        profiles = [surface] if isinstance(surface, Profile) else surface
-        if (
-            not isinstance(profiles, Sequence)
-            or not profiles
-            or not all(isinstance(profile, Profile) for profile in profiles)
-        ):
-            raise InputError(
-                "surface must be a SelfAffineFit, a HeightDifference or profiles; "
-                f"got {checks.short_repr(surface)}"
-            )
-        surface = height_difference(profiles, top_height_fraction=_TOP_HEIGHT_FRACTION)
+        surface = height_difference(surface, top_height_fraction=_TOP_HEIGHT_FRACTION)
     fit = surface if isinstance(surface, SelfAffineFit) else fit_self_affine(surface)
     checks.instance("rubber", rubber, Rubber)
     ratio = checks.positive("layer_ratio", layer_ratio)

@@ -37,17 +37,11 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.units import readable
+from gripscale.core import Array, ComplexArray, Described, InputError, checks, readable
 from gripscale.rubber import Rubber
 
-_ROWS = 2**14
-"""Waves at once: their matrices take about 10 MB."""
-_TERMS = 8
-"""Of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum."""
+_ROWS = 2**14  # waves at once: their matrices take about 10 MB
+_TERMS = 8  # of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum
 
 
 class Layers(Described):

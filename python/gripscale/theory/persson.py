@@ -34,12 +34,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from gripscale import model
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Quantity
+from gripscale.core import Array, Described, InputError, Quantity, Status, checks, provenance
 from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
 from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
 from gripscale.model import Load, Model, OnProgress
 from gripscale.rubber import Rubber
@@ -55,8 +51,8 @@ if TYPE_CHECKING:
 
 
 Values = tuple[Array, ...]
+# Name of variable and attribute, dimension, unit and meaning.
 Variable = tuple[str, Any, str, str]
-"""Name of variable and attribute, dimension, unit and meaning."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -70,14 +66,13 @@ class TheoryResult(Described):
 
     rubber: Rubber
     load: Load
+    # `converged` if doubling the resolution changed every integral by less than the tolerance.
     status: Status
-    """`converged` if doubling the resolution changed every integral by less than the tolerance."""
+    # Cut-offs, from the largest wave of the surface falling to the smallest one asked for [m].
     wavelength: Array = field(repr=False)
-    """Cut-offs, from the largest wave of the surface falling to the smallest one asked for [m]."""
-    running_friction: Array = field(repr=False)
-    """Friction coefficient with each cut-off [-]."""
+    running_friction: Array = field(repr=False)  # friction coefficient with each cut-off [-]
+    # Change of the friction coefficient when the resolution was doubled last [-].
     friction_error: float
-    """Change of the friction coefficient when the resolution was doubled last [-]."""
 
     @property
     def contact_fraction(self) -> float:
@@ -164,14 +159,11 @@ def refine_intervals(
         coarse = fine
 
 
-_TOLERANCE = 1e-4
-"""Relative error of the integrals below which a result is converged."""
+_TOLERANCE = 1e-4  # relative error of the integrals below which a result is converged
+# Intervals between neighbouring points of the spectrum, doubled from the first to the last.
 _COARSEST, _FINEST = 4, 128
-"""Intervals between neighbouring points of the spectrum, doubled from the first to the last."""
-_WIDEST = 0.25
-"""Widest step of log q on the coarsest grid, times the intervals there."""
-_ANGLES = 12
-"""Angles of a quarter turn beyond the number of intervals."""
+_WIDEST = 0.25  # widest step of log q on the coarsest grid, times the intervals there
+_ANGLES = 12  # angles of a quarter turn beyond the number of intervals
 
 
 @dataclass(frozen=True, repr=False)
@@ -254,7 +246,7 @@ def persson(
             f"spectrum must be an ArealSpectrum or a ProfileSpectrum; "
             f"got {checks.short_repr(spectrum)}"
         )
-    share = checks.at_most_one("gamma", checks.not_negative("gamma", gamma))
+    share = checks.share("gamma", gamma)
     last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     end = last
     if smallest_wavelength is not None:
@@ -290,8 +282,8 @@ def persson(
     )
 
 
+# Largest wavenumber that counts over that of a cut-off: the Gaussian transmits 1/500 there.
 LAST_OVER_CUT_OFF = 3.0
-"""Largest wavenumber that counts over that of a cut-off: the Gaussian transmits 1/500 there."""
 
 
 def gaussian_power(q: Array, ends: Array) -> Array:

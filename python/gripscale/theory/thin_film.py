@@ -30,13 +30,13 @@ from gripscale.core import checks
 
 def flow_factor_across(amplitude: float) -> float:
     """Return the flow factor across the ridges of a gap of one sine, of relative amplitude."""
-    square = _below_one(amplitude) ** 2
+    square = checks.share("amplitude", amplitude) ** 2
     return float((1.0 - square) ** 2.5 / (1.0 + 0.5 * square))
 
 
 def flow_factor_along(amplitude: float) -> float:
     """Return the flow factor along the ridges of a gap of one sine, of relative amplitude."""
-    return 1.0 + 1.5 * _below_one(amplitude) ** 2
+    return 1.0 + 1.5 * checks.share("amplitude", amplitude) ** 2
 
 
 def patir_cheng_flow_factor(gap_ratio: float) -> float:
@@ -56,7 +56,3 @@ def stefan_time(
     first, last = (checks.positive("film thickness", film, unit="m") for film in (before, after))
     growth = last**-2 - first**-2
     return checks.positive("viscosity", viscosity, unit="Pa s") * size / (2.0 * load) * growth
-
-
-def _below_one(amplitude: float) -> float:
-    return checks.at_most_one("amplitude", checks.not_negative("amplitude", amplitude))

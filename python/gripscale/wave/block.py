@@ -19,11 +19,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
+from gripscale.core import Checked, InputError, Quantity, Status, checked, checks
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import Profile
@@ -34,13 +30,13 @@ from gripscale.wave import kernel
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
 
+# Statuses of solutions that reached the whole pressure.
 _SOLVED = (
     Status.CONVERGED,
     Status.TOLERANCE_NOT_MET,
     Status.FRICTIONS_DISAGREE,
     Status.CONTACT_TOO_NARROW,
 )
-"""Statuses of solutions that reached the whole pressure."""
 
 
 def _settings(name: str, value: Mapping[str, float]) -> Mapping[str, float]:
@@ -257,16 +253,16 @@ def solve_scale(
     return block.solve(problem, start, workers=workers)
 
 
+# Numbers of columns, all of which can be halved for the coarser meshes of a sequence.
 _COLUMNS = (128, 192, 256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096)
-"""Numbers of columns, all of which can be halved for the coarser meshes of a sequence."""
 COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
+# Ratio of heights of neighbouring rows, at most one as wide as high at the surface.
 ROW_GROWTH = 1.12
-"""Ratio of heights of neighbouring rows, at most one as wide as high at the surface."""
 
 
+# Range of the heights after filtering, over that before, below which only round-off remains.
 _ROUND_OFF = 1e-12
-"""Range of the heights after filtering, over that before, below which only round-off remains."""
 
 
 def solve_profile(

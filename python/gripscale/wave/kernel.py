@@ -7,8 +7,7 @@ from functools import lru_cache
 from typing import Protocol, TypeVar, runtime_checkable
 
 from gripscale import _kernel
-from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, checks
 from gripscale.core.parallel import look, worker_count
 from gripscale.rubber import Rubber
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveProblem

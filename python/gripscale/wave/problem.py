@@ -10,15 +10,12 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, checked, checks
 from gripscale.rubber import Rubber
 
 FEWEST_HEIGHTS = 8
+# Waves beyond the last with this share of the largest amplitude are round-off.
 SMALLEST_SHARE = 1e-9
-"""Waves beyond the last with this share of the largest amplitude are round-off."""
 
 
 class Sine(Checked):

@@ -19,10 +19,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import gripscale
-from gripscale.core.arrays import Array
-from gripscale.core.described import Pictured
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
+from gripscale.core import Array, Pictured, Status, labelled
 from gripscale.rubber import Rubber, extrapolation
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -30,8 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-LARGE_MISMATCH = 0.05
-"""Relative difference of the two frictions above which a result is in doubt."""
+LARGE_MISMATCH = 0.05  # relative difference of the two frictions above which a result is in doubt
 
 
 def harmonics(x: Array, pressure: Array, period: float, order: NDArray[np.int_]) -> Array:

@@ -13,12 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Quantity
-from gripscale.core.checks import Checked, checked
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
+from gripscale.core import Array, Checked, Described, InputError, Quantity, Status, checked, checks
 from gripscale.rubber import Rubber
 from gripscale.wave import kernel
 from gripscale.wave.block import FiniteStrainBlock

@@ -90,5 +90,7 @@ def test_bad_files_are_one_sentence(tmp_path: Path, text: str, sentence: str) ->
 
 
 def test_lengths_must_agree() -> None:
-    with pytest.raises(InputError, match=r"equal lengths.*got 2 of speed, 1 of friction"):
+    with pytest.raises(
+        InputError, match=r"speed, friction, .* must have the same length.*got 2, 1, 2"
+    ):
         MeasuredFriction([0.1, 1.0], [0.3])
