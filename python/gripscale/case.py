@@ -344,7 +344,7 @@ class Case(Described):
         fit = self.measured_rubber.fit
         if fit is not None and fit.findings:
             opening, rest = fit.findings[:2], len(fit.findings) - 2
-            more = [f"{rest} more in the rubber's section of the page"] if rest > 0 else []
+            more = [f"{rest} more (`gripscale fit-rubber` lists them)"] if rest > 0 else []
             text = f"Rubber, doubts of its measurement and series: {'; '.join([*opening, *more])}."
             findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         findings += [f.about("Surface") for f in surface.findings if f not in others]

@@ -274,8 +274,8 @@ def _finite_strain(samples: xr.Dataset) -> FactorNumbers | None:
         value, error = reduce.ratio(over, under, measure)
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-    known = all(bool(value.notnull().all()) for value, _ in numbers.values())
-    return numbers if known else None
+    complete = all(bool(value.notnull().all()) for value, _ in numbers.values())
+    return numbers if complete else None
 
 
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
