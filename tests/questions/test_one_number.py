@@ -231,3 +231,11 @@ def test_large_strain_is_no_second_answer() -> None:
 def test_uncertainty_has_it(asked: Asked) -> None:
     sampled = gs.uncertainty(asked.case, samples=10)
     assert asked.of(sampled.data) == pytest.approx(asked.expected, rel=1e-12)
+
+
+def test_a_number_and_its_per_cent_stay_on_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    from gripscale import terminal
+
+    for length in range(80, 100):
+        terminal.print_wrapped(terminal.screen(), f"{'x' * length} large strain ± 5.0 % (assumed)")
+        assert "5.0 %" in capsys.readouterr().out
