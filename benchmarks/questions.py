@@ -19,6 +19,7 @@ from benchmarks.case import CASE
 from benchmarks.table import show
 
 QUESTIONS = {
+    "compare": ["compare", str(CASE)],
     "run": ["run", str(CASE)],
     "study, 5 speeds": ["study", str(CASE), "--vary", "speed=0.003:30:log5"],
     "sensitivity": ["sensitivity", str(CASE)],

@@ -12,13 +12,12 @@ import json
 from pathlib import Path
 from typing import Any
 
-import xarray as xr
-
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.questions.answer.answer import answer
+from gripscale.questions.answer.estimate import large_strain_answer
 from gripscale.questions.answer.reliance import headline
-from gripscale.questions.compare.page import best_line
+from gripscale.questions.compare.page import with_half_widths
 
 ROOT = Path(__file__).resolve().parents[1]
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
@@ -35,9 +34,11 @@ def of_run() -> dict[str, Any]:
 
 
 def of_comparison() -> dict[str, Any]:
-    """Return what `gripscale compare` estimates, and what the chain has of it."""
-    data: xr.Dataset = gs.compare(read_case(CASE)).to_dataset()
-    return {"compare": best_line(data)}
+    """Return what `gripscale compare` makes of the answer with large strain solved."""
+    data = gs.compare(read_case(CASE)).to_dataset()
+    large = large_strain_answer(data)
+    assert large is not None
+    return {"compare: large strain": with_half_widths(large)}
 
 
 def main() -> None:

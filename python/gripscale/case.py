@@ -347,7 +347,9 @@ class Case(Described):
         findings += tester_findings(self.tester, self.rubber.name)
         fit = self.measured_rubber.fit
         if fit is not None and fit.findings:
-            text = f"Rubber, doubts of its measurement and series: {'; '.join(fit.findings)}."
+            opening, rest = fit.findings[:2], len(fit.findings) - 2
+            more = [f"{rest} more (`gripscale fit-rubber` lists them)"] if rest > 0 else []
+            text = f"Rubber, doubts of its measurement and series: {'; '.join([*opening, *more])}."
             findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         findings += [f.about("Surface") for f in surface.findings if f not in others]
         if self.load.thickness is not None:

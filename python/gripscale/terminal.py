@@ -107,14 +107,15 @@ def print_wrapped(console: Console, message: str) -> None:
 
     indent = " " * (len(message) - len(message.lstrip()))
     lines = textwrap.wrap(
-        message,
+        message.replace(" %", "\N{NO-BREAK SPACE}%"),
         console.width,
         subsequent_indent=f"{indent}  ",
         break_long_words=False,
         break_on_hyphens=False,
         replace_whitespace=False,
     )
-    console.print(Text("\n".join(lines)), soft_wrap=True)
+    text = "\n".join(lines).replace("\N{NO-BREAK SPACE}%", " %")
+    console.print(Text(text), soft_wrap=True)
 
 
 def print_parts(console: Console, parts: Iterable[str | Table]) -> None:
@@ -251,13 +252,16 @@ def time_left(seconds: float) -> str:
 
 
 def progress_printer(console: Console) -> Callable[[Progress], None]:
-    """Return what shows each prediction as a step, with the time that the others may take."""
-    from gripscale.questions.words import SYMBOLS, believed
+    """Return what shows each prediction as a step, with the time that the others may take.
 
-    begun, solved = time.monotonic(), 0
+    The first answer is printed and stays: a number to judge the rest by, while this is solved.
+    """
+    from gripscale.questions.words import SYMBOLS, believed, is_estimated
+
+    begun, solved, first_printed = time.monotonic(), 0, False
 
     def show(progress: Progress) -> None:
-        nonlocal solved
+        nonlocal solved, first_printed
         solved += not progress.stored
         answer = progress.result
         width = len(str(progress.total))
@@ -272,6 +276,9 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
         if progress.stored:
             show_step(console, f"{text}, already solved")
             return
+        if not first_printed and is_estimated(answer, "friction"):
+            first_printed = True
+            print_wrapped(console, text)
         each = (time.monotonic() - begun) / solved
         wait = time_left(each * (progress.total - progress.done))
         show_step(console, f"{text}, {progress.seconds:.1f} s{wait}")

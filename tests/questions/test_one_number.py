@@ -93,6 +93,16 @@ class Asked:
             friction = self.answer.friction
         return [friction, self.answer.contact_fraction][-len(self.names) :]
 
+    @property
+    def shown(self) -> dict[str, str]:
+        """The expected numbers as texts print them."""
+        return dict(zip(self.names, map(significant, self.expected), strict=True))
+
+    @property
+    def judge(self) -> str:
+        """Model of a comparison that the answer is of."""
+        return "direct" if self.case.surface.measured else "chain_half_plane"
+
     def of(self, data: xr.Dataset) -> list[float]:
         """Return the numbers of another result."""
         return [headline(data, name).value for name in self.names]
@@ -138,8 +148,7 @@ def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
     yield "table", [float(table[column].values[0]) for column in columns]
     varied = gs.vary(asked.case, pressure=[asked.case.load.pressure]).data
     yield "vary", [float(varied[believed(varied, name)][0]) for name in asked.names]
-    member = ["direct"] if asked.case.surface.measured else ["chain_half_plane"]
-    yield "compare", asked.of(gs.compare(asked.case, models=member).data)
+    yield "compare", asked.of(gs.compare(asked.case, models=[asked.judge]).data)
 
 
 def test_one_number_through_every_door(asked: Asked) -> None:
@@ -150,10 +159,7 @@ def test_one_number_through_every_door(asked: Asked) -> None:
 
 def test_run_prints_the_answer_first_and_last(asked: Asked) -> None:
     line = asked.answer.lines[0]
-    texts = [
-        f"{SYMBOLS[n]} = {significant(v)}" for n, v in zip(asked.names, asked.expected, strict=True)
-    ]
-    assert all(text in line for text in texts)
+    assert all(f"{SYMBOLS[name]} = {value}" in line for name, value in asked.shown.items())
     assert asked.printed.count(line) == 2
     assert asked.printed.endswith(line)
 
@@ -170,12 +176,66 @@ def test_pages_and_app_show_it(asked: Asked) -> None:
     ):
         assert all(isinstance(card, Card) for card in cards)
         values = {card.label: card.value for card in cards}
-        for name, value in zip(asked.names, asked.expected, strict=True):
-            label = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-            assert values[label] == significant(value)
+        for name, value in asked.shown.items():
+            assert values[f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"] == value
+
+
+@pytest.mark.parametrize("asked", ["area_term", "several_profiles", "waves"], indirect=True)
+def test_commands_lead_with_it(asked: Asked, shell_of_module: Shell) -> None:
+    path, folder = asked.folder.parent / "case.toml", asked.folder.parent
+    pressure = f"pressure={asked.case.load.pressure / 1e5:g} bar"
+    commands = {
+        "comparison": ["compare", path, "--models", asked.judge],
+        "study": ["study", path, "--vary", pressure],
+    }
+    printed = {}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(FigureFolder, "save", lambda *_: None)
+        for name, command in commands.items():
+            result = shell_of_module(*command, "--output", folder / name)
+            assert result.exit_code == 0, result.output
+            printed[name] = " ".join(result.output.split())
+    compared = gs.load(folder / "comparison" / "comparison.nc")
+    assert asked.of(compared.data) == pytest.approx(asked.expected, rel=1e-4)
+    assert printed["comparison"].count("Answer: ") == 1
+    assert all(f"{SYMBOLS[n]} = {v}" in compared.lines[0] for n, v in asked.shown.items())
+    assert compared.lines[0] in printed["comparison"]
+    ends = {"A_r/A_0": "contact_fraction", "mu": "friction"}
+    best = printed["comparison"].partition("Best estimate (90 %): ")[2]
+    for symbol, name in ends.items():
+        assert name not in asked.shown or f"{symbol} = {asked.shown[name]}" in best
+    varied = gs.load(folder / "study" / "study.nc").data
+    numbers = [varied[believed(varied, name)].item() for name in asked.names]
+    assert numbers == pytest.approx(asked.expected, rel=1e-4)
+    assert all(value in printed["study"] for value in asked.shown.values())
+
+
+def test_large_strain_is_no_second_answer() -> None:
+    surface, options = CASES["plain"]()
+    case = gs.Case(surface, SHIFTED_RUBBER, **LOAD | options, waves=3, smallest_wavelength=4e-3)
+    answer = gs.answer(case)
+    compared = gs.compare(case, models=["direct", "windows"])
+    for name in ("friction", "contact_fraction"):
+        number, large = (headline(data, name) for data in (answer.data, compared.data))
+        assert large.value == pytest.approx(number.value, rel=1e-12)
+        factor = float(compared.data[f"{name}_factor"].sel(model="windows_finite_strain"))
+        solved = float(compared.data[f"large_strain_{name}"])
+        # the factor of the ladder is of the friction it shows, that of the answer of the losses
+        assert solved == pytest.approx(number.value * factor, rel=0.01)
+        assert significant(solved) in compared.lines[1]
+    assert compared.lines[0] == answer.lines[0]
+    assert compared.lines[1].startswith("  With large strain solved on windows: ")
 
 
 @pytest.mark.verification
 def test_uncertainty_has_it(asked: Asked) -> None:
     sampled = gs.uncertainty(asked.case, samples=10)
     assert asked.of(sampled.data) == pytest.approx(asked.expected, rel=1e-12)
+
+
+def test_a_number_and_its_per_cent_stay_on_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    from gripscale import terminal
+
+    for length in range(80, 100):
+        terminal.print_wrapped(terminal.screen(), f"{'x' * length} large strain ± 5.0 % (assumed)")
+        assert "5.0 %" in capsys.readouterr().out

@@ -102,7 +102,7 @@ def test_table_and_answer_have_the_area_term(made: SolvedLadder) -> None:
     # 2 MPa on the contact area of the estimate, not on that of the direct contact
     both = float(data.answer_friction) + 2e6 * float(data.answer_contact_fraction) / 3e5
     assert float(data.answer_total_friction) == pytest.approx(both, rel=1e-12)
-    assert f"It would be μ = {significant(both)}: " in next(answer_lines(data))
+    assert f"μ = {significant(both)}: " in next(answer_lines(data))
 
 
 def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLadder) -> None:

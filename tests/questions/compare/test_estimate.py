@@ -10,7 +10,12 @@ import xarray as xr
 from scipy import stats
 
 from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, answer_of_samples
+from gripscale.questions.answer.estimate import (
+    ASSUMED_FINITE_STRAIN,
+    answer_of_samples,
+    large_strain_answer,
+    with_large_strain,
+)
 from gripscale.questions.answer.samples import ratio
 
 Make = Callable[..., xr.Dataset]
@@ -56,14 +61,19 @@ def test_there_is_no_interval_without_samples_of_the_road(solved: Make, together
     assert math.isnan(best.answer_friction_half_width)
 
 
-def test_factors_of_rungs_and_from_elsewhere(solved: Make, together: Make) -> None:
+def test_windows_leave_the_answer_and_say_what_it_becomes(solved: Make, together: Make) -> None:
     finite, small = solved((0.102, 0.98), (0.206, 0.97)), solved((0.1, 1.0), (0.2, 1.0))
     direct = solved(DIRECT | SAMPLING)
     models = together(direct=direct, windows_finite_strain=finite, windows_half_plane=small)
     supplied = Factor("map", "map", LogNormalValue(0.5, 0.2), LogNormalValue(1.3, 0.1), 6.0)
-    best = answer_of_samples(models, [supplied])
-    assert best.answer_friction_factor.notnull().all()
-    assert best.factor_label.values.tolist() == ["large strain", "map"]
+    answer = answer_of_samples(models, [supplied])
+    assert answer.answer_friction == pytest.approx(0.2 * 1.3)
+    assert answer.factor_label.values.tolist() == ["large strain", "map"]
+    assert large_strain_answer(answer) is None
+    both = with_large_strain(answer, models, [supplied])
+    assert both.answer_friction == answer.answer_friction
+    best = large_strain_answer(both)
+    assert best is not None
     value, error = ratio(finite, small, "friction_from_dissipation")
     assert value == pytest.approx(0.975)
     assert best.answer_friction == pytest.approx(0.2 * 0.975 * 1.3)
@@ -74,9 +84,15 @@ def test_factors_of_rungs_and_from_elsewhere(solved: Make, together: Make) -> No
 
 def test_a_supplied_factor_replaces_ours(solved: Make, together: Make) -> None:
     ours = Factor("finite_strain", "x", LogNormalValue(0.9, 0.01), LogNormalValue(0.8, 0.01))
-    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)), [ours])
+    windows = {
+        "windows_finite_strain": solved((0.1, 1.0)),
+        "windows_half_plane": solved((0.1, 1.0)),
+    }
+    models = together(direct=solved(DIRECT | SAMPLING), **windows)
+    best = answer_of_samples(models, [ours])
     assert best.answer_friction == pytest.approx(0.16)
     assert best.factor_label.values.tolist() == ["x"]
+    assert large_strain_answer(with_large_strain(best, models, [ours])) is None
 
 
 def test_a_factor_on_one_quantity_only_is_not_included(solved: Make, together: Make) -> None:

@@ -2,11 +2,12 @@
 
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
-and friction likewise. The first factor is a ratio of two models on the same windows; where nobody
-has computed it, it is assumed to be 1 within what windows and blocks of other roads showed. The
-second is a law measured on synthetic surfaces (`gripscale.half_space.line_to_map`). The interval
-(`intervals`) is for the mean over the road with the roughness down to the
-cut-off, from the sampling of the road and the errors of grids and factors.
+and friction likewise. The first factor is assumed to be 1 within what windows and blocks of other
+roads showed. A comparison also solves it, as a ratio of two models on the same windows, and says
+what the answer becomes with it. The second is a law measured on synthetic surfaces
+(`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the road with
+the roughness down to the cut-off, from the sampling of the road and the errors of grids and
+factors.
 """
 
 from __future__ import annotations
@@ -60,7 +61,9 @@ FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
 ASSUMED_FINITE_STRAIN = Factor(
     "finite_strain", "large strain", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
-"""Where these models were not solved: what windows and blocks of other roads showed."""
+"""Of every answer: what windows and blocks of other roads showed."""
+LARGE_STRAIN = "large_strain_"
+"""Start of the names of numbers with the solved factor of finite strain in place of the assumed."""
 LINES_TO_SURFACE = "profile to surface"
 """Label of the factor from measured lines to the isotropic surface they lie on."""
 ISOTROPY_ASSUMED = "the step from profile to surface assumes an isotropic surface"
@@ -95,12 +98,13 @@ def answer_of_samples(
     supplied: Sequence[Factor] = (),
     *,
     sampled: SampledErrors | None = None,
+    solved_finite_strain: FactorNumbers | None = None,
 ) -> xr.Dataset:
     """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
-    known one replaces it.
+    known one replaces it, `solved_finite_strain` the assumed factor of finite strain.
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -115,7 +119,10 @@ def answer_of_samples(
     unknown = xr.full_like(status, math.nan, dtype=float)
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if has_direct:
-        factors["finite_strain"] = _finite_strain(samples, unknown)
+        numbers = _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
+        if solved_finite_strain is not None:
+            numbers = solved_finite_strain
+        factors[ASSUMED_FINITE_STRAIN.name] = ASSUMED_FINITE_STRAIN.label, numbers
         if _are_lines(samples):
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(samples)
         for factor in supplied:
@@ -159,6 +166,31 @@ def answer_of_samples(
             data, term * data["answer_contact_fraction_factor"].prod("factor"), errors_of
         )
     return described(data)
+
+
+def with_large_strain(
+    answer: xr.Dataset, samples: xr.Dataset, supplied: Sequence[Factor] = ()
+) -> xr.Dataset:
+    """Return an answer with what it becomes by the solved factor of finite strain.
+
+    Unchanged where windows were not solved with both models, or a supplied factor has its name.
+    """
+    solved = _finite_strain(samples)
+    if solved is None or any(factor.name == ASSUMED_FINITE_STRAIN.name for factor in supplied):
+        return answer
+    large = answer_of_samples(samples, supplied, solved_finite_strain=solved)
+    names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
+    numbers = {name: large[answered] for name, answered in names.items() if answered in large}
+    for name, number in numbers.items():
+        number.attrs = variable_attributes(LARGE_STRAIN_NUMBERS[name])
+    return answer.assign(numbers)
+
+
+def large_strain_answer(data: xr.Dataset) -> xr.Dataset | None:
+    """Return a result with large strain solved as its answer; None where it was not."""
+    numbers = [name for name in LARGE_STRAIN_NUMBERS if name in data]
+    replaced = {name.replace(LARGE_STRAIN, "answer_"): data[name] for name in numbers}
+    return data.assign(replaced) if numbers else None
 
 
 def described(data: xr.Dataset) -> xr.Dataset:
@@ -228,22 +260,22 @@ def _of_surface(samples: xr.Dataset) -> FactorNumbers:
     return numbers
 
 
-def _finite_strain(samples: xr.Dataset, unknown: xr.DataArray) -> tuple[str, FactorNumbers]:
-    """Return label and numbers of the factor of finite strain, assumed where it is not solved.
+def _finite_strain(samples: xr.Dataset) -> FactorNumbers | None:
+    """Return the factor of finite strain where windows were solved with both models, else None.
 
     Its error is the scatter of the samples of both models and, evenly, as much again as the factor
     changes, for what the samples leave out.
     """
+    if not {DIRECT, *FINITE_STRAIN} <= set(samples["model"].values.tolist()):
+        return None
     numbers: FactorNumbers = {}
-    if set(FINITE_STRAIN) <= set(samples["model"].values.tolist()):
-        over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
-        for name, measure in ESTIMATED.items():
-            value, error = reduce.ratio(over, under, measure)
-            changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
-            numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-    if not numbers or any(bool(value.isnull().any()) for value, _ in numbers.values()):
-        return ASSUMED_FINITE_STRAIN.label, _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
-    return "large strain", numbers
+    over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
+    for name, measure in ESTIMATED.items():
+        value, error = reduce.ratio(over, under, measure)
+        changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
+        numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
+    complete = all(bool(value.notnull().all()) for value, _ in numbers.values())
+    return numbers if complete else None
 
 
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
@@ -292,3 +324,9 @@ ANSWER_NUMBERS = {
     **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }
 """All numbers of an answer, and their meaning."""
+LARGE_STRAIN_NUMBERS = {
+    name.replace("answer_", LARGE_STRAIN): text.replace("answer", "with large strain solved")
+    for name, text in ANSWER_NUMBERS.items()
+    if name.endswith(tuple(filter(None, _INTERVAL))) or text.startswith("answer: ")
+}
+"""The numbers with the solved factor of finite strain, and their meaning."""

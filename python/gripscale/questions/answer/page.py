@@ -18,7 +18,7 @@ from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
-from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
     measured_words,
@@ -152,23 +152,7 @@ def _corrections(data: xr.Dataset) -> str:
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
     corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
-    return f"Solved on {where} at small strain ({solved}){corrected}.{_beside_run(data)}"
-
-
-def _beside_run(data: xr.Dataset) -> str:
-    """Return what a run answers, where large strain was solved for a comparison; else empty."""
-    factors = {
-        name: float(data[f"answer_{name}_factor"].values[0])
-        for name in reliance.estimated_names(data)
-    }
-    solved = data.factor_label.values[0] == ASSUMED_FINITE_STRAIN.label
-    if not solved or np.allclose(list(factors.values()), 1.0):
-        return ""
-    numbers = ", ".join(
-        f"{_SHORT[name]} {significant(float(data[f'answer_{name}']) / factor)}"
-        for name, factor in factors.items()
-    )
-    return f" `gripscale run`, which assumes no change by large strain, has {numbers}."
+    return f"Solved on {where} at small strain ({solved}){corrected}."
 
 
 def _in_interval(data: xr.Dataset) -> Iterator[str]:

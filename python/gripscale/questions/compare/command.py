@@ -78,14 +78,14 @@ def compare_command(
     stages: list[SolvedLadder] = []
 
     def print_stage(solved: SolvedLadder) -> None:
-        """Print the answer so far, once, while windows are solved."""
+        """Print the answer, once, while other models are solved."""
         if axes is None and staged and has_answer(solved.data) and not stages:
             stages.append(solved)
-            console.print()
-            terminal.print_parts(console, ["So far:", *answer_lines(solved.data), ""])
+            lead, *_ = answer_lines(solved.data)
+            terminal.print_parts(console, ["", lead, "Solving the other models ..."])
 
     names = [] if models is None else [name.strip() for name in models.split(",")]
-    staged = any(member.group == ladder.WINDOWS for member in ladder.chosen(names))
+    staged = len(ladder.chosen(names)) > 1
     result = question.compare(
         read,
         vary=axes,

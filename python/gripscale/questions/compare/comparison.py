@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -137,10 +138,15 @@ def solved_ladder(
             require_measured(setup.rubber_before, wavelength, speed)
 
     wanted = chosen(models)
+    answering = [member for member in wanted if member.name == estimates.DIRECT]
     quick = [member for member in wanted if member.group != WINDOWS]
-    asked: Sequence[ComparedModel] = quick or wanted
+    parts = pairwise([answering, quick, list(wanted), []])
+    asked, *stages = [part for part, after in parts if part and part != after]
     while True:
         design, solved = _design(setups, list(tasks), asked, axis)
+        if not solved and stages:
+            asked = stages.pop(0)
+            continue
         if not solved:
             raise InputError(
                 f"no model of {', '.join(models)} applies to this case; windows and maps "
@@ -153,8 +159,8 @@ def solved_ladder(
         )
         if on_stage is not None:
             on_stage(ladder)
-        if len(asked) < len(wanted):
-            asked = wanted
+        if stages:
+            asked = stages.pop(0)
         elif _windows_left(ladder, accuracy):
             setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
         else:
@@ -231,7 +237,9 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     best = comparison.data
     for name, measure in estimates.ESTIMATED.items():
         error = reduce.pair_scatter(over, under, measure)
-        whole = np.fmax(accuracy, best[f"answer_{name}_half_width"].fillna(0.0))
+        interval = f"{name}_half_width"
+        left_open = best.get(f"{estimates.LARGE_STRAIN}{interval}", best[f"answer_{interval}"])
+        whole = np.fmax(accuracy, left_open.fillna(0.0))
         if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
             (half_width(error) > whole / 3.0).any()
         ):
@@ -327,6 +335,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         best = estimate_of_waves(chain[names].where(reduce.converged(chain)))
     else:
         best = estimates.answer_of_samples(samples, comparison.factors)
+        best = estimates.with_large_strain(best, samples, comparison.factors)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
     add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
     for name, text in _WORDS.items():
@@ -348,7 +357,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         add(f"sample_{name}", values, f"{text} by sample", "model", "sample")
         curves = reduce.running(samples, name, wavelength)
         add(f"running_{name}", curves, f"{text} down to the wavelength", "model", "wavelength")
-    for name in estimates.ANSWER_NUMBERS:
+    for name in estimates.ANSWER_NUMBERS | estimates.LARGE_STRAIN_NUMBERS:
         if name in best and "slope" not in best[name].dims:
             dims = [dim for dim in ("factor",) if dim in best[name].dims]
             add(name, best[name], best[name].attrs["long_name"], *dims)

@@ -16,11 +16,12 @@ from gripscale.core.finding import Finding, Severity, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
-from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.estimate import DIRECT, large_strain_answer
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.page import answer_cards, basis_lines
+from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
 from gripscale.questions.answer.reliance import (
+    estimated_names,
     has_answer,
     headline,
     is_measured,
@@ -30,6 +31,7 @@ from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
+from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.uncertainty.propagation import of_same_inputs
@@ -217,12 +219,37 @@ def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
 
 def best_line(comparison: xr.Dataset) -> str:
     """Return the answer in one line, the same in every version: scripts read it."""
-    numbers = (
-        f"{symbol} = {_with_half_width(comparison, name)}"
+    doubt = "; not to be relied on" if no_answer(comparison) else ""
+    return f"Best estimate ({100.0 * LEVEL:.0f} %): {with_half_widths(comparison)}{doubt}"
+
+
+def with_half_widths(answer: xr.Dataset) -> str:
+    """Return area and friction of an answer with the half widths of their intervals."""
+    return ", ".join(
+        f"{symbol} = {_with_half_width(answer, name)}"
         for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction"))
     )
-    doubt = "; not to be relied on" if no_answer(comparison) else ""
-    return f"Best estimate ({100.0 * LEVEL:.0f} %): {', '.join(numbers)}{doubt}"
+
+
+def comparison_lines(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield the answer as `gripscale run` has it, what large strain makes of it, and its basis."""
+    lead, *basis = answer_lines(comparison)
+    yield lead
+    yield from (f"  {line}" for line in large_strain_lines(comparison))
+    yield from basis
+
+
+def large_strain_lines(comparison: xr.Dataset) -> Iterator[str]:
+    """Yield what the answer becomes with large strain solved, where it was."""
+    large = large_strain_answer(comparison)
+    if large is None or not has_answer(large):
+        return
+    texts = []
+    for name in estimated_names(large):
+        number = headline(large, name)
+        change = signed_percent(number.value / headline(comparison, name).value - 1.0)
+        texts.append(f"{SYMBOLS[name]} = {number}, {change}")
+    yield f"With large strain solved on windows: {'; '.join(texts)}."
 
 
 def judgement(chain: PredictionView, answer: xr.Dataset) -> Iterator[str]:
@@ -290,7 +317,7 @@ def comparison_page(compared: Compared) -> Page:
         ],
         [*ladder_cards(ladder), *uncertainty_cards(sampled)],
         [Section("comparison", "Models side by side", elements), rerun_section(first.attrs)],
-        () if ladder is None else basis_lines(ladder),
+        () if ladder is None else [*large_strain_lines(ladder), *basis_lines(ladder)],
     )
 
 

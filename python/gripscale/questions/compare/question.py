@@ -26,7 +26,6 @@ from gripscale.model import INPUT_DOUBTS, input_doubts_of
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.findings import answer_notices, measured_at_load
-from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts_of_ladder import varied
@@ -62,7 +61,7 @@ class Comparison(Result):
     def lines(self) -> Sequence[str]:
         """The answer and what it rests on; over a varied input its range."""
         if not self.axis:
-            return tuple(answer_lines(self.data))
+            return tuple(page.comparison_lines(self.data))
         ranges = []
         for name, symbol in reversed(SYMBOLS.items()):
             if is_estimated(self.data, name):

@@ -108,8 +108,13 @@ def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
         ratio = (point[name] / data[f"today_{name}"]).values
         for at in sorted({int(np.argmin(ratio)), int(np.argmax(ratio))}):
             if abs(ratio[at] - 1.0) > LEAST_CHANGE:
-                texts.append(f"{symbol} × {ratio[at]:.2f} at {data.frequency.values[at]:.2g} Hz")
-    ranges = [f"{low:.2g} to {high:.2g} Hz" for low, high in changed_frequencies(data, point)]
+                texts.append(
+                    f"{symbol} × {ratio[at]:.2f} at {significant(data.frequency.values[at], 2)} Hz"
+                )
+    ranges = [
+        f"{significant(low, 2)} to {significant(high, 2)} Hz"
+        for low, high in changed_frequencies(data, point)
+    ]
     if not ranges:
         return "the master curve stays within 20 % of today's"
     return (

@@ -30,7 +30,7 @@ from typing import ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.core.arrays import Array
+from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.labels import labelled
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
@@ -111,6 +111,10 @@ def coarse_friction(contact: RoughContact) -> float:
     return same[-2:][0].friction_from_dissipation
 
 
+NODES_PER_DECADE = 100
+"""Frequencies at which ratios of moduli are taken."""
+
+
 def series_changes(contact: RoughContact, best: Rubber) -> Array:
     """Return what each admissible series of a rubber changes in ln mu, to first order, (series,).
 
@@ -121,12 +125,30 @@ def series_changes(contact: RoughContact, best: Rubber) -> Array:
         return np.zeros(0)
     adjoint, grid = FrictionAdjoint.of(contact), contact.grid
     modulus, relative = relative_change(contact)
-    omega = contact.speed * grid.along
-    others = best.admissible.complex_moduli(np.abs(omega))
-    others.imag *= np.sign(omega)
-    ratios = np.log(others / best.complex_modulus(omega))
-    along = [float(adjoint.by_modulus(relative * modulus * ratio).sum()) for ratio in ratios]
-    return np.array(along) / contact.friction_from_dissipation
+    omega = np.broadcast_to(contact.speed * grid.along, grid.spectrum_shape)
+    weight = adjoint.weight * relative * modulus
+    weight = np.where(omega < 0.0, weight.conj(), weight)  # the moduli there are conjugate
+    nodes, weights = _on_few_frequencies(np.abs(omega).reshape(-1), weight.reshape(-1))
+    ratios = np.log(best.admissible.complex_moduli(nodes) / best.complex_modulus(nodes))
+    return np.asarray((ratios @ weights).real / contact.friction_from_dissipation)
+
+
+def _on_few_frequencies(omega: Array, weight: ComplexArray) -> tuple[Array, ComplexArray]:
+    """Return frequencies with weights whose sums are those of linear interpolation in ln w.
+
+    Ratios of moduli are smooth: `NODES_PER_DECADE` of them keep four digits. Rest has a node.
+    """
+    moving = omega > 0.0
+    low, high = np.log(omega[moving].min()), np.log(omega[moving].max())
+    count = 2 + int(NODES_PER_DECADE * (high - low) / math.log(10.0))
+    position = (np.log(omega[moving]) - low) / (high - low or 1.0) * (count - 1)
+    lower = np.minimum(position.astype(int), count - 2)
+    upper = position - lower
+    weights = np.zeros(count + 1, dtype=complex)
+    weights[0] = weight[~moving].sum()
+    np.add.at(weights, lower + 1, weight[moving] * (1.0 - upper))
+    np.add.at(weights, lower + 2, weight[moving] * upper)
+    return np.concatenate([[0.0], np.exp(np.linspace(low, high, count))]), weights
 
 
 def series_error(changes: Array) -> float:
