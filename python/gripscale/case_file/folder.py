@@ -226,10 +226,7 @@ def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> 
 
 
 def note_finished(
-    file: CaseFile,
-    folder: Path,
-    others: tuple[Path, ...] = (),
-    report: Sequence[str | Table] = (),
+    file: CaseFile, folder: Path, others: tuple[Path, ...] = (), report: Sequence[str | Table] = ()
 ) -> None:
     """Note that `folder` holds all results of a case, and the `report` on them."""
     kept = {NOTE, REPORT_PAGE}  # a page may be written anew

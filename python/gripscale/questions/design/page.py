@@ -90,7 +90,6 @@ def _gain(point: xr.Dataset) -> str:
 
 
 def _at_rolling(point: xr.Dataset) -> str:
-    """Return the rolling resistance of a point in words."""
     change = float(point.rolling_ratio) - 1.0
     if abs(change) < SAME:
         return "at the same rolling resistance"

@@ -25,7 +25,7 @@ from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section
 from gripscale.report.equations import method_section
-from gripscale.report.failures import Failure, explained
+from gripscale.report.failures import Failure, explained, failures_in
 
 _MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""
@@ -101,15 +101,9 @@ def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
 
 def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
     """Return each prediction without totals, and how many predictions there are."""
-    endings = [
-        Failure(str(sentence), str(word))
-        for name in (STATUS, rest_name(STATUS))
-        if name in data
-        for sentence, word in zip(
-            data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
-        )
-    ]
-    return [ending for ending in endings if ending.sentence != CONVERGED], len(endings)
+    names = [name for name in (STATUS, rest_name(STATUS)) if name in data]
+    failed = [failure for name in names for failure in failures_in(data, name)]
+    return failed, sum(data[name].size for name in names)
 
 
 def shift_sentence(data: xr.Dataset) -> str:
@@ -269,7 +263,7 @@ def study_page(data: xr.Dataset) -> Page:
     collapsed = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
     axes: list[Element] = [axes_table(data)]
     axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
-    curves, *inputs = study_sections(data)
+    totals = totals_table(data)
     return Page.of(
         str(data.attrs.get("title", "Study")),
         f"varied: {', '.join(label_of(data, axis) for axis in dimensions(data))}",
@@ -277,24 +271,15 @@ def study_page(data: xr.Dataset) -> Page:
         [*study_cards(data), *count_cards(data)],
         [
             Section("predictions", "Predictions", [study_table(data)]),
-            curves,
+            Section("curves", "Curves", study_charts(data)),
             Section("axes", "What was varied", axes),
-            *inputs,
+            *input_sections(data),
+            Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
             method_section(),
             rerun_section(data.attrs),
         ],
         (line.strip() for line in study_lines(data)),
     )
-
-
-def study_sections(data: xr.Dataset) -> list[Section]:
-    """Return the chapters on curves, inputs and totals."""
-    totals = totals_table(data)
-    return [
-        Section("curves", "Curves", study_charts(data)),
-        *input_sections(data),
-        Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
-    ]
 
 
 def count_cards(data: xr.Dataset) -> list[Card]:
