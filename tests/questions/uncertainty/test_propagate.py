@@ -11,7 +11,7 @@ from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
-from gripscale.questions import Uncertainty, propagate, summary
+from gripscale.questions import Uncertainty, propagate
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.uncertainty.page import page_notices, sampling_failure, too_many_failed
 
@@ -96,13 +96,6 @@ def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
     np.testing.assert_array_equal(again.friction, data.friction)
 
 
-def test_the_summary_quotes_the_interval(run):
-    data, *_ = run
-    low, middle, high = (f"{v:#.2g}" for v in data.friction_quantile.values[0][[0, 2, 4]])
-    assert f"mu = {middle} ({low} to {high})" in summary(data)
-    assert summary(data).endswith("in 90 % of 12 samples")
-
-
 @pytest.fixture(scope="module")
 def half_failing(folder, tmp_path_factory):
     """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
@@ -118,7 +111,6 @@ def test_failures_are_counted_and_said(half_failing):
     data, _ = half_failing
     assert int(data.failed.sum()) == 5
     assert np.isfinite(data.friction.values).sum() == 5
-    assert summary(data).endswith("in 90 % of 5 of 10 samples, 5 failed")
     assert str(sampling_failure(data)).startswith(
         "5 of 10 samples have no answer and count in no quantile; 5"
     )

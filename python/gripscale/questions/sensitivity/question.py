@@ -40,7 +40,7 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     derivatives_of_answer,
     with_rules_of_thumb,
 )
-from gripscale.questions.sensitivity.next_measurement import next_measurements
+from gripscale.questions.sensitivity.next_measurement import frequencies_of, next_measurements
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
 from gripscale.questions.uncertainty.page import as_elements, not_stated
 from gripscale.questions.uncertainty.sampling import stated_options
@@ -104,10 +104,7 @@ class Sensitivity(Result):
         lines = [f"Answer: {effect_sentence(data)}{where}."]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():
-                effect = np.maximum(point[LOSS].values, 0.0)
-                within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
-                ends = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
-                low, high = np.exp(ends)
+                low, high = frequencies_of(point[LOSS].clip(min=0.0), 0.5)
                 where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
                 between = f"between {low:.2g} and {high:.2g} rad/s"
                 lines.append(f"  half of the effect of E″{where} is {between}")

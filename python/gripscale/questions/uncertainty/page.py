@@ -180,13 +180,8 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
     """
     if not (tangent := first_order_of(part, "friction")):
         return
-    sampled = dict(
-        zip(
-            part.part_label.values.tolist(),
-            part.answer_friction_part_error.values.tolist(),
-            strict=True,
-        )
-    )
+    errors = part.answer_friction_part_error.values.tolist()
+    sampled = dict(zip(part.part_label.values.tolist(), errors, strict=True))
     least = math.sqrt(_LEAST_SHARE) * float(part.answer_friction_uncertainty)
     apart = [
         f"{label} ({percent(tangent[label])}, {percent(error)})"

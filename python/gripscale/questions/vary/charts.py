@@ -280,18 +280,6 @@ _LEAST_SHARE = 0.005
 """Octaves and decades that never reach this share of the friction are not drawn."""
 
 
-def decades_panel(result: xr.Dataset, axis: str) -> Panel:
-    """Return the share of each decade of relaxation time in the friction over one axis.
-
-    The split is that of small strain (see
-    `gripscale.questions.vary.speed_and_temperature`), and the panel says so.
-    """
-    parts = result.friction_by_decade / result[believed(result, "friction")]
-    names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
-    ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
-    return _stacked(result, axis, parts, names, ordinate, "Cividis")
-
-
 def _stacked(
     result: xr.Dataset,
     axis: str,
@@ -442,7 +430,10 @@ def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
         ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
         panels["stacked"] = _stacked(data, several[0], parts, names, ordinate, "Viridis")
     if "friction_by_decade" in data:
-        panels["decades"] = decades_panel(data, several[0])
+        parts = data.friction_by_decade / data[believed(data, "friction")]
+        names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
+        ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
+        panels["decades"] = _stacked(data, several[0], parts, names, ordinate, "Cividis")
     return panels
 
 

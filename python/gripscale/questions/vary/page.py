@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -50,14 +50,7 @@ def study_table(data: xr.Dataset) -> Table:
         marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]
         columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
     keys = len(columns)
-    for name in reversed(SYMBOLS):
-        column = believed(data, name)
-        # no friction at rest is none, not zero
-        values = [value or math.nan for value in each(column)]
-        columns.append(Column(column, values, SYMBOLS[name]))
-        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
-            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
-            columns.append(Column(f"{column}_interval", ends, "90 %"))
+    columns += answer_columns(data, each)
     if not is_estimated(data, "friction") and "total_friction_from_dissipation" in data:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
@@ -91,6 +84,18 @@ def study_table(data: xr.Dataset) -> Table:
     notes = [f"{more} more predictions are in the result file."] if more else []
     bad = [text != CONVERGED for text in status]
     return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
+
+
+def answer_columns(data: xr.Dataset, each: Callable[[str], Sequence[float]]) -> Iterator[Column]:
+    """Yield friction and contact area with their intervals, by the numbers of each row."""
+    for name in reversed(SYMBOLS):
+        column = believed(data, name)
+        # no friction at rest is none, not zero
+        values = [value or math.nan for value in each(column)]
+        yield Column(column, values, SYMBOLS[name])
+        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
+            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
+            yield Column(f"{column}_interval", ends, "90 %")
 
 
 def study_parts(data: xr.Dataset) -> Iterator[str | Table]:

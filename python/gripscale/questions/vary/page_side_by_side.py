@@ -21,6 +21,7 @@ from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of
 from gripscale.questions.inputs.page import input_sections, texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
+from gripscale.questions.vary.page import answer_columns
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -177,12 +178,7 @@ def ranking_table(data: xr.Dataset, dim: str) -> Table:
     order += [at for at in range(len(every)) if at not in order]
     following = [*order[1:], None]
     columns = [Column(dim, [str(every[at]) for at in order], CALLED[dim])]
-    for name in reversed(SYMBOLS):
-        column = believed(data, name)
-        columns.append(Column(column, data[column].values[order], SYMBOLS[name]))
-        if f"{column}_low" in data and bool(data[f"{column}_low"].notnull().any()):
-            ends = [data[f"{column}_{end}"].values[order] for end in ("low", "high")]
-            columns.append(Column(f"{column}_interval", np.stack(ends, axis=1), "90 %"))
+    columns += answer_columns(data, lambda name: data[name].values[order].tolist())
 
     def over_next(name: str) -> Array:
         pairs = data[name].transpose(dim, "over").values
