@@ -192,6 +192,9 @@ def slip_curve(
 ) -> SlipCurve:
     """Return the braking force of a tread over slip.
 
+        >>> f"{gs.slip_curve(case).to_dataset().peak.sel(bound='value').item():.3f}"
+        '0.040'
+
     Parameters
     ----------
     case : Case
