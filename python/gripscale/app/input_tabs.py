@@ -33,23 +33,12 @@ from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import Text
 
 ROAD_FIELDS = (
-    "scales",
-    "smallest_wavelength",
-    "cut_off",
-    "top_height_fraction",
-    "crop",
-    "x_unit",
-    "z_unit",
-    "z_axis",
+    *("scales", "smallest_wavelength", "cut_off", "top_height_fraction"),
+    *("crop", "x_unit", "z_unit", "z_axis"),
 )
 RUBBER_FIELDS = (
-    "name",
-    "reference_temperature",
-    "bulk_modulus",
-    "thickness",
-    "terms",
-    "extrapolate",
-    "source",
+    *("name", "reference_temperature", "bulk_modulus", "thickness"),
+    *("terms", "extrapolate", "source"),
 )
 LOAD_TABLES = {
     "load": ("Load", ("pressure", "speed", "footprint", "static", "load_time")),

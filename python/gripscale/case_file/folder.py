@@ -120,15 +120,8 @@ def free_target(
 
 
 _FIGURES = (
-    "profile",
-    "correlation",
-    "texture_levels",
-    "master_curve",
-    "contact_and_friction",
-    "summary",
-    "direct_contact",
-    "blocks_dynamic",
-    "blocks_static",
+    *("profile", "correlation", "texture_levels", "master_curve", "contact_and_friction"),
+    *("summary", "direct_contact", "blocks_dynamic", "blocks_static"),
 )
 AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
 """Figures of cases with conditions, or with sweeps at several temperatures."""
@@ -136,17 +129,8 @@ NOTE = ".finished.json"
 """What a finished run was made from and the files it left, so that it need not be repeated."""
 REPORT_PAGE = "report.html"
 RESULT_FILES = (
-    NOTE,
-    "dynamic.nc",
-    "static.nc",
-    "answer.nc",
-    "cut_off.nc",
-    "effects_chain.nc",
-    "report.txt",
-    REPORT_PAGE,
-    "chain.txt",
-    "summary.xlsx",
-    SAVED_CASE,
+    *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt", "summary.xlsx"),
+    *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc", "effects_chain.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 """Everything a run may write into its folder, beside copies of the files the case names."""
@@ -227,10 +211,7 @@ def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> 
 
 
 def note_finished(
-    file: CaseFile,
-    folder: Path,
-    others: tuple[Path, ...] = (),
-    report: Sequence[str | Table] = (),
+    file: CaseFile, folder: Path, others: tuple[Path, ...] = (), report: Sequence[str | Table] = ()
 ) -> None:
     """Note that `folder` holds all results of a case, and the `report` on them."""
     kept = {NOTE, REPORT_PAGE}  # a page may be written anew

@@ -27,12 +27,8 @@ SOURCES_OF_SURFACE = {"files", "map", "sines"}
 OF_ONE_ROAD = ("crop", "crop_across", "z_axis")
 """Keys of the case's [surface] that belong to its own files."""
 OF_A_FILE = (
-    "frequency_unit",
-    "modulus_unit",
-    "temperature_unit",
-    "modulus",
-    "columns",
-    "reference_temperature",
+    *("frequency_unit", "modulus_unit", "temperature_unit"),
+    *("modulus", "columns", "reference_temperature"),
 )
 """Keys of the case's [rubber] that another file is read with where it does not state them."""
 

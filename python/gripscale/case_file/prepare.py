@@ -27,12 +27,7 @@ from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
-from gripscale.continuation.roughness import (
-    FinerMeasurement,
-    HurstExponent,
-    OwnFaces,
-    Roughness,
-)
+from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
 from gripscale.core.errors import FileError, InputError, about_file, about_keys
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.core.wording import CaseKey, Words

@@ -179,7 +179,6 @@ def open_surface(
 
 
 def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
-    """Propose what of the profiles is the road."""
     parts = [part for profile in profiles if (part := road_between(profile)) is not None]
     if not parts:
         return
@@ -291,7 +290,6 @@ def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str
 def _add_reference(
     proposal: Proposal, measured: MasterCurve | Sweeps, temperature: float | None
 ) -> None:
-    """Propose the temperature that the master curve holds for."""
     target = ROOM if temperature is None else temperature
     if isinstance(measured, MasterCurve):
         if measured.reference_temperature is None:

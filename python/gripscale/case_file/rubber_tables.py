@@ -50,7 +50,6 @@ _FILES = "the name of a file, or a list of names"
 
 
 def _files(value: Any) -> Any:
-    """Accept a name or a list of them."""
     names = value if isinstance(value, list) else [value]
     if value is not None and not (names and all(isinstance(name, str) for name in names)):
         raise ValueError(f"expected {_FILES}")

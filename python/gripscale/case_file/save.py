@@ -20,13 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.case import Case
-from gripscale.case_file.folder import (
-    SavedCase,
-    free_target,
-    saved_case,
-    saved_inputs,
-    write_saved,
-)
+from gripscale.case_file.folder import SavedCase, free_target, saved_case, saved_inputs, write_saved
 from gripscale.case_file.json_schema import SCHEMA_LINE
 from gripscale.case_file.prepare import named_files
 from gripscale.case_file.read import CaseFile, validate

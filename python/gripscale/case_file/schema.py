@@ -228,9 +228,7 @@ def _not_negative(value: float) -> float:
 def _quantity(kind: str, check: Callable[[float], float] = float) -> Reading:
     """Return what reads a quantity with its unit, "3 bar", or a plain SI number, and checks it."""
     return Reading(
-        f"a {kind} {such_as(kind)}",
-        lambda value: check(parse_quantity(value, kind)),
-        quantity=kind,
+        f"a {kind} {such_as(kind)}", lambda value: check(parse_quantity(value, kind)), quantity=kind
     )
 
 
@@ -397,7 +395,6 @@ _COLUMNS = (
 
 
 def _column(value: Any) -> str | int:
-    """Accept the name or the number of a column, a channel or a sheet."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise ValueError(f"expected {COLUMN}")
     if isinstance(value, int) and value < 1:

@@ -48,7 +48,6 @@ _STEP = 'a length such as "0.1 mm", or a list of 2, along x and y'
 
 
 def _step(value: Any) -> Any:
-    """Accept a length above zero, or two."""
     if value is None:
         return None
     lengths = value if isinstance(value, list | tuple) else [value]
@@ -64,7 +63,6 @@ _SPIKES = '"isolated", "iso13473" or "none"'
 
 
 def _spikes(value: Any) -> str | None:
-    """Accept a rule for spikes, or "none"."""
     if value not in ("isolated", "iso13473", "none", None):
         raise ValueError(f"expected {_SPIKES}")
     return None if value == "none" else value
@@ -245,7 +243,6 @@ LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
 
 
 def _load_time(value: Any) -> float | str:
-    """Accept "passage", "infinite" or a time."""
     if value == "passage":
         return "passage"
     if value in ("infinite", math.inf):

@@ -26,8 +26,7 @@ def pages() -> dict[str, Traversable]:
 @command
 def docs(
     page: Annotated[
-        str | None,
-        argument("A page, such as reading-results; without one their titles.", "PAGE"),
+        str | None, argument("A page, such as reading-results; without one their titles.", "PAGE")
     ] = None,
 ) -> None:
     """Show a page of the documentation in the terminal, or list all pages."""

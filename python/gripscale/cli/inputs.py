@@ -92,8 +92,7 @@ def keys(
         ),
     ] = None,
     schema: Annotated[
-        bool,
-        typer.Option("--schema", help="Print the JSON Schema of a case instead, for editors."),
+        bool, typer.Option("--schema", help="Print the JSON Schema of a case instead, for editors.")
     ] = False,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""

@@ -64,8 +64,7 @@ def new(
         ),
     ],
     output: Annotated[
-        Path,
-        terminal.option("The case file to write.", "--output", "-o", metavar="CASE.toml"),
+        Path, terminal.option("The case file to write.", "--output", "-o", metavar="CASE.toml")
     ] = Path("case.toml"),
     temperature: Annotated[
         str | None, terminal.option('Of the rubber before the contact, such as "20 C".')

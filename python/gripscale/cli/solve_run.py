@@ -146,7 +146,6 @@ def _solve(
 
 
 def _save_answer(answer: Answer, case: Case, target: Path, emit: events.OnEvent) -> None:
-    """Write an answer and its contact against the cut-off, with their events."""
     answer.save(target / ANSWER_FILE)
     friction, area = (
         headline(answer.data, name).value for name in ("friction", "contact_fraction")

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from gripscale.core.status import Status
+from gripscale.model import STATUS, status_words
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,12 @@ class Failure:
 
 FAILURES = set(Status) - {Status.CONVERGED}
 """Statuses that say why there are no numbers."""
+
+
+def failures_in(data: xr.Dataset, name: str = STATUS) -> list[Failure]:
+    """Return each status of a result that is not `converged`, in the order of its places."""
+    pairs = zip(data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True)
+    return [Failure(str(text), str(word)) for text, word in pairs if text != Status.CONVERGED]
 
 
 def explained(failure: Failure | Exception) -> str:

@@ -15,16 +15,15 @@ from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Severity, sentences
 from gripscale.core.units import ZERO_CELSIUS, display_unit_of
 from gripscale.experiment import measured_friction
-from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
-from gripscale.model import STATUS, input_doubts_of, status_words
+from gripscale.model import input_doubts_of
 from gripscale.questions.calibration.area_term_fit import Estimate
 from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.uncertainty.page import as_elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Facts, Page, Section, Text
-from gripscale.report.failures import Failure, explained
+from gripscale.report.failures import Failure, explained, failures_in
 
 _CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
@@ -152,15 +151,13 @@ def law_facts(data: xr.Dataset) -> Facts:
 
 def calibration_failure(data: xr.Dataset) -> Failure | None:
     """Return how many measured points have no prediction and why the first; None if none."""
-    statuses = zip(data[STATUS].values, status_words(data).values, strict=True)
-    failed = [(text, str(word)) for text, word in statuses if str(text) != CONVERGED]
+    failed = failures_in(data)
     if not failed:
         return None
-    why, word = failed[0]
     return Failure(
         f"{len(failed)} of {data.sizes['measurement']} measured points have no prediction; "
-        f"the first: {why}",
-        word,
+        f"the first: {failed[0]}",
+        failed[0].word,
     )
 
 

@@ -75,21 +75,17 @@ class Calibration(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        """The fitted parameters with their intervals, and what the area term does to friction."""
         return tuple(page.calibration_lines(self.data))
 
     @property
     def findings(self) -> Sequence[Finding]:
-        """What may change the fit, the most important first."""
         return tuple(case_notices(self.data, InputRecord(self.inputs)))
 
     @property
     def failure(self) -> str:
-        """How many measured points have no prediction; empty if all have one."""
         return str(page.calibration_failure(self.data) or "")
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the misfit point by point, parameters, correlations and points left out."""
         yield page.misfit_table(self.data)
         yield page.parameter_table(self.data)
         yield from filter(None, [page.correlations(self.data)])
@@ -98,16 +94,13 @@ class Calibration(Result):
         yield from str(self.data.attrs.get("notes", "")).splitlines()
 
     def table(self) -> Table:
-        """Return the parameters with their intervals."""
         return page.parameter_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield the fit beside the measurement, its residuals, and the profiles of parameters."""
         for picture in calibration_pictures(self.data):
             yield picture.name, picture.figure
 
     def page_content(self) -> Page:
-        """Return the law, the points, and how well they determine the law."""
         return page.calibration_page(self.data, self.findings, self.parts())
 
 

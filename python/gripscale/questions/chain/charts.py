@@ -132,7 +132,6 @@ def _total_panel(views: Views, name: str) -> Panel:
 
 
 def _wavelengths(views: Views) -> PlotAxis:
-    """Return the axis of the wavelengths of all predictions."""
     columns = [view.column("wavelength") / MILLI for view in views if view.waves]
     return chart.wavelength_axis(np.concatenate([*columns, []]))
 
@@ -170,7 +169,6 @@ def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Ma
 
 
 def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:
-    """Yield the waves that did not converge."""
     for view in views:
         x = view.number if by_number else view.column("wavelength") / MILLI
         y = view.column(quantity)

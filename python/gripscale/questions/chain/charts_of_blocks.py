@@ -138,7 +138,6 @@ def _draw_pressure(axes: Axes, block: DrawnBlock) -> None:
 
 
 def _draw_block(axes: Axes, block: DrawnBlock, window: tuple[float, float]) -> None:
-    """Draw the rigid wave and, of a solution that has one, the deformed mesh."""
     x = np.linspace(-0.5, 0.5, 200)
     wave = block.steepness * np.cos(2.0 * math.pi * x)
     axes.fill_between(x, wave, window[0], color=FAINT, lw=0)

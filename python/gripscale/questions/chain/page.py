@@ -117,18 +117,10 @@ MESH = [
     Column("load_reached", heading="load reached", format=percent),
 ]
 MOVING_ONLY = {
-    "sliding_speed",
-    "angular_frequency",
-    "loss_factor",
-    "outside_band",
-    "decades_below_band",
-    "decades_above_band",
-    "friction",
-    "running_friction",
-    "friction_from_dissipation",
-    "friction_mismatch",
-    "friction_bound",
-    "friction_error",
+    *("sliding_speed", "angular_frequency", "loss_factor"),
+    *("outside_band", "decades_below_band", "decades_above_band"),
+    *("friction", "running_friction", "friction_from_dissipation"),
+    *("friction_mismatch", "friction_bound", "friction_error"),
 }
 """Columns that say nothing of rubber at rest."""
 _GIVEN = {"pressure_received": "pressure", "sliding_speed": "speed"}

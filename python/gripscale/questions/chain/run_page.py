@@ -19,11 +19,7 @@ from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
-from gripscale.questions.chain.findings import (
-    exponent_sentence,
-    prediction_sentence,
-    wave_notices,
-)
+from gripscale.questions.chain.findings import exponent_sentence, prediction_sentence, wave_notices
 from gripscale.questions.chain.page import wave_tables
 from gripscale.questions.chain.run_folder import RunSource
 from gripscale.questions.chain.view import PredictionView
@@ -127,7 +123,6 @@ def _chain_title(run: RunSource) -> str:
 
 
 def _load_facts(run: RunSource) -> Facts:
-    """Return load, rubber, surface and model in words."""
     attrs, data = run.attrs, run.data
     first = run.predictions[0]
 
@@ -284,7 +279,6 @@ def run_cards(run: RunSource) -> Iterator[Card]:
 
 
 def _cards(view: PredictionView) -> Iterator[Card]:
-    """Yield the totals of a prediction."""
     if not view.complete:
         yield Card("No totals", "not converged", view.title, bad=True)
         return

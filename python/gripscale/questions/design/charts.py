@@ -62,7 +62,6 @@ def design_figure(data: xr.Dataset) -> Figure:
 
 
 def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
-    """Return friction gained over rolling resistance."""
     rolling = PERCENT * (data.rolling_ratio.values - 1.0)
     low, gain, high = (PERCENT * data[name].values for name in ("gain_low", "gain", "gain_high"))
     marks: list[Mark] = [

@@ -46,8 +46,7 @@ def design_command(
         float, typer.Option(help="Largest factor, up or down, on each modulus of the series.")
     ] = 2.0,
     factor_per_decade: Annotated[
-        float,
-        typer.Option(help="Largest ratio of the factors of relaxation times a decade apart."),
+        float, typer.Option(help="Largest ratio of the factors of relaxation times a decade apart.")
     ] = 2.0,
     levels: Annotated[
         str | None,

@@ -30,11 +30,7 @@ from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import worker_count
-from gripscale.questions.design.compound_limits import (
-    AdmissibleChanges,
-    CompoundLimits,
-    PointLimit,
-)
+from gripscale.questions.design.compound_limits import AdmissibleChanges, CompoundLimits, PointLimit
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
 from gripscale.questions.design.rolling import rolling_band
 from gripscale.questions.vary.inputs import surface_of

@@ -90,7 +90,6 @@ def _gain(point: xr.Dataset) -> str:
 
 
 def _at_rolling(point: xr.Dataset) -> str:
-    """Return the rolling resistance of a point in words."""
     change = float(point.rolling_ratio) - 1.0
     if abs(change) < SAME:
         return "at the same rolling resistance"
@@ -143,25 +142,9 @@ def _interval_sources(point: xr.Dataset) -> str:
 
 def design_table(data: xr.Dataset) -> Table:
     """Return the points of a design as a table."""
-
-    def unsigned_zero(value: float) -> str:
-        return change(round(value, 4) + 0.0)
-
     columns = [
         Column("rolling_loss_factor", data.rolling_loss_factor.values, "tan δ rolling"),
-        Column(
-            "rolling_change",
-            data.rolling_ratio.values - 1.0,
-            "rolling resistance",
-            format=unsigned_zero,
-        ),
-        Column("gain", data.gain.values, "friction gained", format=change),
-        Column(
-            "gain_interval",
-            np.column_stack([data.gain_low.values, data.gain_high.values]),
-            "90 % interval",
-            format=change,
-        ),
+        *_gain_columns(data, "", "rolling resistance"),
     ]
     notes = []
     for at, goal in enumerate(data.goal.values.tolist()):
@@ -188,22 +171,24 @@ def designed_compounds_table(data: xr.Dataset) -> Table | None:
     """Return the other compounds of a design as a table, None without any."""
     if "compound" not in data.dims:
         return None
-    gains = np.column_stack([data.compound_gain_low.values, data.compound_gain_high.values])
-    return Table(
-        "compounds",
-        [
-            Column("compound", data.compound.values),
-            Column(
-                "rolling_change",
-                data.compound_rolling_ratio.values - 1.0,
-                "rolling resistance, change",
-                format=change,
-            ),
-            Column("gain", data.compound_gain.values, "friction gained", format=change),
-            Column("gain_interval", gains, "90 % interval", format=change),
-        ],
-        "Other compounds beside today's",
-    )
+    columns = [
+        Column("compound", data.compound.values),
+        *_gain_columns(data, "compound_", "rolling resistance, change"),
+    ]
+    return Table("compounds", columns, "Other compounds beside today's")
+
+
+def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
+    def unsigned_zero(value: float) -> str:
+        return change(round(value, 4) + 0.0)
+
+    rolling = data[f"{of}rolling_ratio"].values - 1.0
+    ends = np.column_stack([data[f"{of}gain_{end}"].values for end in ("low", "high")])
+    return [
+        Column("rolling_change", rolling, heading, format=unsigned_zero),
+        Column("gain", data[f"{of}gain"].values, "friction gained", format=change),
+        Column("gain_interval", ends, "90 % interval", format=change),
+    ]
 
 
 def design_tables(data: xr.Dataset) -> list[Table]:

@@ -57,26 +57,21 @@ class CompoundDesign(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        """Friction gained at the same rolling resistance, what decides it and what it rests on."""
         return tuple(page.design_lines(self.data))
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the points of the curve, then other compounds."""
         yield from page.design_tables(self.data)
 
     def table(self) -> Table:
-        """Return the points of the curve."""
         return page.design_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield friction over rolling resistance, and the master curves."""
         from gripscale.questions.design.charts import design_pictures
 
         for picture in design_pictures(self.data):
             yield picture.name, picture.figure
 
     def page_content(self) -> Page:
-        """Return the curve and its points."""
         return page.design_page(self.data, self.findings)
 
 

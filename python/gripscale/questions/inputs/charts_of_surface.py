@@ -74,7 +74,6 @@ def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
 
 
 def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
-    """Return a profile as read, cleaned, and a piece from the middle."""
     kept = kept_points(raw, cleaned)
     removed = ~kept & np.isfinite(raw.z)
     x, z = close_up(cleaned)
@@ -324,18 +323,13 @@ def surface_figures(prepared: Surface, figures: Figures) -> None:
     figure = correlation_sheet(prepared.correlation, waves, fit)
     figures.save(figure, "correlation")
     if (levels := prepared.measured.texture_levels) is not None:
-        figures.save(texture_levels_sheet(levels), "texture_levels")
-
-
-def texture_levels_sheet(levels: xr.Dataset) -> Sheet:
-    """Describe texture levels over the wavelength."""
-    lengths = levels.wavelength.values / MILLI
-    panel = Panel(
-        wavelength_axis(lengths),
-        PlotAxis("texture level re 1 µm [dB]"),
-        [Series(lengths, levels.level.values, BLUE, marker="o", size=3.5)],
-        name="texture-levels",
-        caption="Third-octave texture levels, ISO 13473-4.",
-        alt="Texture level in decibels against texture wavelength.",
-    )
-    return Sheet([panel], 1, NARROW, 3.4)
+        lengths = levels.wavelength.values / MILLI
+        panel = Panel(
+            wavelength_axis(lengths),
+            PlotAxis("texture level re 1 µm [dB]"),
+            [Series(lengths, levels.level.values, BLUE, marker="o", size=3.5)],
+            name="texture-levels",
+            caption="Third-octave texture levels, ISO 13473-4.",
+            alt="Texture level in decibels against texture wavelength.",
+        )
+        figures.save(Sheet([panel], 1, NARROW, 3.4), "texture_levels")

@@ -441,7 +441,6 @@ def rubbers_of(data: xr.Dataset) -> list[Rubber]:
 
 
 def _rubber_facts(rubber: Rubber, name: str) -> Facts:
-    """Return what a rubber of a study is."""
     relaxed, glassy = rubber.equilibrium_modulus, rubber.glassy_modulus
     pairs = [
         ("Relaxed modulus of the series", f"{number_text(relaxed, MEGA)} MPa"),

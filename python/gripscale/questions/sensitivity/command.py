@@ -50,11 +50,7 @@ def sensitivity_command(
     """Tell which part of the master curve, and which input, decides the friction of a case."""
     from gripscale.case_file.named_inputs import read_named_inputs
     from gripscale.questions.sensitivity.friction_sensitivity import LOSS
-    from gripscale.questions.sensitivity.question import (
-        DERIVED_OVER,
-        effect_sentence,
-        sensitivity,
-    )
+    from gripscale.questions.sensitivity.question import DERIVED_OVER, effect_sentence, sensitivity
     from gripscale.questions.vary.axis import parse_axes
 
     axes = parse_axes(vary or (), DERIVED_OVER)

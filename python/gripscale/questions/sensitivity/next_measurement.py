@@ -12,6 +12,7 @@ import math
 import numpy as np
 import xarray as xr
 
+from gripscale.core.arrays import Array
 from gripscale.half_space import line_to_map
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import RELATIVE_LOAD, SAMPLING_FREEDOM, UPPER_HEIGHT
@@ -54,8 +55,10 @@ def next_measurements(data: xr.Dataset) -> Table | None:
     order = np.argsort([0.0, *widths["friction"][1:]], kind="stable")  # without any comes first
     now = widths["friction"][0]
     texts = [MEASUREMENTS[name][0] if name else "none" for name in listed]
+    low, high = frequencies_of((abs(point[LOSS]) + abs(point[STORAGE])).fillna(0.0), 0.9)
+    band = f"{low:.1g} to {high:.1g} rad/s"
     columns = [
-        Column("measurement", [texts[i].format(_frequencies(point)) for i in order]),
+        Column("measurement", [texts[i].format(band) for i in order]),
         *(
             Column(f"{of}_width", [width[i] for i in order], f"± of {SYMBOLS[of]}", format=percent)
             for of, width in widths.items()
@@ -92,9 +95,8 @@ def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
     return errors
 
 
-def _frequencies(point: xr.Dataset) -> str:
-    """Return where nine tenths of the effect of the moduli lie."""
-    effect = (abs(point[LOSS]) + abs(point[STORAGE])).fillna(0.0).values
-    within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
-    low, high = np.exp(np.interp([0.05, 0.95], within, np.log(point.frequency.values)))
-    return f"{low:.1g} to {high:.1g} rad/s"
+def frequencies_of(effect: xr.DataArray, share: float) -> Array:
+    """Return the frequencies between which a share of an effect lies, in its middle [rad/s]."""
+    within = (np.cumsum(effect.values) - 0.5 * effect.values) / effect.values.sum()
+    ends = np.interp([0.5 - 0.5 * share, 0.5 + 0.5 * share], within, np.log(effect.frequency))
+    return np.asarray(np.exp(ends))

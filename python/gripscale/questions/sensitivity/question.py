@@ -20,12 +20,12 @@ from gripscale.core.arrays import Quantity
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.units import display_unit_of
-from gripscale.experiment.design import CONVERGED, solve_design
+from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, on_page, percent
-from gripscale.model import STATUS, STATUS_WORD
+from gripscale.model import STATUS
 from gripscale.questions.answer.charts import height_figure, height_panels
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
@@ -40,7 +40,7 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     derivatives_of_answer,
     with_rules_of_thumb,
 )
-from gripscale.questions.sensitivity.next_measurement import next_measurements
+from gripscale.questions.sensitivity.next_measurement import frequencies_of, next_measurements
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
 from gripscale.questions.uncertainty.page import as_elements, not_stated
 from gripscale.questions.uncertainty.sampling import stated_options
@@ -50,7 +50,7 @@ from gripscale.questions.vary.study import Study, coordinates
 from gripscale.questions.words import SYMBOLS
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section, Text
-from gripscale.report.failures import Failure, explained, first_of
+from gripscale.report.failures import Failure, explained, failures_in, first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -104,10 +104,7 @@ class Sensitivity(Result):
         lines = [f"Answer: {effect_sentence(data)}{where}."]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():
-                effect = np.maximum(point[LOSS].values, 0.0)
-                within = (np.cumsum(effect) - 0.5 * effect) / effect.sum()
-                ends = np.interp([0.25, 0.75], within, np.log(point.frequency.values))
-                low, high = np.exp(ends)
+                low, high = frequencies_of(point[LOSS].clip(min=0.0), 0.5)
                 where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
                 between = f"between {low:.2g} and {high:.2g} rad/s"
                 lines.append(f"  half of the effect of E″{where} is {between}")
@@ -116,12 +113,7 @@ class Sensitivity(Result):
     @property
     def failures(self) -> Sequence[Failure]:
         """Each point without a solution."""
-        sentences, words = (self.data[name].values.ravel() for name in (STATUS, STATUS_WORD))
-        return [
-            Failure(str(sentence), str(word))
-            for sentence, word in zip(sentences, words, strict=True)
-            if sentence != CONVERGED
-        ]
+        return failures_in(self.data)
 
     @property
     def failure(self) -> str:

@@ -38,7 +38,6 @@ def slip_panels(data: xr.Dataset) -> list[Panel]:
 
 
 def _marks(data: xr.Dataset) -> list[Mark]:
-    """Return a curve with its band for each temperature and speed."""
     every = [(i, j) for i in range(data.sizes["temperature"]) for j in range(data.sizes["speed"])]
     colours = style.colours(len(every), ordered=len(every) > 1)
     slip = np.concatenate([[0.0], 100.0 * data.slip.values])

@@ -70,7 +70,6 @@ def friction_table(
 
 
 def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Bench) -> xr.Dataset:
-    """Solve the contacts of a table and return it."""
     conditions = replace(case.conditions or Conditions(), heat=None)
     warms = case.conditions is not None and case.conditions.heat is not None
     values = {

@@ -115,7 +115,6 @@ class SlipCurve(Result):
         return data.stack(row=("kind", "temperature", "speed"))
 
     def _names(self) -> list[Column]:
-        """Return columns that name the curves."""
         rows = self._rows
         kelvin = np.where(rows.temperature > 0.0, rows.temperature, np.nan)
         return [
@@ -274,7 +273,6 @@ def slip_curve(
 
 
 def _values(name: str, value: Any) -> list[float]:
-    """Return values of an input, single or several, in SI units."""
     return [float(number) for number in axes_of({name: value})[0].values]
 
 

@@ -13,9 +13,7 @@ import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic
-from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, percent
-from gripscale.model import status_words
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
@@ -29,7 +27,7 @@ from gripscale.questions.vary.axis import name_of
 from gripscale.questions.words import SYMBOLS, believed
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import Failure, explained
+from gripscale.report.failures import Failure, explained, failures_in
 
 HEADS = {name: SYMBOLS[name] for name in propagation.PROPAGATED_QUANTITIES}
 """Symbols of the quantities, in their order."""
@@ -182,13 +180,8 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
     """
     if not (tangent := first_order_of(part, "friction")):
         return
-    sampled = dict(
-        zip(
-            part.part_label.values.tolist(),
-            part.answer_friction_part_error.values.tolist(),
-            strict=True,
-        )
-    )
+    errors = part.answer_friction_part_error.values.tolist()
+    sampled = dict(zip(part.part_label.values.tolist(), errors, strict=True))
     least = math.sqrt(_LEAST_SHARE) * float(part.answer_friction_uncertainty)
     apart = [
         f"{label} ({percent(tangent[label])}, {percent(error)})"
@@ -306,35 +299,26 @@ def grid_sentences(data: xr.Dataset) -> Iterator[str]:
 
 def sampling_failure(data: xr.Dataset) -> Failure | None:
     """Return how many samples have no answer, and why most of them; None if all have one."""
-    bad = Counter(_failed(data, "status"))
-    of_case = _failed(data, "status_case")
+    bad = Counter(failures_in(data, "status"))
     sentences, words = [], []
     if bad:
-        (why, word), count = bad.most_common(1)[0]
-        words.append(word)
+        most, count = bad.most_common(1)[0]
+        words.append(most.word)
         sentences.append(
             f"{bad.total()} of {data.status.size} samples have no answer and count in no quantile; "
-            f"{count} of them: {why}"
+            f"{count} of them: {most}"
         )
-    if of_case:
-        why, word = of_case[0]
-        words.append(word)
-        sentences.append(f"the case itself has no answer: {why}")
+    for failure in failures_in(data, "status_case")[:1]:
+        words.append(failure.word)
+        sentences.append(f"the case itself has no answer: {failure}")
     return Failure("; ".join(sentences), next(filter(None, words), "")) if sentences else None
 
 
 def too_many_failed(data: xr.Dataset) -> bool:
     """Return whether the case has no answer, or too few samples have one to stand for all."""
-    return bool(_failed(data, "status_case")) or bool(
+    return bool(failures_in(data, "status_case")) or bool(
         (data.failed > MOST_FAILED * data.sizes["sample"]).any()
     )
-
-
-def _failed(data: xr.Dataset, sentences: str) -> list[tuple[str, str]]:
-    """Return sentence and word of what did not converge."""
-    words = status_words(data, sentences).values.ravel()
-    pairs = zip(data[sentences].values.ravel(), words, strict=True)
-    return [(str(text), str(word)) for text, word in pairs if text != CONVERGED]
 
 
 def uncertainty_lines(
@@ -387,7 +371,6 @@ def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
-    """Yield letters and quantiles of each quantity that has them."""
     for name, head in HEADS.items():
         values = part[f"{name}_quantile"].sel(quantile=list(SUMMARY)).values
         if np.isfinite(values).all():

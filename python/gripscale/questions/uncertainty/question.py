@@ -33,7 +33,6 @@ class SampledAnswer(NumbersWithIntervals):
 
     @property
     def lines(self) -> Sequence[str]:
-        """The answer with what its interval holds; at several loads what the intervals hold."""
         held = page.interval_sentence(self.data)
         if axis_of(self.data):
             return (held,)
@@ -42,16 +41,13 @@ class SampledAnswer(NumbersWithIntervals):
 
     @property
     def findings(self) -> Sequence[Finding]:
-        """Samples without an answer."""
         return tuple(page.page_notices(self.data))
 
     @property
     def failure(self) -> str:
-        """Why too many samples have no answer; empty if enough have one."""
         return str(page.sampling_failure(self.data)) if page.too_many_failed(self.data) else ""
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield what matters most to the answer, the quantiles of the models, then warnings."""
         if axis := axis_of(self.data):
             yield page.answer_table(self.data, axis)
         yield from page.part_tables(self.data)
@@ -62,16 +58,13 @@ class SampledAnswer(NumbersWithIntervals):
         yield from map(str, filter(None, [page.sampling_failure(self.data)]))
 
     def table(self) -> Table:
-        """Return the parts of the interval, the largest first."""
         return next(page.part_tables(self.data))
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield what matters most, and how friction and contact area scatter."""
         for picture in uncertainty_pictures(self.data):
             yield picture.name, picture.figure
 
     def page_content(self) -> Page:
-        """Return what matters most, then the samples."""
         return page.uncertainty_page(self.data)
 
 

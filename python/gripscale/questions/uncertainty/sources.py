@@ -161,8 +161,6 @@ def _source(
 
 
 def _number(value_at: Callable[[float], float], applied: Callable[[Inputs, float], Inputs]) -> Draw:
-    """Draw a number by its quantile and apply it."""
-
     def draw(quantile: float, _: np.random.Generator, inputs: Inputs) -> Drawn:
         value = value_at(quantile)
         return applied(inputs, value), [value]

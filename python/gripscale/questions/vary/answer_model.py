@@ -112,7 +112,6 @@ class AnswerModel(Checked, model.Model):
 
 
 def _answer(samples: xr.Dataset, case: Case, curve: xr.Dataset | None) -> xr.Dataset:
-    """Return the answer of solved profiles with its interval, and the parts of its friction."""
     answer = direct_contact_totals(samples, case, case.load, curve)
     basis = [name for name in RATIO_BASIS if name in samples]
     answer = answer.assign(samples[basis].reset_coords(drop=True).variables)
@@ -123,7 +122,6 @@ def _answer(samples: xr.Dataset, case: Case, curve: xr.Dataset | None) -> xr.Dat
 
 
 def _sample_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
-    """Return what an answer keeps of the direct contact of one profile."""
     kept = [name for name in RATIO_BASIS if name in answer]
     return reduce.sample_numbers(answer, task).assign(answer[kept].variables)
 

@@ -121,7 +121,15 @@ def axis_value(name: str, value: Any) -> Any:
     if name in COUNTS:
         return checks.whole(name, plain_number(value), least=1, most=COUNTS[name])
     if name == "factors":
-        return _pair(name, value)
+        parts = value.split("/") if isinstance(value, str) else value
+        try:
+            first, second = (float(part) for part in parts)
+        except (TypeError, ValueError) as error:
+            raise InputError(f'factors must be pairs such as "3.5/2.4"; got {value!r}') from error
+        for part in (first, second):
+            if checks.number(name, part) <= 1.0:
+                raise InputError(f"factors must be greater than 1; got {part:g}")
+        return (first, second)
     if name == "effects":
         # which of them there are, only the conditions of a model tell
         return checks.instance(name, value, str).replace("_", " ")
@@ -140,7 +148,6 @@ def plain_number(value: Any) -> Any:
 
 
 def _quantity(name: str, value: Any) -> float:
-    """Read a number in SI units or a text with a unit."""
     number = plain_number(value)
     if isinstance(number, str):
         try:
@@ -159,26 +166,12 @@ def _quantity(name: str, value: Any) -> float:
 
 
 def _cut_off(name: str, value: Any) -> CutOffRule:
-    """Read a length, or one of the other rules."""
     if not isinstance(plain_number(value), str | dict | RmsSlope):
         return _quantity(name, value)
     try:
         return cut_off_rule(value)
     except ValueError as error:
         raise InputError(f"{name} = {value!r}: {error}") from error
-
-
-def _pair(name: str, value: Any) -> tuple[float, float]:
-    """Read `3.5/2.4`, or a pair of numbers."""
-    parts = value.split("/") if isinstance(value, str) else value
-    try:
-        first, second = (float(part) for part in parts)
-    except (TypeError, ValueError) as error:
-        raise InputError(f'factors must be pairs such as "3.5/2.4"; got {value!r}') from error
-    for part in (first, second):
-        if checks.number(name, part) <= 1.0:
-            raise InputError(f"factors must be greater than 1; got {part:g}")
-    return first, second
 
 
 FIXED = {

@@ -183,7 +183,6 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
 def _interval(
     data: xr.Dataset, name: str, at: dict[str, int], axis: str
 ) -> tuple[Array, Array] | None:
-    """Return the ends of the intervals of a curve; None without any."""
     if f"{name}_low" not in data:
         return None
     ends = (data[f"{name}_{end}"].isel(at).transpose(axis).values for end in ("low", "high"))
@@ -279,26 +278,6 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
 _AREA = "real contact area $A_r/A_0$"
 _LEAST_SHARE = 0.005
 """Octaves and decades that never reach this share of the friction are not drawn."""
-
-
-def octaves_panel(result: xr.Dataset, axis: str) -> Panel:
-    """Return friction over one axis as the sum of its octaves of wavelength."""
-    parts = result.octave_friction.sortby("octave", ascending=False)
-    names = [f"from {significant(end, 2)} mm" for end in parts.octave.values / MILLI]
-    ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
-    return _stacked(result, axis, parts, names, ordinate, "Viridis")
-
-
-def decades_panel(result: xr.Dataset, axis: str) -> Panel:
-    """Return the share of each decade of relaxation time in the friction over one axis.
-
-    The split is that of small strain (see
-    `gripscale.questions.vary.speed_and_temperature`), and the panel says so.
-    """
-    parts = result.friction_by_decade / result[believed(result, "friction")]
-    names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
-    ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
-    return _stacked(result, axis, parts, names, ordinate, "Cividis")
 
 
 def _stacked(
@@ -413,7 +392,6 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
 
 
 def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
-    """Return a total at every temperature over the reduced speed."""
     speeds = axis_shown(data, "speed")
     celsius = axis_shown(data, "temperature").of(data.temperature)
     shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
@@ -447,9 +425,15 @@ def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
     data = data.isel({name: 0 for name in dimensions(data) if name not in several})
     panels = {}
     if "octave_friction" in data:
-        panels["stacked"] = octaves_panel(data, several[0])
+        parts = data.octave_friction.sortby("octave", ascending=False)
+        names = [f"from {significant(end, 2)} mm" for end in parts.octave.values / MILLI]
+        ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
+        panels["stacked"] = _stacked(data, several[0], parts, names, ordinate, "Viridis")
     if "friction_by_decade" in data:
-        panels["decades"] = decades_panel(data, several[0])
+        parts = data.friction_by_decade / data[believed(data, "friction")]
+        names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
+        ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
+        panels["decades"] = _stacked(data, several[0], parts, names, ordinate, "Cividis")
     return panels
 
 

@@ -76,16 +76,12 @@ def study_command(
     folder.save_case(work.file, work.target)
     data = planned.run(client=cluster, **work.solving(workers))
     work.finish(
-        Variation(data),
-        "table and figures",
-        opening=opening,
-        keep_figures=stored is not None,
+        Variation(data), "table and figures", opening=opening, keep_figures=stored is not None
     )
 
 
 CaseOfRest = Annotated[
-    Path | None,
-    option("Case of all else; by default the first case given.", metavar="CASE.toml"),
+    Path | None, option("Case of all else; by default the first case given.", metavar="CASE.toml")
 ]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section
 from gripscale.report.equations import method_section
-from gripscale.report.failures import Failure, explained
+from gripscale.report.failures import Failure, explained, failures_in
 
 _MOST_ROWS = 200
 """Predictions in the terminal; a page has all of them."""
@@ -50,14 +50,7 @@ def study_table(data: xr.Dataset) -> Table:
         marks = [" *" if bool(row[BEYOND_SHIFT]) else "" for row in rows]
         columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
     keys = len(columns)
-    for name in reversed(SYMBOLS):
-        column = believed(data, name)
-        # no friction at rest is none, not zero
-        values = [value or math.nan for value in each(column)]
-        columns.append(Column(column, values, SYMBOLS[name]))
-        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
-            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
-            columns.append(Column(f"{column}_interval", ends, "90 %"))
+    columns += answer_columns(data, each)
     if not is_estimated(data, "friction") and "total_friction_from_dissipation" in data:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
@@ -93,6 +86,18 @@ def study_table(data: xr.Dataset) -> Table:
     return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
 
 
+def answer_columns(data: xr.Dataset, each: Callable[[str], Sequence[float]]) -> Iterator[Column]:
+    """Yield friction and contact area with their intervals, by the numbers of each row."""
+    for name in reversed(SYMBOLS):
+        column = believed(data, name)
+        # no friction at rest is none, not zero
+        values = [value or math.nan for value in each(column)]
+        yield Column(column, values, SYMBOLS[name])
+        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
+            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
+            yield Column(f"{column}_interval", ends, "90 %")
+
+
 def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
     """Yield the predictions as a table, and how far temperatures over a_T v are one curve."""
     yield study_table(data)
@@ -101,15 +106,9 @@ def study_parts(data: xr.Dataset) -> Iterator[str | Table]:
 
 def failed_predictions(data: xr.Dataset) -> tuple[list[Failure], int]:
     """Return each prediction without totals, and how many predictions there are."""
-    endings = [
-        Failure(str(sentence), str(word))
-        for name in (STATUS, rest_name(STATUS))
-        if name in data
-        for sentence, word in zip(
-            data[name].values.ravel(), status_words(data, name).values.ravel(), strict=True
-        )
-    ]
-    return [ending for ending in endings if ending.sentence != CONVERGED], len(endings)
+    names = [name for name in (STATUS, rest_name(STATUS)) if name in data]
+    failed = [failure for name in names for failure in failures_in(data, name)]
+    return failed, sum(data[name].size for name in names)
 
 
 def shift_sentence(data: xr.Dataset) -> str:
@@ -269,7 +268,7 @@ def study_page(data: xr.Dataset) -> Page:
     collapsed = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
     axes: list[Element] = [axes_table(data)]
     axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
-    curves, *inputs = study_sections(data)
+    totals = totals_table(data)
     return Page.of(
         str(data.attrs.get("title", "Study")),
         f"varied: {', '.join(label_of(data, axis) for axis in dimensions(data))}",
@@ -277,24 +276,15 @@ def study_page(data: xr.Dataset) -> Page:
         [*study_cards(data), *count_cards(data)],
         [
             Section("predictions", "Predictions", [study_table(data)]),
-            curves,
+            Section("curves", "Curves", study_charts(data)),
             Section("axes", "What was varied", axes),
-            *inputs,
+            *input_sections(data),
+            Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
             method_section(),
             rerun_section(data.attrs),
         ],
         (line.strip() for line in study_lines(data)),
     )
-
-
-def study_sections(data: xr.Dataset) -> list[Section]:
-    """Return the chapters on curves, inputs and totals."""
-    totals = totals_table(data)
-    return [
-        Section("curves", "Curves", study_charts(data)),
-        *input_sections(data),
-        Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
-    ]
 
 
 def count_cards(data: xr.Dataset) -> list[Card]:

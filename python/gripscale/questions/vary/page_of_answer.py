@@ -23,10 +23,7 @@ from gripscale.report.elements import Card, percent_text
 
 _SAME = 0.03
 """Relative change that is none."""
-_MODELS = {
-    "chain": "chain of sine waves",
-    "direct": "direct contact of the measured surface",
-}
+_MODELS = {"chain": "chain of sine waves", "direct": "direct contact of the measured surface"}
 """Models in words; others by their names."""
 
 

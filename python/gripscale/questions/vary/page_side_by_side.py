@@ -21,6 +21,7 @@ from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of
 from gripscale.questions.inputs.page import input_sections, texture_table
 from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
+from gripscale.questions.vary.page import answer_columns
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -86,7 +87,16 @@ def ranking_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
     steps = [f" over {text}{words}" for text, words in zip(texts[1:], sure, strict=True)]
     yield f"Answer: friction μ ranks {texts[0]}{''.join(steps)}."
     for high, low in pairwise(order):
-        ratios = _ratio_text(data, dim, high, low)
+        ratio, *ends = (
+            float(data[f"friction_ratio{end}"].transpose(dim, "over")[high, low])
+            for end in ("", "_low", "_high")
+        )
+        interval = f" ({' to '.join(map(significant, ends))})" if math.isfinite(ends[0]) else ""
+        area = data[believed(data, "contact_fraction")].values
+        ratios = (
+            f"friction × {significant(ratio)}{interval}, contact area × "
+            f"{significant(area[high] / area[low])}"
+        )
         yield f"  {names[high]} over {names[low]}: {ratios}{_causes(data, dim, high, low)}"
     if doubts := input_doubts_of(data):
         yield f"  not to be relied on: {sentences(doubts)}"
@@ -120,23 +130,6 @@ def percent_sure(confidence: float) -> str:
     return "> 99 %" if confidence > _CERTAIN else f"{100.0 * confidence:.0f} %"
 
 
-def _ratio_text(data: xr.Dataset, dim: str, high: int, low: int) -> str:
-    """Return the ratios of friction and contact area of two, such as `friction × 1.2 (1.1 to 1.3)`.
-
-    Of the area without an interval: its errors are not those of the friction.
-    """
-    ratio, *ends = (
-        float(data[f"friction_ratio{end}"].transpose(dim, "over")[high, low])
-        for end in ("", "_low", "_high")
-    )
-    interval = f" ({' to '.join(map(significant, ends))})" if math.isfinite(ends[0]) else ""
-    area = data[believed(data, "contact_fraction")].values
-    return (
-        f"friction × {significant(ratio)}{interval}, contact area × "
-        f"{significant(area[high] / area[low])}"
-    )
-
-
 def _causes(data: xr.Dataset, dim: str, high: int, low: int) -> str:
     """Return at which wavelengths and relaxation times most of a difference arises."""
     texts = []
@@ -153,7 +146,6 @@ def _causes(data: xr.Dataset, dim: str, high: int, low: int) -> str:
 
 
 def _largest_difference(parts: xr.DataArray, high: int, low: int) -> tuple[int, float]:
-    """Return where two differ most, and by how much."""
     rows = np.nan_to_num(parts.values)
     differences = rows[high] - rows[low]
     at = int(np.argmax(np.abs(differences)))
@@ -186,12 +178,7 @@ def ranking_table(data: xr.Dataset, dim: str) -> Table:
     order += [at for at in range(len(every)) if at not in order]
     following = [*order[1:], None]
     columns = [Column(dim, [str(every[at]) for at in order], CALLED[dim])]
-    for name in reversed(SYMBOLS):
-        column = believed(data, name)
-        columns.append(Column(column, data[column].values[order], SYMBOLS[name]))
-        if f"{column}_low" in data and bool(data[f"{column}_low"].notnull().any()):
-            ends = [data[f"{column}_{end}"].values[order] for end in ("low", "high")]
-            columns.append(Column(f"{column}_interval", np.stack(ends, axis=1), "90 %"))
+    columns += answer_columns(data, lambda name: data[name].values[order].tolist())
 
     def over_next(name: str) -> Array:
         pairs = data[name].transpose(dim, "over").values

@@ -33,36 +33,29 @@ class Variation(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        """The course of friction and contact area with intervals, and what they rest on."""
         return tuple(page_of_answer.study_lines(self.data))
 
     @property
     def findings(self) -> Sequence[Finding]:
-        """Predictions without a result, extrapolation, and notes about the surfaces."""
         return tuple(page.study_findings(self.data))
 
     @property
     def failure(self) -> str:
-        """Which predictions failed; empty if none did."""
         failed, total = page.failed_predictions(self.data)
         return first_of(failed, total, "predictions")
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the predictions as a table, and how far curves over a_T v agree."""
         yield from page.study_parts(self.data)
 
     def table(self) -> Table:
-        """Return the predictions, one a row."""
         return page.study_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield totals and, over a single axis, what the waves do."""
         from gripscale.questions.vary.charts import study_figures
 
         yield from study_figures(self.data)
 
     def page_content(self) -> Page:
-        """Return the predictions, their curves, and the inputs."""
         return page.study_page(self.data)
 
 

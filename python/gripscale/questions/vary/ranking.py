@@ -256,7 +256,6 @@ def ranked_answers(
 
 
 def _ratio(data: xr.Dataset, dim: str, i: int, j: int) -> FrictionRatio:
-    """Return the friction of number `i` over that of number `j`."""
     over, under = (data.isel({dim: at}) for at in (i, j))
     friction = believed(data, "friction")
     high, low = (float(each[friction]) for each in (over, under))

@@ -99,18 +99,10 @@ _NUMBERS = {
 }
 """Further numbers of rubber that slides."""
 _OF_A_SLIDING_WAVE = (
-    "sliding_speed",
-    "load_time",
-    "friction_from_dissipation",
-    "friction_error",
-    "friction_bound",
-    "friction_mismatch",
-    "angular_frequency",
-    "loss_factor",
-    "loss_modulus_ratio",
-    "outside_band",
-    "decades_below_band",
-    "decades_above_band",
+    *("sliding_speed", "load_time"),
+    *("friction_from_dissipation", "friction_error", "friction_bound", "friction_mismatch"),
+    *("angular_frequency", "loss_factor", "loss_modulus_ratio"),
+    *("outside_band", "decades_below_band", "decades_above_band"),
 )
 
 _MOVING = {name: StudyVariable(label, at_rest=False) for name, label in _NUMBERS.items()}

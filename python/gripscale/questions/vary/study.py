@@ -26,13 +26,7 @@ from gripscale.core import provenance
 from gripscale.core.errors import InputError
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
-from gripscale.experiment.design import (
-    SURFACE,
-    Design,
-    Point,
-    basis_numbers,
-    variable_attributes,
-)
+from gripscale.experiment.design import SURFACE, Design, Point, basis_numbers, variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import JUDGED_TO
