@@ -138,7 +138,7 @@ def solved_ladder(
             require_measured(setup.rubber_before, wavelength, speed)
 
     wanted = chosen(models)
-    answering = [member for member in wanted if member.name == estimates.DIRECT]
+    answering = [m for m in wanted if m.name == estimates.DIRECT] if axis is None else []
     quick = [member for member in wanted if member.group != WINDOWS]
     parts = pairwise([answering, quick, list(wanted), []])
     asked, *stages = [part for part, after in parts if part and part != after]
