@@ -16,6 +16,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions
 from gripscale.core import checks, provenance
 from gripscale.core.described import Described
 from gripscale.core.errors import InputError
@@ -117,8 +118,12 @@ def solved_ladder(
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
     setups = []
+    water = case.conditions and case.conditions.water  # which the chain leaves out
     for task in tasks.values():
         chain = checks.instance("model", task.model, Chain)
+        conditions = chain.conditions
+        if water is not None:
+            conditions = replace(conditions or Conditions(), water=water)
         setup = ComparisonSetup(
             task.rubber,
             task.surface,
@@ -129,7 +134,7 @@ def solved_ladder(
             case.klueppel_heinrich,
             chain.pressure_classes,
             continuation=case.continuation(),
-            conditions=case.conditions,
+            conditions=conditions,
         )
         setups.append(setup)
     if case.chain.extrapolate == "refuse":
