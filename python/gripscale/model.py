@@ -209,6 +209,8 @@ TOTALS = {
 }
 
 FRICTION_OUTSIDE_BAND = "total_friction_outside_band"
+# Names of what every model tells of the rubber beyond its measured frequencies: attribute of
+# `Extrapolation`, and meaning.
 OUTSIDE_BAND = {
     FRICTION_OUTSIDE_BAND: (
         "share",
@@ -223,8 +225,6 @@ OUTSIDE_BAND = {
         "decades by which excitation goes above the measured frequencies",
     ),
 }
-"""Names of what every model tells of the rubber beyond its measured frequencies: attribute of
-`Extrapolation`, and meaning."""
 
 
 def extrapolation_of(data: xr.Dataset) -> Extrapolation:

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, ParamSpec
 
 import typer
 
-from gripscale.core.errors import ConvergenceError, GripscaleError
-from gripscale.core.wording import Words
+from gripscale.core import ConvergenceError, GripscaleError, Words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,15 +29,11 @@ if TYPE_CHECKING:
     from gripscale.questions.result import Result
 
 
+# Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
-"""Exit codes: an input that cannot be used, a wave without solution, stopped from outside."""
-
+# Text in the folder of a run, and what its last line says.
 RUN_REPORT, RUN_CLOSING = "report.txt", "Results, report and figures are in"
-"""Text in the folder of a run, and what its last line says."""
-
-PLAIN_WIDTH = 100
-"""Characters per line where there is no terminal to ask."""
-
+PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
 
@@ -48,13 +43,11 @@ class Manner(NamedTuple):
     quiet: bool = False
     json: bool = False
     replace: bool = False
-    events: bool = False
-    """Whether standard output has events for a program."""
+    events: bool = False  # whether standard output has events for a program
 
 
 _USUAL = Manner()
-MANNER: ContextVar[Manner] = ContextVar("manner", default=_USUAL)
-"""Manner of the running command."""
+MANNER: ContextVar[Manner] = ContextVar("manner", default=_USUAL)  # manner of the running command
 
 
 def screen(stderr: bool = False) -> Console:
@@ -80,8 +73,8 @@ def print_error(message: str, label: str = "error: ") -> None:
     screen(stderr=True).print(text, soft_wrap=True)
 
 
+# Folder that the running command writes its results into.
 RESULTS_FOLDER: ContextVar[Path | None] = ContextVar("results", default=None)
-"""Folder that the running command writes its results into."""
 
 
 def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
@@ -129,10 +122,10 @@ def print_parts(console: Console, parts: Iterable[str | Table]) -> None:
             console.print(part)
 
 
+# The line of a terminal that shows the last step of the work.
 _STATUS: ContextVar[Status | None] = ContextVar("status", default=None)
-"""The line of a terminal that shows the last step of the work."""
+# Variable of the environment: set, each step of the work has a line of its own, as for a log.
 PROGRESS_LINES = "GRIPSCALE_PROGRESS_LINES"
-"""Variable of the environment: set, each step of the work has a line of its own, as for a log."""
 
 
 def show_step(console: Console, text: str) -> None:
@@ -202,6 +195,7 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
     return inside
 
 
+# Options of every command on a case, by the fields of `Manner`.
 _SHARED = {
     "quiet": Annotated[
         bool,
@@ -215,7 +209,6 @@ _SHARED = {
         typer.Option("--replace", help="Replace results of another case in the results folder."),
     ],
 }
-"""Options of every command on a case, by the fields of `Manner`."""
 
 
 def case_command(body: Callable[..., None]) -> Callable[..., None]:
@@ -238,8 +231,7 @@ def case_command(body: Callable[..., None]) -> Callable[..., None]:
     return outside
 
 
-WORTH_WAITING = 2.0
-"""Time left from which on a line says it [s]."""
+WORTH_WAITING = 2.0  # time left from which on a line says it [s]
 
 
 def time_left(seconds: float) -> str:
@@ -374,8 +366,7 @@ class CaseCommand:
     `open_results` comes after all that may be refused: before it, nothing is printed or written.
     """
 
-    target: Path
-    """Folder of its results."""
+    target: Path  # folder of its results
 
     def __init__(self, path: Path) -> None:
         from gripscale.case_file import read_case_file

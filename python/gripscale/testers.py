@@ -14,12 +14,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from gripscale.core import checks
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core import Finding, InputError, Severity, Topic, checks
 
-KMH = 1.0 / 3.6
-"""A kilometre an hour [m/s]."""
+KMH = 1.0 / 3.6  # A kilometre an hour [m/s]
 
 
 @dataclass(frozen=True)
@@ -27,18 +24,14 @@ class Tester:
     """The load of a tester of skid resistance, and the number that it reads."""
 
     title: str
-    slider: str
-    """What slides."""
-    pressure: float
-    """[Pa]"""
-    speed: float
-    """[m/s]"""
-    footprint: float
-    """Length over which the rubber is loaded [m]."""
-    number: str = ""
-    """What it calls its number; empty where that is the friction."""
+    slider: str  # what slides
+    pressure: float  # [Pa]
+    speed: float  # [m/s]
+    footprint: float  # length over which the rubber is loaded [m]
+    number: str = ""  # what it calls its number; empty where that is the friction
 
 
+# Testers by the words of a case.
 TESTERS = {
     # EN 13036-4: 22.2 N on an edge 76 mm wide and 2.4 mm long, over 126 mm
     "pendulum": Tester("pendulum, EN 13036-4", "slider 57 or 96", 1.2e5, 2.8, 0.126, "PTV"),
@@ -53,9 +46,7 @@ TESTERS = {
     # ASTM E274 and E501: 4.8 kN, 165 kPa, 149 mm, locked at 64 km/h
     "locked_wheel": Tester("locked-wheel trailer, ASTM E274", "tread", 1.65e5, 64.0 * KMH, 0.196),
 }
-"""Testers by the words of a case."""
-TESTER = "tester"
-"""Attribute of a result: the tester whose load it is for."""
+TESTER = "tester"  # attribute of a result: the tester whose load it is for
 
 
 def pendulum_value(friction: float) -> float:

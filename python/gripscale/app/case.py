@@ -30,10 +30,8 @@ from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.folders import make_folder, write_bytes, write_text
 from gripscale.io.text_table import require_numbers
 
-MAX_UPLOAD = 50_000_000
-"""Bytes of an uploaded file."""
-MAX_NAME = 100
-"""Letters of the name of an uploaded file."""
+MAX_UPLOAD = 50_000_000  # bytes of an uploaded file
+MAX_NAME = 100  # letters of the name of an uploaded file
 
 
 @dataclass(frozen=True)

@@ -16,11 +16,11 @@ from gripscale.charts.page_elements import Chart
 from gripscale.core.errors import GripscaleError
 from gripscale.questions.inputs.charts_of_surface import raw_chart
 
+# Keys of [surface] that this figure depends on.
 READ_BY = (
     *("files", "map", "x_unit", "z_unit", "z_axis", "direction", "reader", "channel", "sheet"),
     *("step", "crop"),
 )
-"""Keys of [surface] that this figure depends on."""
 HINT = "Drag along the road to keep only that part; an empty crop keeps everything."
 
 

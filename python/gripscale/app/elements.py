@@ -88,8 +88,8 @@ def code(text: str) -> pn.pane.HTML:
     return html(Code("text", "", text))
 
 
+# Reads files and prepares cases. One thread: netCDF's library must not be entered by two.
 _WORKER = ThreadPoolExecutor(1, thread_name_prefix="gripscale app")
-"""Reads files and prepares cases. One thread: netCDF's library must not be entered by two."""
 
 
 async def in_worker(work: Callable[[], _T]) -> _T:
@@ -104,8 +104,8 @@ BUSY = """\
 """
 
 
+# Text that is longer than its field ends in dots.
 CUT_TEXT = "input, select { text-overflow: ellipsis; }"
-"""Text that is longer than its field ends in dots."""
 
 
 def work_button(label: str, work: Callable[[], Awaitable[None]], **look: Any) -> pn.widgets.Button:

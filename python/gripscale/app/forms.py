@@ -25,8 +25,8 @@ LOOK: dict[str, Any] = {
     "styles": {"flex": "1 1 190px", "min-width": "0", "max-width": "340px"},
     "stylesheets": [CUT_TEXT],
 }
+# Keys without a field: files are uploaded, and waves are written into the text of the case.
 WITHOUT_FIELD = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
-"""Keys without a field: files are uploaded, and waves are written into the text of the case."""
 
 
 def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column:

@@ -40,13 +40,13 @@ RUBBER_FIELDS = (
     *("name", "reference_temperature", "bulk_modulus", "thickness"),
     *("terms", "extrapolate", "source"),
 )
+# Tables of the case by name: their title and the fields at the top.
 LOAD_TABLES = {
     "load": ("Load", ("pressure", "speed", "footprint", "static", "load_time")),
     "conditions": ("Conditions", ("temperature", "strain_norm")),
     "solver": ("Solver of one wave", ("model", "points", "columns", "tolerance")),
     "chain": ("Chain of waves", ("pressure_classes",)),
 }
-"""Tables of the case by name: their title and the fields at the top."""
 
 
 def _case_with(file: case_file.CaseFile, **tables: Any) -> Case:

@@ -38,10 +38,8 @@ from gripscale.questions.registry import Form
 from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS
 from gripscale.report.elements import Element, Text
 
-POLL = 500
-"""Milliseconds between two readings of the events of a run."""
-REPORTS = "reports"
-"""Where the server gives the pages of results, by visit and run."""
+POLL = 500  # milliseconds between two readings of the events of a run
+REPORTS = "reports"  # where the server gives the pages of results, by visit and run
 NO_RUN = "<p>No case was run yet.</p>"
 
 

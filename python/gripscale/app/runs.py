@@ -39,10 +39,8 @@ from gripscale.terminal import PROGRESS_LINES
 
 RUN_COMMAND = "run"
 COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
-REPORT = "report.html"
-"""The page of a result in its folder, as `gripscale report` names it."""
-GRACE = 5.0
-"""Seconds a process has to end before it is killed."""
+REPORT = "report.html"  # the page of a result in its folder, as `gripscale report` names it
+GRACE = 5.0  # seconds a process has to end before it is killed
 
 
 _LAST_STAGES = {
@@ -62,10 +60,8 @@ class RunProgress:
 
     start: RunStarted | None = None
     wave: WaveSolved | None = None
-    finished: tuple[str, ...] = ()
-    """Predictions that came to their end, with a solution or without."""
-    last_stage: str = "waves"
-    """One of `_LAST_STAGES`: what was solved last."""
+    finished: tuple[str, ...] = ()  # predictions that came to their end, with a solution or without
+    last_stage: str = "waves"  # one of `_LAST_STAGES`: what was solved last
 
     @classmethod
     def of(cls, events: Iterable[Event]) -> RunProgress:

@@ -32,14 +32,13 @@ INTRO = (
     "same results from it.</p>"
 )
 TABS_STYLE = ":host .bk-header { min-width: 0; } :host .bk-headers-wrapper { flex-wrap: wrap; }"
+# The page is drawn dark on white; a dark browser inverts it with its figures, hues kept.
 PAGE_STYLE = """\
 :root { color-scheme: light; background: #fff; }
 @media (prefers-color-scheme: dark) { :root { filter: invert(0.9) hue-rotate(180deg); } }
 """
-"""The page is drawn dark on white; a dark browser inverts it with its figures, hues kept."""
 HOST = "127.0.0.1"
-GONE_AFTER = 15_000
-"""Milliseconds after which a page that was closed counts as left."""
+GONE_AFTER = 15_000  # milliseconds after which a page that was closed counts as left
 
 
 def visit_page(root: Path, case: Path | None) -> pn.Column:

@@ -20,18 +20,16 @@ from gripscale.app.elements import column, in_worker
 from gripscale.core.errors import InputError
 from gripscale.report.build import template_text
 
+# From uploads by name to the text of the case with them; may read them, in the worker thread.
 NewText = Callable[[Mapping[str, bytes]], str]
-"""From uploads by name to the text of the case with them; may read them, in the worker thread."""
-PAUSE = 3.0
-"""Seconds without a further file after which those that are still announced do not come."""
+PAUSE = 3.0  # seconds without a further file after which those that are still announced do not come
+# What is read is named; a file that arrived is not green: it may be refused yet.
 READING = """\
 :host([data-reading])::before { content: attr(data-reading); display: block; font-weight: 600;
     overflow-wrap: anywhere; padding: 0.2rem 0; }
 [data-filepond-item-state="processing-complete"] .filepond--item-panel { background: #64605e; }
 """
-"""What is read is named; a file that arrived is not green: it may be refused yet."""
-TOO_LARGE = "too large"
-"""Type that the browser announces of a file that it does not send."""
+TOO_LARGE = "too large"  # type that the browser announces of a file that it does not send
 
 
 def prepare_areas(page: Document) -> None:

@@ -14,10 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
-from gripscale.core import checks
-from gripscale.core.described import Described
-from gripscale.core.errors import FileError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core import ZERO_CELSIUS, Described, FileError, checks
 from gripscale.io.folders import nearest_existing, write_bytes
 
 

@@ -39,16 +39,15 @@ from gripscale.io.table import Table
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
-COPIED_AT_MOST = 100e6
-"""Bytes of all files together above which they are not copied."""
+COPIED_AT_MOST = 100e6  # bytes of all files together above which they are not copied
 
+# A comment or a string of TOML 1.0, the longer quotes first.
 _STRING = re.compile(
     r"""#[^\n]*"""
     r"""|\"{3}(?:\\.|[^\\])*?\"{3,5}|'{3}.*?'{3,5}"""
     r"""|"(?:\\.|[^"\\\n])*"|'[^'\n]*'""",
     re.DOTALL,
 )
-"""A comment or a string of TOML 1.0, the longer quotes first."""
 _MARK = "the file that is looked for"
 
 
@@ -123,21 +122,20 @@ _FIGURES = (
     *("profile", "correlation", "texture_levels", "master_curve", "contact_and_friction"),
     *("summary", "direct_contact", "blocks_dynamic", "blocks_static"),
 )
+# Figures of cases with conditions, or with sweeps at several temperatures.
 AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
-"""Figures of cases with conditions, or with sweeps at several temperatures."""
+# What a finished run was made from and the files it left, so that it need not be repeated.
 NOTE = ".finished.json"
-"""What a finished run was made from and the files it left, so that it need not be repeated."""
 REPORT_PAGE = "report.html"
+# Everything a run may write into its folder, beside copies of the files the case names.
 RESULT_FILES = (
     *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt", "summary.xlsx"),
     *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc", "effects_chain.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
-"""Everything a run may write into its folder, beside copies of the files the case names."""
 
 
-CASE_NOTE = ".case"
-"""The case whose results are in a folder, by its path from there."""
+CASE_NOTE = ".case"  # the case whose results are in a folder, by its path from there
 
 
 def claim(folder: Path, case: Path, *, replace: bool = False) -> None:

@@ -22,8 +22,8 @@ from gripscale.case_file.tables import CaseTables
 from gripscale.io.folders import write_text
 
 SCHEMA_FILE = ".case.schema.json"
+# First line of a case file with its schema beside it.
 SCHEMA_LINE = f"#:schema ./{SCHEMA_FILE}\n"
-"""First line of a case file with its schema beside it."""
 
 _TYPES: dict[Any, Any] = {
     bool: "boolean",
@@ -32,6 +32,7 @@ _TYPES: dict[Any, Any] = {
     str: "string",
     list: "array",
 }
+# What pydantic calls a limit, and what JSON Schema does.
 _LIMITS = {
     "ge": "minimum",
     "gt": "exclusiveMinimum",
@@ -41,7 +42,6 @@ _LIMITS = {
     "min_length": "minItems",
     "max_length": "maxItems",
 }
-"""What pydantic calls a limit, and what JSON Schema does."""
 
 
 @cache

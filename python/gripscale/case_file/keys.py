@@ -21,9 +21,10 @@ from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
 
+# The default of a key that must be there, and of one that may be left out for nothing.
 NEEDED, NOTHING = "needed", "-"
-"""The default of a key that must be there, and of one that may be left out for nothing."""
 
+# Tables of a case by name, those of one kind or another by their kinds, and their chapters.
 TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
     ("surface", tables.SurfaceTable, "inputs.md"),
     ("surface.sines", tables.WaveTable, "method.md"),
@@ -45,16 +46,15 @@ TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
     ("uncertainty", tables.UncertaintyTable, "uncertainty.md"),
     ("uncertainty.ranges", tables.RangesTable, "uncertainty.md"),
 )
-"""Tables of a case by name, those of one kind or another by their kinds, and their chapters."""
 
 _OF_THE_METHOD = ("scales", "smallest_wavelength", "s_wavelength", "s_amplitude", "single_factor")
+# Chapters of keys that are explained elsewhere than their tables.
 CHAPTERS = {
     **dict.fromkeys(("top_height_fraction", "cut_off"), "chain-and-direct-contact.md"),
     **dict.fromkeys(_OF_THE_METHOD, "method.md"),
     **dict.fromkeys(("strain_energy", "terms"), "material.md"),
     **dict.fromkeys(("extrapolate", "time_limit"), "inputs.md"),
 }
-"""Chapters of keys that are explained elsewhere than their tables."""
 
 
 @dataclass(frozen=True)

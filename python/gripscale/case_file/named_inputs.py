@@ -12,8 +12,7 @@ from gripscale.case_file.prepare import case_surface, prepare_rubber, prepare_su
 from gripscale.case_file.read import CaseFile, read_case_file, validate
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS, RubberSource
 from gripscale.case_file.tables import SurfaceTable
-from gripscale.core.errors import FileError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core import ZERO_CELSIUS, FileError
 from gripscale.io.text_table import is_excel
 from gripscale.questions.vary.axis import named_values
 from gripscale.questions.vary.inputs import OF_THE_CASE
@@ -24,13 +23,13 @@ from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES
 
 SOURCES_OF_SURFACE = {"files", "map", "sines"}
+# Keys of the case's [surface] that belong to its own files.
 OF_ONE_ROAD = ("crop", "crop_across", "z_axis")
-"""Keys of the case's [surface] that belong to its own files."""
+# Keys of the case's [rubber] that another file is read with where it does not state them.
 OF_A_FILE = (
     *("frequency_unit", "modulus_unit", "temperature_unit"),
     *("modulus", "columns", "reference_temperature"),
 )
-"""Keys of the case's [rubber] that another file is read with where it does not state them."""
 
 
 def read_named_inputs(

@@ -33,18 +33,17 @@ from gripscale.case_file.proposals import (
 from gripscale.case_file.read import read_case_file
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.case_file.schema import toml_text
-from gripscale.core.errors import ExtrapolationError, FileError, GripscaleError, InputError
+from gripscale.core import CaseKey, ExtrapolationError, FileError, GripscaleError, InputError, Words
 from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import si_value
-from gripscale.core.wording import CaseKey, Words
 from gripscale.io.folders import make_folder, path_between, write_text
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.sweeps import holds_sweeps
 
+# What is taken where the caller states nothing.
 _LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
-"""What is taken where the caller states nothing."""
 _HEAD = f"""{SCHEMA_LINE}\
 # Written by `gripscale new`. Quantities are texts with their unit; paths start at this file.
 # `gripscale keys` lists every key with its default and meaning.

@@ -28,9 +28,8 @@ from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core.errors import FileError, InputError, about_file, about_keys
+from gripscale.core import CaseKey, FileError, InputError, Words, about_file, about_keys
 from gripscale.core.units import ZERO_CELSIUS, in_mm
-from gripscale.core.wording import CaseKey, Words
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.io.text_table import read_bytes
 from gripscale.rubber import (
@@ -55,8 +54,8 @@ from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_sh
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
+# What the files of a surface hold, before any cleaning.
 RawHeights = surfaces.HeightMap | list[surfaces.Profile]
-"""What the files of a surface hold, before any cleaning."""
 
 
 def _options(table: CaseTable, function: Callable[..., Any]) -> dict[str, Any]:
@@ -180,8 +179,8 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
     return surfaces.Measured.of_pairs(profiles, reports)
 
 
+# Keys of the case's [rubber] that only sweeps at several temperatures have.
 OF_SWEEPS = ("temperature_step", "vertical")
-"""Keys of the case's [rubber] that only sweeps at several temperatures have."""
 
 
 @about_keys("rubber")
@@ -235,10 +234,10 @@ def prepare_rubber(
     return MeasuredRubber(rubber, master.source, master, fit, sweeps, report)
 
 
+# What `Rubber.to_dict` returns of a rubber of which only the moduli are known.
 _DEFAULTS = {item.name: item.default for item in fields(Rubber) if item.default is not MISSING} | {
     "strain_energy": {"kind": NeoHookean.kind}
 }
-"""What `Rubber.to_dict` returns of a rubber of which only the moduli are known."""
 
 
 def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> MeasuredRubber:

@@ -19,9 +19,7 @@ import numpy as np
 
 from gripscale.case_file.read import validate
 from gripscale.case_file.tables import SurfaceTable
-from gripscale.core.errors import GripscaleError, InputError
-from gripscale.core.finding import Finding, Severity
-from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.core import ZERO_CELSIUS, Finding, GripscaleError, InputError, Severity, in_mm
 from gripscale.io.text_table import EXCEL
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import read_blocks
@@ -36,17 +34,12 @@ from gripscale.surface.supports import road_between, support_plates
 
 _Measurement = TypeVar("_Measurement")
 
-_SCALES = 8
-"""Waves of a surface that states none, as in `gripscale fit-surface`."""
-_CUT_OFF = "instrument"
-"""Where its roughness ends: where the measurement does."""
-ROOM = 293.15
-"""Temperature taken where neither a file nor the caller states one [K]."""
-
-
+_SCALES = 8  # waves of a surface that states none, as in `gripscale fit-surface`
+_CUT_OFF = "instrument"  # where its roughness ends: where the measurement does
+ROOM = 293.15  # temperature taken where neither a file nor the caller states one [K]
+# Effects of what is taken for granted on the friction [-]: tens of per cent, a factor, or it is the
+# friction of another road or rubber.
 TENS_OF_PERCENT, BY_A_FACTOR, OF_ANOTHER_CASE = 0.1, 1.0, math.inf
-"""Effects of what is taken for granted on the friction [-]: tens of per cent, a factor, or it is
-the friction of another road or rubber."""
 
 
 def assumption(effect: float, sentence: str) -> Finding:
@@ -74,16 +67,15 @@ class Proposal:
 
 
 LENGTHS = ("mm", "um", "m")
-_SHORTEST, _LONGEST = 1e-3, 20.0
-"""Lengths of profiles whose files state no unit [m]."""
+_SHORTEST, _LONGEST = 1e-3, 20.0  # lengths of profiles whose files state no unit [m]
 UNITS_OF_SURFACE = {"x_unit": LENGTHS[0], "z_unit": LENGTHS[0]}
+# What is tried first where a file does not state it.
 UNITS_OF_RUBBER = {
     "frequency_unit": "Hz",
     "modulus_unit": "MPa",
     "modulus": "E",
     "temperature_unit": "C",
 }
-"""What is tried first where a file does not state it."""
 
 
 def _read_with(
@@ -262,10 +254,8 @@ def open_rubber(
     return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
 
 
-_SOFTEST, _STIFFEST = 2e4, 1e8
-"""Between these lies the smallest modulus of a measured rubber [Pa]."""
-_HOTTEST = ZERO_CELSIUS + 180.0
-"""Mean temperature that no sweeps have [K]."""
+_SOFTEST, _STIFFEST = 2e4, 1e8  # between these lies the smallest modulus of a measured rubber [Pa]
+_HOTTEST = ZERO_CELSIUS + 180.0  # mean temperature that no sweeps have [K]
 
 
 def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str, str]:
@@ -313,12 +303,8 @@ def _add_reference(
         proposal.findings.append(assumption(BY_A_FACTOR, f"{text}; --temperature states another"))
 
 
-NOMINAL_STEP = "5 K"
-"""Step of nominal temperatures of ramps at several frequencies."""
-
-
-_ONE_SWEEP = 3.0
-"""Span of temperatures of one sweep [K]."""
+NOMINAL_STEP = "5 K"  # step of nominal temperatures of ramps at several frequencies
+_ONE_SWEEP = 3.0  # span of temperatures of one sweep [K]
 
 
 def celsius_text(kelvin: float) -> str:
@@ -338,8 +324,7 @@ def has_shift(paths: list[Path], proposal: Proposal) -> bool:
     return several or read_shift_of_sweeps(paths[0], layout) is not None
 
 
-ENOUGH_LINES = 400
-"""Lines that tell what a file holds."""
+ENOUGH_LINES = 400  # lines that tell what a file holds
 
 
 def holds_moduli(path: Path, layout: FileLayout | None = None) -> bool:

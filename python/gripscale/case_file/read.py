@@ -13,8 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from gripscale.case_file.schema import first_complaint, sentence
 from gripscale.case_file.tables import CaseTables
-from gripscale.core.described import Described
-from gripscale.core.errors import FileError, InputError, about_keys
+from gripscale.core import Described, FileError, InputError, about_keys
 from gripscale.core.units import stated_units
 
 M = TypeVar("M", bound=BaseModel)

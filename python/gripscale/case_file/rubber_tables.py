@@ -37,13 +37,13 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEn
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
+# Shifts a case states with their numbers; a table of factors is a file.
 SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
-"""Shifts a case states with their numbers; a table of factors is a file."""
 
+# Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
     *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness")
 }
-"""Keys of [rubber] that a named rubber may have."""
 
 
 _FILES = "the name of a file, or a list of names"
@@ -160,8 +160,8 @@ class StrainSweeps(LayoutKeys):
     """Unit of strains where the file does not name it."""
 
 
+# How a case states softening: a law with its numbers, or where one was measured.
 SOFTENING: dict[str, type] = {"kraus": Kraus, "table": StrainSweeps}
-"""How a case states softening: a law with its numbers, or where one was measured."""
 
 
 def _film(value: Any) -> Any:

@@ -29,10 +29,8 @@ from gripscale.case_file.tables import CaseTables, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent
-from gripscale.core.arrays import Array
-from gripscale.core.errors import FileError, InputError
+from gripscale.core import Array, FileError, InputError, quantity_in_si
 from gripscale.core.provenance import version_of
-from gripscale.core.units import quantity_in_si
 from gripscale.experiment.measured_friction import MEASURED
 from gripscale.questions.uncertainty.options import UncertaintyOptions
 from gripscale.rubber import ShiftTable, fit_prony_report

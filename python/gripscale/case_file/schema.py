@@ -31,6 +31,7 @@ from gripscale.core.units import UNITS, listed, parse_quantity, spelled, such_as
 from gripscale.rubber.columns import FileLayout
 
 _PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
+# What pydantic calls a limit, and what it is called here.
 _LIMITS = {
     "ge": "at least {:g}",
     "gt": "above {:g}",
@@ -38,7 +39,6 @@ _LIMITS = {
     "lt": "below {:g}",
     "multiple_of": "a multiple of {:g}",
 }
-"""What pydantic calls a limit, and what it is called here."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +124,7 @@ def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
     return ", ".join([words, *limits])
 
 
+# What was expected instead of a value that pydantic refused with an error of this type.
 _EXPECTED = {
     "bool_type": "true or false",
     "finite_number": "a finite number",
@@ -142,7 +143,6 @@ _EXPECTED = {
     "too_long": "at most {max_length} items",
     "too_short": "at least {min_length} items",
 }
-"""What was expected instead of a value that pydantic refused with an error of this type."""
 
 
 def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool = False) -> str:
@@ -255,20 +255,20 @@ TemperatureDifference = Annotated[float, _quantity("temperature difference", _po
 Strain = Annotated[float, _quantity("strain", _positive)]
 
 
+# Which quantity has a unit: the first kind of it, temperature and not its difference for K.
 _KIND_OF = {next(iter(units)): kind for kind, units in reversed(UNITS.items())}
-"""Which quantity has a unit: the first kind of it, temperature and not its difference for K."""
 _QUANTITIES = {
     checks.positive: _positive,
     checks.positive_vector: _positive,
     checks.interval: _positive,
     checks.not_negative: _not_negative,
 }
+# What checks of fields ask for, of quantities and of plain numbers.
 _NUMBERS: dict[Any, dict[str, Any]] = {
     checks.positive: {"gt": 0.0},
     checks.not_negative: {"ge": 0.0},
     checks.fraction: {"gt": 0.0, "le": 1.0},
 }
-"""What checks of fields ask for, of quantities and of plain numbers."""
 
 
 def table_of(law: Any) -> type[CaseTable]:
@@ -334,8 +334,7 @@ def kelvin_text(temperature: float) -> str:
     return f"{float(temperature)!r} K"
 
 
-_LONGEST_LIST = 49
-"""Letters of the items of a list beyond which each has a line of its own."""
+_LONGEST_LIST = 49  # letters of the items of a list beyond which each has a line of its own
 
 
 def toml_text(value: Any) -> str:

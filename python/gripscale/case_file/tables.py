@@ -328,6 +328,7 @@ class ChainOptions(CaseTable):
     """Classes of equal load in which the pressure is handed down; 1: its mean."""
 
 
+# What may be taken to be uncertain.
 SourceName = Literal[
     "height_noise",
     "cleaning",
@@ -342,10 +343,8 @@ SourceName = Literal[
     "cut_off",
     "waves",
 ]
-"""What may be taken to be uncertain."""
 
-FACTOR = "factor"
-"""Kind of values that have no unit."""
+FACTOR = "factor"  # kind of values that have no unit
 
 
 def _values(kind: str) -> Reading:

@@ -43,15 +43,12 @@ class PlotAxis:
     log: bool = False
     low: float | None = None
     high: float | None = None
-    ticks: Mapping[float, str] | None = None
-    """Names of positions, in place of numbers."""
+    ticks: Mapping[float, str] | None = None  # names of positions, in place of numbers
     bold: frozenset[str] = frozenset()
-    numbers: int = 0
-    """Most numbers along the axis on paper; 0 for as many as matplotlib finds good."""
+    numbers: int = 0  # most numbers along the axis on paper; 0 for as many as matplotlib finds good
     whole: bool = False
     grid: bool = True
-    margin: float | None = None
-    """Room beside what is drawn, over its extent."""
+    margin: float | None = None  # room beside what is drawn, over its extent
 
 
 def wavelength_axis(wavelengths: ArrayLike) -> PlotAxis:
@@ -72,28 +69,20 @@ class Series:
     y: ArrayLike
     colour: str = BLUE
     label: str = ""
-    dash: str = "solid"
-    """A key of `gripscale.charts.style.DASHES`; empty for points without a line."""
-    width: float = 1.4
-    """Of the line, in points on paper."""
-    marker: str = ""
-    """In matplotlib's letters; the page has a table of its own."""
-    size: float = 4.5
-    """Of a marker, in points on paper."""
-    filled: ArrayLike = True
-    """Whether markers are filled: all, or one flag for each point."""
+    dash: str = "solid"  # A key of `gripscale.charts.style.DASHES`; empty for points without a line
+    width: float = 1.4  # of the line, in points on paper
+    marker: str = ""  # in matplotlib's letters; the page has a table of its own
+    size: float = 4.5  # of a marker, in points on paper
+    filled: ArrayLike = True  # whether markers are filled: all, or one flag for each point
+    # Which points rest on the rubber beyond its measured band; the line there is dashed.
     beyond: ArrayLike = False
-    """Which points rest on the rubber beyond its measured band; the line there is dashed."""
     low: ArrayLike | None = None
-    high: ArrayLike | None = None
-    """Ends of error bars."""
+    high: ArrayLike | None = None  # ends of error bars
     level_bars: bool = False
     alpha: float = 1.0
-    order: float = 2.0
-    """What is drawn later, above, on paper."""
+    order: float = 2.0  # what is drawn later, above, on paper
     clip: bool = True
-    coarse: bool = False
-    """Whether paper has pixels in place of a drawing, for very many points."""
+    coarse: bool = False  # whether paper has pixels in place of a drawing, for very many points
     listed: bool = True
 
 
@@ -131,8 +120,8 @@ class ShadedBand:
     colour: str = GREY
     label: str = ""
     alpha: float = 0.2
+    # Where it rests on the rubber beyond its measured band, and is hatched.
     beyond: ArrayLike = False
-    """Where it rests on the rubber beyond its measured band, and is hatched."""
     edged: bool = False
 
 
@@ -161,8 +150,7 @@ class CrossLine:
     width: float = 0.8
     upright: bool = False
     order: float = 1.5
-    to: float | None = None
-    """Other end of a shade; None for a line."""
+    to: float | None = None  # other end of a shade; None for a line
 
 
 @dataclass(frozen=True)
@@ -173,15 +161,11 @@ class Note:
     y: float
     text: str
     colour: str = INK
-    offset: tuple[float, float] = (0.0, 0.0)
-    """From the point [points]."""
+    offset: tuple[float, float] = (0.0, 0.0)  # from the point [points]
     align: str = "left"
-    frame: str = ""
-    """Coordinates that are shares of the frame: "x", "xy" or none."""
-    top: bool = False
-    """Whether the point is at the top of the words, not in their middle."""
-    size: float = 7.0
-    """Of the letters [points]."""
+    frame: str = ""  # coordinates that are shares of the frame: "x", "xy" or none
+    top: bool = False  # whether the point is at the top of the words, not in their middle
+    size: float = 7.0  # of the letters [points]
     boxed: bool = False
     italic: bool = False
 
@@ -197,8 +181,7 @@ class ValueMap:
     y: ArrayLike
     values: ArrayLike
     label: str
-    levels: int = 0
-    """Most contours; 0 for a smooth map to scale."""
+    levels: int = 0  # most contours; 0 for a smooth map to scale
 
 
 Mark = Series | Outline | ShadedBand | Bars | CrossLine | Note | ValueMap
@@ -215,14 +198,11 @@ class Panel:
     name: str = ""
     caption: str = ""
     alt: str = ""
-    height: int = 340
-    """On the page with one line of the legend [px]."""
+    height: int = 340  # on the page with one line of the legend [px]
+    # Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere.
     legend: str = ""
-    """Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere."""
-    to_scale: bool = False
-    """Whether lengths along both axes are equal."""
-    framed: bool = True
-    """Whether paper shows the axes; False for a panel of words."""
+    to_scale: bool = False  # whether lengths along both axes are equal
+    framed: bool = True  # whether paper shows the axes; False for a panel of words
 
     def with_marks(self, marks: Iterable[Mark]) -> Panel:
         """Return the panel with more marks, drawn above the others."""

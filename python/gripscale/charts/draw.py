@@ -33,8 +33,7 @@ class ColourBar:
     high: float
     scale: str
     label: str
-    first_row: bool = False
-    """Whether it belongs to the first row of panels only."""
+    first_row: bool = False  # whether it belongs to the first row of panels only
 
 
 @dataclass(frozen=True)
@@ -44,19 +43,17 @@ class Sheet(Drawing):
     panels: Sequence[Panel]
     columns: int = 2
     width: float = WIDE
-    height: float = 3.1
-    """Of the figure [inch]."""
+    height: float = 3.1  # of the figure [inch]
+    # Where the legend of all panels is: "above", "beside", "below" or nowhere.
     legend: str = "above"
-    """Where the legend of all panels is: "above", "beside", "below" or nowhere."""
     legend_columns: int = 3
     legend_title: str = ""
-    keys: Sequence[Mark] = ()
-    """Entries of the legend that no panel has."""
+    keys: Sequence[Mark] = ()  # entries of the legend that no panel has
     title: str = ""
     gap: float = 0.06
     colour_bar: ColourBar | None = None
+    # `sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`.
     layout: Mapping[str, Any] = field(default_factory=dict)
-    """`sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`."""
 
     def on_paper(self) -> Figure:
         """Draw the panels with matplotlib, whose own rules stay as they are."""
@@ -86,8 +83,7 @@ def panels_on_page(panels: Iterable[Panel]) -> list[Chart]:
 
 
 PICTURE_DPI = 170
-SHADES = 96
-"""Colours a picture is reduced to: a third of the bytes, no visible loss."""
+SHADES = 96  # colours a picture is reduced to: a third of the bytes, no visible loss
 
 
 def image(picture: Picture) -> Image:

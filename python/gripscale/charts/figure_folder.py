@@ -29,8 +29,7 @@ class FigureFolder:
     """A folder of figures and what they are written as."""
 
     path: Path
-    kinds: Sequence[str] = ("png",)
-    """Out of `gripscale.charts.paper.KINDS`."""
+    kinds: Sequence[str] = ("png",)  # out of `gripscale.charts.paper.KINDS`
 
     def save(self, figure: Drawing | Figure, name: str) -> None:
         """Write a figure or what describes it; `FileError` if that fails."""

@@ -31,40 +31,34 @@ from gripscale.charts.style import BEYOND_LABEL, FAINT, GREY, INK, shades, stret
 from gripscale.core.arrays import Array
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Liberation Sans', Arial, sans-serif"
+# Room for the numbers of the ordinates of linked figures [px], whose frames are aligned.
 _LABELS = 70
-"""Room for the numbers of the ordinates of linked figures [px], whose frames are aligned."""
-_COLUMNS = 1000
-"""Pieces of an outline as the page is opened, a pixel each."""
+_COLUMNS = 1000  # pieces of an outline as the page is opened, a pixel each
+# Powers of ten below it are written as such; 0.0004 is shorter than what Bokeh makes of it.
 LEAST_EXPONENT = -5
-"""Powers of ten below it are written as such; 0.0004 is shorter than what Bokeh makes of it."""
+# From this ratio of largest to least on a log axis, Bokeh labels the decades.
 LEAST_DECADES = 1000.0
-"""From this ratio of largest to least on a log axis, Bokeh labels the decades."""
-_AROUND = 75
-"""Height of a figure around its frame [px]: abscissa and a line of the legend."""
+_AROUND = 75  # height of a figure around its frame [px]: abscissa and a line of the legend
+# The legend has as many lines as the width of the frame asks for, and the figure grows by them.
 LEGEND_LINES = """\
 :host { width: max-content; max-width: 100%; }
 .bk-grid { display: flex; flex-wrap: wrap; width: auto; gap: 2px 14px; }
 .bk-label.bk-label { white-space: normal; }
 """
-"""The legend has as many lines as the width of the frame asks for, and the figure grows by them."""
-PIXELS = 1.3
-"""Pixels of a line on the page for each point of its width on paper."""
-LEAST_MARKER = 6.0
-"""Size of a marker that a pointer can hit [px]."""
+PIXELS = 1.3  # pixels of a line on the page for each point of its width on paper
+LEAST_MARKER = 6.0  # size of a marker that a pointer can hit [px]
+# Largest over smallest number of a logarithmic ordinate, so that there are numbers along it.
 _LEAST_RANGE = 2.0
-"""Largest over smallest number of a logarithmic ordinate, so that there are numbers along it."""
-MOST_HOVERED = 2000
-"""Points of a curve that tells its numbers under the pointer."""
+MOST_HOVERED = 2000  # points of a curve that tells its numbers under the pointer
+# Points above which a curve is stored in single precision: enough to draw, half the size.
 MOST_EXACT = 300
-"""Points above which a curve is stored in single precision: enough to draw, half the size."""
-
 _DASHES = {"dotted": [2, 4], "dashed": [6], "dashdot": [2, 4, 6, 4], "solid": []}
+# Bokeh's word for a marker in matplotlib's letters.
 _MARKERS = {
     "o": "circle", ".": "circle", "s": "square", "^": "triangle", "v": "inverted_triangle",
     "D": "diamond", "P": "plus", "X": "x", "x": "x", "+": "cross", "<": "hex", "d": "diamond_cross",
     ">": "star", "*": "star", "h": "square_pin", "p": "triangle_pin", "|": "dash",
 }  # fmt: skip
-"""Bokeh's word for a marker in matplotlib's letters."""
 
 
 def draw_panel(panel: Panel) -> page_elements.Chart:

@@ -39,14 +39,11 @@ from gripscale.charts.style import (
 from gripscale.core import checks
 from gripscale.io.folders import write_bytes
 
-_PIECES = 5000
-"""Pieces of an outline: several to a pixel, so that most gaps are still seen."""
-
+_PIECES = 5000  # pieces of an outline: several to a pixel, so that most gaps are still seen
+# Width of a letter of a legend in the mean, and of a key with the gaps beside it [inch].
 LETTER, _KEY = 0.062, 0.5
-"""Width of a letter of a legend in the mean, and of a key with the gaps beside it [inch]."""
-
+# Largest over smallest value of a logarithmic axis with marks between the powers of ten.
 MOST_MARKED = 1e7
-"""Largest over smallest value of a logarithmic axis with marks between the powers of ten."""
 
 RULES: Any = {
     "font.size": 9.0,
@@ -77,6 +74,7 @@ RULES: Any = {
 
 HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
 
+# Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value.
 _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
     "x": ((8.0, (1, 2, 3, 5, 7)), (60.0, (1, 2, 5)), (1e3, (1, 3))),
     "y": (
@@ -85,7 +83,6 @@ _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
         (500.0, (1, 2, 5)),
     ),
 }
-"""Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value."""
 
 
 def house_rules() -> AbstractContextManager[None]:

@@ -23,18 +23,13 @@ BLUE, ORANGE, GREEN = "#0072B2", "#D55E00", "#009E73"
 SKY, PURPLE, YELLOW = "#56B4E9", "#CC79A7", "#E69F00"
 INK, GREY, FAINT = "#222222", "#7F7F7F", "#D9D9D9"
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, YELLOW, SKY)
+# Of what did not converge.
 RED = "#B00020"
-"""Of what did not converge."""
+WIDE, NARROW = 7.0, 4.6  # widths of a figure over two columns and a little over one [inch]
+DPI = 200  # pixels per inch of a PNG, and of what is rasterised in a PDF
+ROUND = (1, 2, 5, 10)  # steps between the numbers of a linear axis that has few
 
-WIDE, NARROW = 7.0, 4.6
-"""Widths of a figure over two columns and a little over one [inch]."""
-
-DPI = 200
-"""Pixels per inch of a PNG, and of what is rasterised in a PDF."""
-
-ROUND = (1, 2, 5, 10)
-"""Steps between the numbers of a linear axis that has few."""
-
+# Lines on paper by name; dashed are only those beyond the measured band.
 DASHES: dict[str, Any] = {
     "": "",
     "solid": "-",
@@ -42,10 +37,8 @@ DASHES: dict[str, Any] = {
     "dotted": (0, (1, 1.5)),
     "dashdot": (0, (6, 1.5, 1, 1.5)),
 }
-"""Lines on paper by name; dashed are only those beyond the measured band."""
 
-BEYOND_LABEL = "beyond the measured band"
-"""What a dashed line and a hatched band mean, in legends."""
+BEYOND_LABEL = "beyond the measured band"  # what a dashed line and a hatched band mean, in legends
 FLAG = "outside_band"
 
 RowFlags = NDArray[np.bool_]

@@ -25,8 +25,7 @@ from gripscale.cli.run import open_app as app_command
 from gripscale.core.provenance import COMMAND, version_of
 from gripscale.questions.registry import commands
 
-WIDEST_HELP = 140
-"""Characters of the longest lines of help, in a terminal that is as wide."""
+WIDEST_HELP = 140  # characters of the longest lines of help, in a terminal that is as wide
 EPILOGUE = (
     "To start: `gripscale new ROAD RUBBER` writes a case for your files, `gripscale init FOLDER` "
     "an example; `gripscale keys` lists what a case may say, `gripscale docs` opens the "

@@ -9,15 +9,14 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from gripscale import terminal
-from gripscale.core.errors import GripscaleError
-from gripscale.core.wording import Words
+from gripscale.core import GripscaleError, Words
 
+# Options that state what is missing, by its key in a case.
 _EXAMPLES = {
     "shift": ': here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"',
     "columns": ", such as --columns frequency=2,storage=3,loss=4",
     "modulus": ", such as --modulus E",
 }
-"""Options that state what is missing, by its key in a case."""
 
 
 RubberSheet = Annotated[

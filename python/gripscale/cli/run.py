@@ -145,8 +145,8 @@ def report_command(
     )
 
 
+# Settings of the command: whatever follows its name is for the reproduction.
 PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
-"""Settings of the command: whatever follows its name is for the reproduction."""
 
 
 @command

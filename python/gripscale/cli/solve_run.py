@@ -41,8 +41,7 @@ if TYPE_CHECKING:
     from gripscale.charts.figure_folder import Figures
     from gripscale.core.units import DisplayUnit
 
-REPORT_WIDTH = 110
-"""Characters of the lines of the report."""
+REPORT_WIDTH = 110  # characters of the lines of the report
 
 
 def solve_run(

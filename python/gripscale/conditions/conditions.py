@@ -26,18 +26,15 @@ from gripscale.conditions.area_term import (
     shear_stress_to_dict,
 )
 from gripscale.conditions.flash_temperature import ThermalProperties
-from gripscale.core import checks, units
-from gripscale.core.arrays import Array, ComplexArray, Mask
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks, units
 from gripscale.rubber import Rubber
 from gripscale.rubber.softening import SofteningLaw, softened, softening_from_dict
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
 
+# Frequencies, over that of a wave, at which a Prony series is fitted to the softened moduli.
 _HARMONICS = np.geomspace(1.0, 16.0, 12)
-"""Frequencies, over that of a wave, at which a Prony series is fitted to the softened moduli."""
 ROWS_AT_ONCE = 50_000
 
 
@@ -192,16 +189,12 @@ class RubberState:
     """The rubber at one strain and temperature."""
 
     rubber: Rubber
-    storage_modulus_ratio: float
-    """f, softened over measured E' [-]."""
-    loss_modulus_ratio: float
-    """g, softened over measured E'' [-]."""
-    series_misfit: float
-    """Misfit of the softened Prony series at the frequency of the wave [-]."""
-    strain_extrapolated: bool
-    """Whether the strain lies outside the measured range of the softening."""
+    storage_modulus_ratio: float  # f, softened over measured E' [-]
+    loss_modulus_ratio: float  # g, softened over measured E'' [-]
+    series_misfit: float  # misfit of the softened Prony series at the frequency of the wave [-]
+    strain_extrapolated: bool  # whether the strain lies outside the measured range of the softening
+    # Whether the temperature lies outside the measured range of the shift.
     temperature_extrapolated: bool
-    """Whether the temperature lies outside the measured range of the shift."""
 
 
 def rubber_under(
@@ -230,16 +223,11 @@ class RubberByScale:
     """A rubber with factors of its moduli by scale, arrays of shape (scales,)."""
 
     rubber: Rubber
-    wavenumber: Array
-    """Rising [rad/m]."""
-    a_t: Array
-    """a_T [-]."""
-    stiffening: Array
-    """1/b_T [-]."""
-    storage: Array
-    """f [-]."""
-    loss: Array
-    """g [-]."""
+    wavenumber: Array  # rising [rad/m]
+    a_t: Array  # a_T [-]
+    stiffening: Array  # 1/b_T [-]
+    storage: Array  # f [-]
+    loss: Array  # g [-]
 
     def complex_modulus(self, omega: ArrayLike, wavenumber: ArrayLike) -> ComplexArray:
         """Return E* [Pa] at `omega` [rad/s] and |q| [rad/m], broadcast together."""
@@ -278,22 +266,15 @@ class RubberByScale:
 class StateByScale:
     """Temperature, strain and rubber at some wavenumbers, arrays of shape (scales,)."""
 
-    wavenumber: Array
-    """Rising [rad/m]."""
-    warming: Array
-    """Temperature rise over that before the contact [K]."""
-    strain: Array
-    """Uniaxial amplitude of the waves up to the wavenumber [-]."""
-    storage_modulus_ratio: Array
-    """f, softened over measured E' [-]."""
-    loss_modulus_ratio: Array
-    """g, softened over measured E'' [-]."""
-    strain_extrapolated: Mask
-    """Where the strain lies outside the measured range of the softening."""
+    wavenumber: Array  # rising [rad/m]
+    warming: Array  # temperature rise over that before the contact [K]
+    strain: Array  # uniaxial amplitude of the waves up to the wavenumber [-]
+    storage_modulus_ratio: Array  # f, softened over measured E' [-]
+    loss_modulus_ratio: Array  # g, softened over measured E'' [-]
+    strain_extrapolated: Mask  # where the strain lies outside the measured range of the softening
+    # Where the temperature lies outside the measured range of the shift.
     temperature_extrapolated: Mask
-    """Where the temperature lies outside the measured range of the shift."""
-    rubber: RubberByScale
-    """The rubber of all scales."""
+    rubber: RubberByScale  # the rubber of all scales
 
 
 def state_by_scale(

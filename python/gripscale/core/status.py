@@ -45,6 +45,7 @@ class Status(StrEnum):
         return _CHAPTERS.get(self, "reading-results.md#statuses-and-what-to-do-about-them")
 
 
+# Sentence and advice by the word of a status, of the kernel and of the solvers in Python.
 _TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuses()} | {
     Status.FRICTIONS_DISAGREE: (
         "The contact has a solution, but on the last mesh friction from traction and friction from "
@@ -60,7 +61,6 @@ _TEXTS = {word: (sentence, advice) for word, sentence, advice in _kernel.statuse
         "Leave out an effect, or take a lower speed or pressure.",
     ),
 }
-"""Sentence and advice by the word of a status, of the kernel and of the solvers in Python."""
 
 _WAVES, _MESHES = "limits.md#where-waves-converge", "limits.md#discretisation"
 # Chapters of statuses that have one of their own.

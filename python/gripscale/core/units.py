@@ -31,6 +31,8 @@ _PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2"
 # Elementary charge times Avogadro's number: both exact in the SI.
 _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
 
+# The units of each kind of quantity by their usual spelling; the first is the one used inside: the
+# SI unit, except for the energy of a bond.
 UNITS: dict[str, dict[str, float]] = {
     "length": _METRES,
     "pressure": _PASCALS,
@@ -48,8 +50,6 @@ UNITS: dict[str, dict[str, float]] = {
     "strain": {"1": 1.0, "%": 1e-2},
     "angle": {"rad": 1.0, "deg": math.pi / 180.0},
 }
-"""The units of each kind of quantity by their usual spelling; the first is the one used inside: the
-SI unit, except for the energy of a bond."""
 
 MILLI, MICRO, MEGA, SQUARE_MM = 1e-3, 1e-6, 1e6, 1e-6  # sizes of mm, um, MPa and mm^2 in SI units
 

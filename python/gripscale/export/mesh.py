@@ -37,10 +37,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.status import Status
+from gripscale.core import Array, InputError, Status, checks
 from gripscale.io.folders import write_bytes
 from gripscale.io.text_table import file_path
 from gripscale.wave import ScaleResult
@@ -52,8 +49,7 @@ class ReferenceBlock:
     """The undeformed mesh of a wave."""
 
     wavelength: float
-    depth: float
-    """Height of the block [m]."""
+    depth: float  # height of the block [m]
     columns: int
     rows: int
     order: int
@@ -151,8 +147,8 @@ def lagrange(order: int) -> tuple[Array, Array]:
     return np.stack(shape, axis=1), np.stack(slope, axis=1)
 
 
+# Statuses of a wave in which the forces on its nodes vanish.
 EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
-"""Statuses of a wave in which the forces on its nodes vanish."""
 
 
 @dataclass(frozen=True)
@@ -232,8 +228,8 @@ def block_stress(result: ScaleResult) -> BlockStress:
     return BlockStress(block, gradient, pressure, deviator + pressure[..., None, None] * np.eye(3))
 
 
+# VTK's numbers of the bilinear and the biquadratic quadrilateral, by their points.
 CELL_TYPES = {4: 9, 9: 28}
-"""VTK's numbers of the bilinear and the biquadratic quadrilateral, by their points."""
 
 
 def write_vtu(

@@ -39,20 +39,19 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
-from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, checks
 from gripscale.export import rubber as parts
 from gripscale.export.rubber import ProgramFile, Units, coefficients, comment, prony_shares
 from gripscale.rubber import Rubber
 
+# Of each strain energy the form in Abaqus, option and number of TB,HYPER, order of the C_ij and
+# number of the D_k; D_2 and on are zero, which leaves their terms out.
 FORMS: dict[str, tuple[str, str, int, tuple[tuple[int, int], ...], int]] = {
     "neo_hookean": ("NEO HOOKE", "NEO", 2, ((1, 0),), 1),
     "mooney_rivlin": ("MOONEY-RIVLIN", "MOONEY", 2, ((1, 0), (0, 1)), 1),
     "yeoh": ("YEOH", "YEOH", 3, ((1, 0), (2, 0), (3, 0)), 3),
     "isihara": ("POLYNOMIAL, N=2", "POLY", 2, ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2)), 2),
 }
-"""Of each strain energy the form in Abaqus, option and number of TB,HYPER, order of the C_ij and
-number of the D_k; D_2 and on are zero, which leaves their terms out."""
 
 
 def abaqus_rubber(
@@ -169,8 +168,7 @@ def _data(values: Sequence[float]) -> list[str]:
     ]
 
 
-TERMS = 6
-"""Terms of an "uncoupled viscoelastic" material."""
+TERMS = 6  # terms of an "uncoupled viscoelastic" material
 
 
 def febio_rubber(

@@ -16,14 +16,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import nnls
 
-from gripscale.core import checks
-from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core import InputError, RubberWarning, checks
 from gripscale.rubber import Rubber
 
-_MARGIN = 10.0**0.5
-"""How far the times reach beyond the band, as a ratio."""
-_PER_DECADE = 20
-"""Frequencies at which the moduli are compared."""
+_MARGIN = 10.0**0.5  # how far the times reach beyond the band, as a ratio
+_PER_DECADE = 20  # frequencies at which the moduli are compared
 MOST_TERMS = 200
 
 
@@ -31,14 +28,10 @@ MOST_TERMS = 200
 class Reduction:
     """A rubber with another Prony series, and what this misses within a band."""
 
-    rubber: Rubber
-    """The rubber; its `valid_band` is the band [rad/s]."""
-    storage: float
-    """Largest relative error of E' within the band."""
-    loss: float
-    """Largest relative error of E''."""
-    loss_factor: float
-    """Largest relative error of E''/E'."""
+    rubber: Rubber  # the rubber; its `valid_band` is the band [rad/s]
+    storage: float  # largest relative error of E' within the band
+    loss: float  # largest relative error of E''
+    loss_factor: float  # largest relative error of E''/E'
 
     def __str__(self) -> str:
         low, high = (end / (2.0 * math.pi) for end in self.rubber.valid_band or (0.0, math.inf))

@@ -14,10 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Described, InputError, checks
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
 from gripscale.io.folders import write_text
@@ -25,8 +22,7 @@ from gripscale.io.text_table import file_path
 from gripscale.rubber import WLF, Rubber, ShiftTable, WLFArrhenius, fit_wlf
 from gripscale.rubber.strain_energy import Isihara, MooneyRivlin, NeoHookean, Yeoh
 
-_WIDTH = 76
-"""Characters in a line of comment: Abaqus reads 256, people read fewer."""
+_WIDTH = 76  # characters in a line of comment: Abaqus reads 256, people read fewer
 
 
 @dataclass(frozen=True, repr=False)
@@ -117,8 +113,8 @@ def label(rubber: Rubber, name: str | None) -> str:
     return name
 
 
+# Relaxed over instantaneous modulus below which 1 - sum g_i has lost its digits.
 _LEAST_SHARE = 1e-7
-"""Relaxed over instantaneous modulus below which 1 - sum g_i has lost its digits."""
 
 
 def coefficients(rubber: Rubber) -> dict[tuple[int, int], float]:

@@ -18,8 +18,7 @@ from gripscale.half_space.result import RoughContact
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FAINTEST = 1e-3
-"""Flow over its mean below which a path is left white."""
+FAINTEST = 1e-3  # flow over its mean below which a path is left white
 
 
 def gap_flow_figure(flow: GapFlow) -> Figure:

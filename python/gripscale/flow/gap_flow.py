@@ -30,12 +30,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 import gripscale
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.described import Pictured
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
-from gripscale.core.units import readable
+from gripscale.core import Array, InputError, Mask, Pictured, checks, labelled, provenance, readable
 from gripscale.flow.multigrid import Multigrid, laplacian
 from gripscale.half_space.regions import periodic_regions
 from gripscale.half_space.result import RoughContact
@@ -43,14 +38,12 @@ from gripscale.half_space.result import RoughContact
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# Gap over its mean below which a point is closed: less than the contact is solved to.
 NARROWEST = 1e-8
-"""Gap over its mean below which a point is closed: less than the contact is solved to."""
+# Relative errors of a flow factor from the iteration, and of those of every second point.
 FLOW_TOLERANCE, COARSE_FLOW_TOLERANCE = 1e-6, 1e-3
-"""Relative errors of a flow factor from the iteration, and of those of every second point."""
-ERROR_SHARE = 0.5
-"""c, the error of a grid over its difference from those of twice the spacing."""
-FEWEST_CELLS = 8
-"""Points along each axis from which a grid with half of them is of use."""
+ERROR_SHARE = 0.5  # c, the error of a grid over its difference from those of twice the spacing
+FEWEST_CELLS = 8  # points along each axis from which a grid with half of them is of use
 
 
 @dataclass(frozen=True)

@@ -31,27 +31,20 @@ import numpy as np
 import scipy
 import xarray as xr
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
+from gripscale.core import Array, InputError, checks, labelled
 from gripscale.flow.gap_flow import gap_flow
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap
 from gripscale.theory.layers import Layers
 
-WATER, WATER_DENSITY = 1e-3, 1e3
-"""Viscosity [Pa s] and density [kg/m^3] at 20 C."""
+WATER, WATER_DENSITY = 1e-3, 1e3  # viscosity [Pa s] and density [kg/m^3] at 20 C
+# Least pressure of a curve over the pressure, and its contacts.
 LOWEST_PRESSURE, CURVE_CONTACTS = 0.01, 8
-"""Least pressure of a curve over the pressure, and its contacts."""
-DECAY = 0.56
-"""Of 1 - phi with the gap over the rms height, beyond contact (Patir and Cheng)."""
+DECAY = 0.56  # of 1 - phi with the gap over the rms height, beyond contact (Patir and Cheng)
 INSTANTS = 4000
-NEARLY = 1e-7
-"""Gap over the final one, at which the film counts as gone."""
-FLOATING = 0.01
-"""Share of the load on asperities below which the block floats."""
+NEARLY = 1e-7  # gap over the final one, at which the film counts as gone
+FLOATING = 0.01  # share of the load on asperities below which the block floats
 _SOURCE = "gripscale lubrication"
 _OVER_SPEED = (
     ("friction", "1", "friction coefficient on the wet surface"),

@@ -26,17 +26,14 @@ from gripscale.core.arrays import Array
 _Index = NDArray[np.intp]
 
 LARGEST_CONDITION = 8.0
-ROUNDS = 6
-"""Rounds in which nodes that choose each other pair."""
+ROUNDS = 6  # rounds in which nodes that choose each other pair
+# Relative random change of the choices: alike nodes would choose alike, and few each other.
 JITTER = 0.1
-"""Relative random change of the choices: alike nodes would choose alike, and few each other."""
-FEWEST_NODES = 1500
-"""Nodes of a coarse grid that is factorised."""
+FEWEST_NODES = 1500  # nodes of a coarse grid that is factorised
 DAMPING = 0.7
-SWEEPS = 2
-"""Smoothing before and after each correction."""
+SWEEPS = 2  # smoothing before and after each correction
+# Residual over that before, below which a second step on a coarse grid is not worth its cost.
 ENOUGH = 0.25
-"""Residual over that before, below which a second step on a coarse grid is not worth its cost."""
 _MOST_STEPS = 200
 
 
@@ -65,8 +62,8 @@ class Multigrid:
 
     matrix: scipy.sparse.csr_array
     coarse: Multigrid | None = None
+    # Node of the coarse grid of each node.
     aggregate: _Index = field(default_factory=lambda: np.empty(0, dtype=np.intp))
-    """Node of the coarse grid of each node."""
 
     def __post_init__(self) -> None:
         diagonal = self.matrix.diagonal()

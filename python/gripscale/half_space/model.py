@@ -12,12 +12,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
-from gripscale.core.status import Status
+from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
@@ -32,8 +27,7 @@ from gripscale.wave.block import solve_profile
 from gripscale.wave.problem import Mesh
 from gripscale.wave.result import waves_to_dataset
 
-JUDGED_TO = 0.05
-"""Estimated relative error of the contact that every run judges its chain by."""
+JUDGED_TO = 0.05  # estimated relative error of the contact that every run judges its chain by
 
 
 def _measurement(surface: Surface, need: str) -> Measured:
@@ -247,8 +241,8 @@ class DirectContact(Checked, model.Model):
         return model.with_area_term(answer, float(np.average(adhesive, weights=lengths)))
 
 
+# Settings that give up a window after seconds: to follow the steepest contacts takes minutes.
 QUICK = {"smallest_roughening": 0.1, "roughening_iterations": 12, "rescue_columns": 256}
-"""Settings that give up a window after seconds: to follow the steepest contacts takes minutes."""
 
 
 class BlockOnProfile(Checked, model.Model):

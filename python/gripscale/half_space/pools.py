@@ -20,20 +20,17 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array, Mask
 
 _Index = NDArray[np.intp]
+# Replaces values of the points of each pool by their mean.
 Averaged = Callable[[NDArray[np.floating]], NDArray[np.floating]]
-"""Replaces values of the points of each pool by their mean."""
 
 
 @dataclass(frozen=True)
 class Pools:
     """Pools on the points of a grid, in one row."""
 
-    label: _Index
-    """Number of the pool of each point, from 1; 0 outside."""
-    volume: Array
-    """Sum of the gap of each pool with its water [m]; the first entry is of no pool."""
-    filled: Mask
-    """Which pools are full of water; the others have room left, and no pressure."""
+    label: _Index  # number of the pool of each point, from 1; 0 outside
+    volume: Array  # sum of the gap of each pool with its water [m]; the first entry is of no pool
+    filled: Mask  # which pools are full of water; the others have room left, and no pressure
 
     def under_pressure(self, active: Mask) -> Mask:
         """Return the open points of filled pools."""

@@ -19,8 +19,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.status import Status
+from gripscale.core import Array, Mask, Status
 from gripscale.half_space.active_set import START_TOLERANCE, solve_grid
 from gripscale.half_space.grid import Grid, resampled
 from gripscale.half_space.grid_sequence import (
@@ -35,15 +34,13 @@ from gripscale.half_space.response import Response
 from gripscale.half_space.result import RoughContact, TrappedWater
 from gripscale.theory.half_plane import GridContact
 
+# Missing pressure over pressure at the end: the volume of the smallest pools then is kept to a
+# thousandth.
 POOL_TOLERANCE = 1e-7
-"""Missing pressure over pressure at the end: the volume of the smallest pools then is kept to a
-thousandth."""
+# First load over the load, and the steps that raise it by equal ratios, of 5 %. A region that
+# closes within a step is trapped at its end, with less water. Half the steps change the friction of
+# a map by up to 3 %, where the contact percolates.
 FIRST_LOAD, LOAD_STEPS = 0.1, 48
-"""First load over the load, and the steps that raise it by equal ratios, of 5 %. A region that
-closes within a step is trapped at its end, with less water. Half the steps change the friction of
-a map by up to 3 %, where the contact percolates."""
-
-
 _ERRORS = ("contact_fraction_error", "friction_error")
 
 

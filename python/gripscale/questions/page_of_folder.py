@@ -16,8 +16,8 @@ from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.report import write_page
 from gripscale.report.elements import Page
 
+# A run with its inputs, comparisons, or the result of a question.
 ReportSource = RunSource | Compared | Result
-"""A run with its inputs, comparisons, or the result of a question."""
 
 
 def write_report(result: str | Path, output: str | Path | None = None) -> Path:

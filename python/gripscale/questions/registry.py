@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gripscale.questions.result import Result
 
+# Rooms in the order of the command line.
 ROOMS = [
     "gripscale.questions.answer",
     "gripscale.questions.compare",
@@ -31,7 +32,6 @@ ROOMS = [
     "gripscale.questions.slip",
     "gripscale.questions.calibration",
 ]
-"""Rooms in the order of the command line."""
 
 
 @dataclass(frozen=True)
@@ -40,12 +40,10 @@ class FormField:
 
     flag: str
     label: str
-    value: str
-    """Content of the field at first."""
-    prefix: str = ""
-    """Text before the value on the command line, as in `--vary speed=...`."""
+    value: str  # content of the field at first
+    prefix: str = ""  # text before the value on the command line, as in `--vary speed=...`
+    # Labels and values of a choice; any text where there are none.
     choices: Sequence[tuple[str, str]] = ()
-    """Labels and values of a choice; any text where there are none."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +54,7 @@ class Form:
     title: str
     about: str
     fields: Sequence[FormField] = ()
-    others: str = ""
-    """What files it needs beside the case, if any."""
+    others: str = ""  # what files it needs beside the case, if any
 
     def arguments(self, values: Mapping[str, str], others: Sequence[str] = ()) -> list[str]:
         """Return what follows the case on the command line; an empty value leaves its option out.

@@ -33,12 +33,9 @@ if TYPE_CHECKING:
     from gripscale.core.finding import Finding
     from gripscale.report.elements import Page
 
-KIND = "kind"
-"""Attribute of a saved result: the question it answers."""
-INPUT_GROUP = "inputs"
-"""Group of a saved result: the record of the inputs of its case."""
-_WIDTH = 100
-"""Characters of a line of a printed result."""
+KIND = "kind"  # attribute of a saved result: the question it answers
+INPUT_GROUP = "inputs"  # group of a saved result: the record of the inputs of its case
+_WIDTH = 100  # characters of a line of a printed result
 
 
 class Result(Described, ABC):
@@ -159,8 +156,7 @@ class Result(Described, ABC):
         return with_figure(text, self)
 
 
-_MOST_OPEN = 3
-"""Findings that a terminal opens with; the others are in a file beside the result."""
+_MOST_OPEN = 3  # findings that a terminal opens with; the others are in a file beside the result
 
 
 def warning_lines(findings: Sequence[Finding], rest: str = "") -> Iterator[str]:

@@ -22,8 +22,7 @@ from gripscale.questions.answer.reliance import answer_number, has_answer, no_an
 from gripscale.questions.result import Result
 from gripscale.questions.summary_table import summary_table
 
-FORMAT = 1
-"""Number of the layout; it rises when a name changes or goes."""
+FORMAT = 1  # number of the layout; it rises when a name changes or goes
 
 
 def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = ()) -> str:

@@ -22,11 +22,11 @@ from gripscale.questions.answer.estimate import ANSWER_NUMBERS, DIRECT
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
 SUMMARY_FILE = "summary.xlsx"
+# Numbers of which a result has a row for each value: the first that is in it counts.
 ROWS = (STATUS, "status", "gain", "force")
-"""Numbers of which a result has a row for each value: the first that is in it counts."""
-OF_MODELS = ("model", "model")
-"""Dimensions of models side by side."""
+OF_MODELS = ("model", "model")  # dimensions of models side by side
 DOUBTS = "not_to_rely_on"
+# Columns behind those that name the row.
 FIRST = (
     *("model", "answer_total_friction", "answer_total_friction_low", "answer_total_friction_high"),
     *("answer_friction", "answer_friction_low", "answer_friction_high"),
@@ -34,12 +34,11 @@ FIRST = (
     *("total_friction", "total_contact_fraction", STATUS, DOUBTS, "nominal_pressure"),
     *("nominal_speed", "footprint"),
 )
-"""Columns behind those that name the row."""
+# Attributes of results that are columns, of a result without them those of the others.
 ABOUT = (
     *("model", "nominal_pressure", "nominal_speed", "footprint", "conditions", "rubber"),
     *("rubber_source", "surface_source", "rubbers", "surfaces", "case_file", "command"),
 )
-"""Attributes of results that are columns, of a result without them those of the others."""
 _UNITS = {"nominal_pressure": "Pa", "nominal_speed": "m/s", "footprint": "m"}
 LEFT_OUT = ("prediction_key", "seconds")
 

@@ -6,17 +6,15 @@ import xarray as xr
 
 HEADINGS = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
 SYMBOLS = {"contact_fraction": "A_r/A_0", "friction": "μ"}
+# Headings and symbols at an axis, without the unit.
 AXIS_TITLES = {
     "contact_fraction": f"{HEADINGS['contact_fraction']} $A_r/A_0$",
     "friction": f"{HEADINGS['friction']} $\\mu$",
 }
-"""Headings and symbols at an axis, without the unit."""
-JUDGE = "direct contact of the profiles"
-"""What a figure of a chain calls the model that judges it."""
+JUDGE = "direct contact of the profiles"  # what a figure of a chain calls the model that judges it
+# What texts call the chain where the answer is that of a measured surface.
 OF_THE_PAPER = "the paper's chain of waves"
-"""What texts call the chain where the answer is that of a measured surface."""
-ANSWER = "answer (90 %)"
-"""What figures call the answer with its interval."""
+ANSWER = "answer (90 %)"  # what figures call the answer with its interval
 
 
 def believed(data: xr.Dataset, name: str) -> str:

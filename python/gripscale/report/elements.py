@@ -99,8 +99,7 @@ class Card:
     interval: str = ""
 
 
-_MOST_OPEN = 3
-"""Findings that a page or a terminal opens with; further warnings are folded."""
+_MOST_OPEN = 3  # findings that a page or a terminal opens with; further warnings are folded
 
 
 def open_and_folded(notices: Sequence[Finding]) -> tuple[list[Finding], list[Finding]]:
@@ -120,8 +119,7 @@ class Page:
     notices: Sequence[Finding]
     cards: Sequence[Card]
     sections: Sequence[Section] = field(default_factory=tuple)
-    basis: Sequence[str] = ()
-    """What the numbers of the cards are for, and what they rest on."""
+    basis: Sequence[str] = ()  # what the numbers of the cards are for, and what they rest on
 
     @classmethod
     def of(

@@ -18,8 +18,7 @@ from gripscale.report.elements import Equation, Section, Text
 
 _LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
 
-_POINTS = 14.0
-"""Size of the letters [pt]."""
+_POINTS = 14.0  # size of the letters [pt]
 
 _METHOD = (
     "The measured surface is approximated by superposed sine waves. On each wave, largest first, "

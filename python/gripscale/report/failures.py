@@ -18,8 +18,7 @@ class Failure:
     """A prediction, or a part of one, without numbers to be used."""
 
     sentence: str
-    word: str = ""
-    """Of its `Status`; empty if there is none."""
+    word: str = ""  # of its `Status`; empty if there is none
 
     @property
     def status(self) -> Status | None:
@@ -30,8 +29,7 @@ class Failure:
         return self.sentence
 
 
-FAILURES = set(Status) - {Status.CONVERGED}
-"""Statuses that say why there are no numbers."""
+FAILURES = set(Status) - {Status.CONVERGED}  # statuses that say why there are no numbers
 
 
 def failures_in(data: xr.Dataset, name: str = STATUS) -> list[Failure]:

@@ -57,6 +57,7 @@ _PADDING = 9  # samples by which the filter continues a line at either end
 # dropouts and 5 % of spikes.
 _MOST_MISSING = 0.15
 
+# Symbols of profiles and maps, unit and meaning of each number.
 TEXTURE_NUMBERS = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
     "g_factor": ("g", "1", "share of the heights above the middle, ISO 13473-2"),
@@ -75,7 +76,6 @@ TEXTURE_NUMBERS = {
     "texture_aspect_ratio": ("Str", "1", "that length over the longest, 1 without a direction"),
     "texture_direction": ("Std", "rad", "angle of the ridges to x"),
 }
-"""Symbols of profiles and maps, unit and meaning of each number."""
 
 DEPTH_NOTE = "depth_note"  # why there is no mean profile depth, or empty
 

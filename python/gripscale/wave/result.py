@@ -241,6 +241,7 @@ class Field(NamedTuple):
         return labelled("scale", values, self.unit, self.long_name, self.source)
 
 
+# Numbers of a `ScaleResult`, written and read.
 FIELDS = (
     Field("wavelength", "m", "wavelength", _WAVES),
     Field("amplitude", "m", "amplitude, half peak-to-valley", _WAVES),
@@ -260,8 +261,8 @@ FIELDS = (
     Field("newton_iterations", "1", "Newton iterations"),
     Field("residual", "1", "residual force over applied force"),
 )
-"""Numbers of a `ScaleResult`, written and read."""
 
+# Numbers that follow from the fields: written, not read.
 DERIVED = (
     Field("contact_length", "m", "contact length on the mean plane"),
     Field("slope", "1", "largest slope, 2 pi amplitude/wavelength", CHAIN),
@@ -290,8 +291,8 @@ DERIVED = (
     ),
     Field("friction_mismatch", "1", "relative difference of the two friction coefficients", CHAIN),
 )
-"""Numbers that follow from the fields: written, not read."""
 
+# Numbers that only some solvers or conditions have.
 DETAILS = (
     Field("load_steps", "1", "load steps"),
     Field("load_reached", "1", "share of the pressure that was reached"),
@@ -332,7 +333,6 @@ DETAILS = (
         CHAIN,
     ),
 )
-"""Numbers that only some solvers or conditions have."""
 
 
 def waves_to_dataset(results: Sequence[ScaleResult]) -> xr.Dataset:

@@ -32,8 +32,7 @@ from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.report.elements import Page
 
-ANSWER_FILE = "answer.nc"
-"""Name of the saved answer in a results folder."""
+ANSWER_FILE = "answer.nc"  # name of the saved answer in a results folder
 
 
 class NumbersWithIntervals(Result):

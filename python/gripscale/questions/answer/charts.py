@@ -27,26 +27,23 @@ from gripscale.report.elements import Card
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST_DRAWN = 2
-"""Profiles of a result that are drawn, of each of which a page holds 1.6 MB."""
+MOST_DRAWN = 2  # profiles of a result that are drawn, of each of which a page holds 1.6 MB
+# Length of the drawn stretch over that of its contact: as long as the stretch with most friction
+# allows, and the least; and its least share of that stretch.
 _AROUND, LEAST_AROUND, _LEAST_SHARE = 8.0, 1.2, 0.125
-"""Length of the drawn stretch over that of its contact: as long as the stretch with most friction
-allows, and the least; and its least share of that stretch."""
+# Height of the largest pressure drawn upon the rubber, over the heights of the stretch.
 DRAPED = 0.3
-"""Height of the largest pressure drawn upon the rubber, over the heights of the stretch."""
+# Least height of the stretch to scale and what it shows below its contact, over its length.
 FLATTEST, LOWEST = 0.15, 0.2
-"""Least height of the stretch to scale and what it shows below its contact, over its length."""
+# Distance from the top [panel] and size [points] of the lines of a number of a slide.
 _LINES = ((0.0, 9.0), (0.1, 22.0), (0.31, 10.0))
-"""Distance from the top [panel] and size [points] of the lines of a number of a slide."""
-NamedTrace = tuple[str, xr.Dataset]
-"""Name of a profile and its trace."""
-PAGE = 420
-"""Width of half a page [px]."""
+NamedTrace = tuple[str, xr.Dataset]  # name of a profile and its trace
+PAGE = 420  # width of half a page [px]
+# Heights of a frame over the whole line, of the field of a map, of the numbers below a frame, and
+# of the legend [inch].
 _ROW, FIELD_ROW, _BELOW, _HEAD = 1.15, 2.9, 0.32, 1.1
-"""Heights of a frame over the whole line, of the field of a map, of the numbers below a frame, and
-of the legend [inch]."""
+# Width of a frame over that of the figure, at most: a panel to scale is as wide as the others.
 _INSIDE = 0.94
-"""Width of a frame over that of the figure, at most: a panel to scale is as wide as the others."""
 
 
 def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None) -> Figure:

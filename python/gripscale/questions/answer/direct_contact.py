@@ -16,10 +16,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.continuation.curve import QUANTILE_90
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.core.units import in_mm
-from gripscale.core.wording import CaseKey, Words
+from gripscale.core import CaseKey, Finding, InputError, Severity, Topic, Words, in_mm
 from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
@@ -108,12 +105,10 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
     return solve_design(design, Bench(None), numbers)
 
 
+# Attribute of an answer: that profiles across each other showed no ridges.
 ISOTROPIC = "isotropic_road"
-"""Attribute of an answer: that profiles across each other showed no ridges."""
-TREAD = 8e-3
-"""Thickness of a new tread [m]."""
-FELT = 1.75
-"""Wavelength over thickness up to which a layer is as soft as a half-space, within 5 %."""
+TREAD = 8e-3  # thickness of a new tread [m]
+FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a half-space, within 5 %
 
 
 def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:

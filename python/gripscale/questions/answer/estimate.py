@@ -29,8 +29,7 @@ from gripscale.model import BASIS
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
 
-DIRECT = DirectContact.name
-"""Name of the model that every answer starts from."""
+DIRECT = DirectContact.name  # name of the model that every answer starts from
 
 
 class LogNormalValue(NamedTuple):
@@ -40,8 +39,7 @@ class LogNormalValue(NamedTuple):
     uncertainty: float = math.nan
 
 
-UNKNOWN_VALUE = LogNormalValue(math.nan)
-"""Of a factor nobody has computed."""
+UNKNOWN_VALUE = LogNormalValue(math.nan)  # of a factor nobody has computed
 
 
 @dataclass(frozen=True, repr=False)
@@ -56,41 +54,37 @@ class Factor(Described):
     """Degrees of freedom of its uncertainties."""
 
 
+# Models whose ratio is the factor of finite strain.
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
-"""Models whose ratio is the factor of finite strain."""
+# Of every answer: what windows and blocks of other roads showed.
 ASSUMED_FINITE_STRAIN = Factor(
     "finite_strain", "large strain", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
 )
-"""Of every answer: what windows and blocks of other roads showed."""
+# Start of the names of numbers with the solved factor of finite strain in place of the assumed.
 LARGE_STRAIN = "large_strain_"
-"""Start of the names of numbers with the solved factor of finite strain in place of the assumed."""
+# Label of the factor from measured lines to the isotropic surface they lie on.
 LINES_TO_SURFACE = "profile to surface"
-"""Label of the factor from measured lines to the isotropic surface they lie on."""
+# What an answer with this factor rests on, where nothing tells of ridges.
 ISOTROPY_ASSUMED = "the step from profile to surface assumes an isotropic surface"
-"""What an answer with this factor rests on, where nothing tells of ridges."""
+# A factor on each estimated quantity, with its error.
 FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
-"""A factor on each estimated quantity, with its error."""
 
 
 class SampledErrors(NamedTuple):
     """Errors of an answer that samples of its inputs show."""
 
-    errors: Mapping[str, Sequence[LogError]]
-    """Of each estimated quantity."""
+    errors: Mapping[str, Sequence[LogError]]  # of each estimated quantity
+    # Whether they hold the sampling of the road, which then counts here and nowhere else.
     of_road: bool
-    """Whether they hold the sampling of the road, which then counts here and nowhere else."""
 
 
+# What else it rests on: of the friction on steep flanks, of the contact on filled gaps.
 BASIS_SHARES = ("steep_share", "missing_share")
-"""What else it rests on: of the friction on steep flanks, of the contact on filled gaps."""
-
+# What is estimated, and of which number of the samples its factors are ratios: of the two frictions
+# the one that a coarse grid changes least.
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
-"""What is estimated, and of which number of the samples its factors are ratios: of the two
-frictions the one that a coarse grid changes least."""
-
-
+# Friction of the area term over the contact area of an answer, and with the hysteresis.
 AREA_TERM, TOTAL = "answer_adhesive_friction", "answer_total_friction"
-"""Friction of the area term over the contact area of an answer, and with the hysteresis."""
 
 
 def answer_of_samples(
@@ -310,6 +304,7 @@ _PARTS = {
     "_factor": "factor on the {} of the direct contact, NaN if not included",
     "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
 }
+# All numbers of an answer, and their meaning.
 ANSWER_NUMBERS = {
     f"answer_{name}{end}": text.format(words)
     for name, words, ends in (
@@ -323,10 +318,9 @@ ANSWER_NUMBERS = {
     **{f"answer_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
     **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }
-"""All numbers of an answer, and their meaning."""
+# The numbers with the solved factor of finite strain, and their meaning.
 LARGE_STRAIN_NUMBERS = {
     name.replace("answer_", LARGE_STRAIN): text.replace("answer", "with large strain solved")
     for name, text in ANSWER_NUMBERS.items()
     if name.endswith(tuple(filter(None, _INTERVAL))) or text.startswith("answer: ")
 }
-"""The numbers with the solved factor of finite strain, and their meaning."""

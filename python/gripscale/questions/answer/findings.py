@@ -40,10 +40,8 @@ from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
 
-FINDINGS = "findings_of_answer"
-"""Attribute of an answer that holds what a further solution found."""
-SMALL_CHANGE = 0.05
-"""Relative change by half the cut-off that is as good as none."""
+FINDINGS = "findings_of_answer"  # attribute of an answer that holds what a further solution found
+SMALL_CHANGE = 0.05  # relative change by half the cut-off that is as good as none
 
 
 def no_answer_notices(data: xr.Dataset) -> Iterator[Finding]:
@@ -97,8 +95,8 @@ def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
         )
 
 
+# Names of measured friction at the speed of an answer, and of its standard deviation.
 MEASURED_FRICTION, MEASURED_SPREAD = "measured_friction_of_load", "measured_spread_of_load"
-"""Names of measured friction at the speed of an answer, and of its standard deviation."""
 
 
 def measured_at_load(case: Case, measured: MeasuredFriction | None) -> dict[str, xr.Variable]:

@@ -20,17 +20,14 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-LEVEL = 0.9
-"""Share of cases in which an interval holds the truth."""
+LEVEL = 0.9  # share of cases in which an interval holds the truth
 
 
 class LogError(NamedTuple):
     """Standard error of the logarithm of a number, and its degrees of freedom."""
 
-    sigma: xr.DataArray
-    """[-]; NaN where it is not known."""
-    freedom: xr.DataArray
-    """[-]; infinite where the error itself is certain."""
+    sigma: xr.DataArray  # [-]; NaN where it is not known
+    freedom: xr.DataArray  # [-]; infinite where the error itself is certain
 
 
 def combined(errors: Sequence[LogError]) -> LogError:

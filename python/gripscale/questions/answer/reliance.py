@@ -19,10 +19,9 @@ from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
+# Share of friction or contact from what was not measured that makes an answer a guess.
 MOST_ON_GUESSES = 0.5
-"""Share of friction or contact from what was not measured that makes an answer a guess."""
-WORTH_NAMING = 0.005
-"""Share of the contact on filled gaps that is as good as none."""
+WORTH_NAMING = 0.005  # share of the contact on filled gaps that is as good as none
 
 
 def has_answer(data: xr.Dataset) -> bool:

@@ -27,14 +27,11 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.result import SHARES_BY_SLOPE, TRAPPED_WATER
 from gripscale.questions.answer.intervals import LogError
 
+# Totals every sample has, as `gripscale.model.TOTALS` without `total_`.
 SAMPLED_QUANTITIES = ("contact_fraction", "friction", "friction_from_dissipation")
-"""Totals every sample has, as `gripscale.model.TOTALS` without `total_`."""
-
-_ROUNDING = 1e-6
-"""Relative difference below which two wavelengths are the same."""
-
+_ROUNDING = 1e-6  # relative difference below which two wavelengths are the same
+# Contact fraction and friction of a smooth surface.
 SMOOTH = {"contact_fraction": 1.0, "friction": 0.0}
-"""Contact fraction and friction of a smooth surface."""
 
 
 def sample_numbers(

@@ -17,33 +17,27 @@ import scipy
 import xarray as xr
 
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.described import Described
-from gripscale.core.labels import labelled
+from gripscale.core import Array, Described, checks, labelled, provenance
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.model import STATUS, STATUS_WORD
 from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration import profile_likelihood as likelihood
 from gripscale.questions.calibration.measured_comparison import Predicted, in_spread
 
+# How far the profile of an end that is not determined is kept, in the numbers of the search.
 FACTORS_SHOWN = 3.0
-"""How far the profile of an end that is not determined is kept, in the numbers of the search."""
-
-NO_INFLUENCE = 1e-12
-"""Relative size of a singular value below which its direction changes nothing."""
-
-
+NO_INFLUENCE = 1e-12  # relative size of a singular value below which its direction changes nothing
 _SOURCE = "gripscale calibrate"
 
+# Numbers of a parameter, with their meaning.
 ESTIMATE = {
     "estimate": "best value of the parameter, in its unit",
     "standard_error": "its standard error by the Jacobian",
     "low": "lower end of its interval by profile likelihood, NaN where not determined",
     "high": "upper end of it, NaN where not determined",
 }
-"""Numbers of a parameter, with their meaning."""
 
+# Numbers of what was left out, with their meaning.
 _HELD_OUT = {
     "points": "measured points left out",
     "rms_inside": "rms residual of the points that were fitted",
@@ -52,7 +46,6 @@ _HELD_OUT = {
     "why_not": "why the other points cannot predict them, empty where they can",
     "value": "temperature [K] or decade [m/s]",
 }
-"""Numbers of what was left out, with their meaning."""
 
 
 @dataclass(frozen=True)

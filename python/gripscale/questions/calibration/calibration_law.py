@@ -15,10 +15,7 @@ import numpy as np
 import scipy
 
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core import ZERO_CELSIUS, Array, InputError, Mask, checks
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.questions.calibration.measured_comparison import Predicted
 
@@ -30,16 +27,11 @@ class Points:
     mu_i - mu_hysteresis,i = tau_f(v_i, T_i) A_r,i / (A_0 p_i)
     """
 
-    speed: Array
-    """[m/s]."""
-    temperature: Array | None
-    """In the contact [K]; None where nobody knows it."""
-    difference: Array
-    """Measured friction less that of the hysteresis [-]."""
-    leverage: Array
-    """A_r/(A_0 p) [1/Pa]."""
-    spread: Array | None
-    """Of the measured friction [-]; None where none is stated."""
+    speed: Array  # [m/s]
+    temperature: Array | None  # in the contact [K]; None where nobody knows it
+    difference: Array  # measured friction less that of the hysteresis [-]
+    leverage: Array  # A_r/(A_0 p) [1/Pa]
+    spread: Array | None  # of the measured friction [-]; None where none is stated
 
     @property
     def temperature_range(self) -> float:
@@ -117,11 +109,8 @@ def _all_or_none(name: str, values: Array) -> Array | None:
     return None if missing.all() else values
 
 
-KINDS = ("constant", "gaussian", "le_gal_klueppel")
-"""Laws that can be fitted."""
-
-LEAST_APART = 1.0
-"""Range of temperatures below which none decides an activation energy [K]."""
+KINDS = ("constant", "gaussian", "le_gal_klueppel")  # laws that can be fitted
+LEAST_APART = 1.0  # range of temperatures below which none decides an activation energy [K]
 
 
 @dataclass(frozen=True)
@@ -132,10 +121,8 @@ class Parameter:
     unit: str
     low: float
     high: float
-    starts: tuple[float, ...]
-    """Where the search begins."""
-    log: bool = True
-    """Whether it is positive, and its logarithm is what is fitted."""
+    starts: tuple[float, ...]  # where the search begins
+    log: bool = True  # whether it is positive, and its logarithm is what is fitted
 
     def scaled(self, value: float) -> float:
         """Return the number the search works with."""
@@ -151,8 +138,7 @@ class Parameter:
         return self.scaled(self.low), self.scaled(self.high)
 
 
-_AT_LIMIT = 1e-3
-"""Share of the range of a parameter within which it is at a limit."""
+_AT_LIMIT = 1e-3  # share of the range of a parameter within which it is at a limit
 
 
 @dataclass(frozen=True, eq=False)
@@ -277,8 +263,7 @@ def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:
     }[kind]
 
 
-BEST_STARTS = 3
-"""Starts, of all that are tried, from which the search goes on to its end."""
+BEST_STARTS = 3  # starts, of all that are tried, from which the search goes on to its end
 _TOLERANCE = 1e-8
 
 
@@ -286,11 +271,9 @@ _TOLERANCE = 1e-8
 class FittedLaw:
     """The least sum of squares that was found."""
 
-    theta: Array
-    """Numbers of the free parameters, as the search works with them."""
+    theta: Array  # numbers of the free parameters, as the search works with them
     sum_of_squares: float
-    jacobian: Array
-    """Of the residuals by them, shape (points, free parameters)."""
+    jacobian: Array  # of the residuals by them, shape (points, free parameters)
 
 
 def best(problem: CalibrationProblem) -> FittedLaw:

@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gripscale.conditions.area_term import shear_stress_to_dict
-from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, checks
 from gripscale.core.units import MEGA, ZERO_CELSIUS, DisplayUnit, parse_quantity
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate
 from gripscale.questions.calibration.profile_likelihood import LIKELIHOOD_LEVEL
@@ -31,6 +30,7 @@ class ParameterWords(NamedTuple):
         return _LAW_UNITS.get(self.kind, "")
 
 
+# The parameters of the laws; the reference temperature is held, never fitted.
 PARAMETERS = {
     "stress_0": ParameterWords("shear stress τ_0", "stress $\\tau_0$", "pressure"),
     "width": ParameterWords("width factor c", "width $c$"),
@@ -43,10 +43,9 @@ PARAMETERS = {
     "critical_speed": ParameterWords("critical speed v_c", "critical speed $v_c$", "speed"),
     "exponent": ParameterWords("exponent n of the speed", "exponent $n$"),
 }
-"""The parameters of the laws; the reference temperature is held, never fitted."""
 _LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
+# How a number in a unit of the law is written, if not in this unit.
 WRITTEN = {"Pa": DisplayUnit("MPa", MEGA), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
-"""How a number in a unit of the law is written, if not in this unit."""
 
 
 def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
@@ -70,8 +69,7 @@ def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
     return parameters
 
 
-UNLIKELY = 0.01
-"""Chance of the sum of squares below which something must be wrong."""
+UNLIKELY = 0.01  # chance of the sum of squares below which something must be wrong
 
 
 def notes(calibration: AreaTermFit) -> Iterator[str]:

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-CEILING = 2.5
-"""Highest excess that is drawn, over the threshold."""
+CEILING = 2.5  # highest excess that is drawn, over the threshold
 
 
 def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:

@@ -14,11 +14,7 @@ from gripscale import model as models
 from gripscale.case import Case
 from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask, Vector
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
+from gripscale.core import Array, Checked, InputError, Mask, Vector, checked, checks, labelled
 from gripscale.core.units import ZERO_CELSIUS, plain
 from gripscale.experiment.design import CONVERGED, Design, Point, solve_design
 from gripscale.experiment.measured_friction import (

@@ -20,23 +20,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks
 from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration.calibration_law import CalibrationProblem, FittedLaw
 from gripscale.questions.calibration.measured_comparison import rms
 
-LIKELIHOOD_LEVEL = 0.9
-"""Share of measurements like this one whose interval holds the true value."""
-_REACH = 2.0
-"""How much further each step of a search for an end goes."""
-_FINE = 1e-3
-"""Relative accuracy of the distance to an end."""
-LESS = 1e-6
-"""Relative decrease of the sum of squares beyond which another minimum has been met."""
-CURVE = 25
-"""Values of a parameter at which its profile is kept."""
+LIKELIHOOD_LEVEL = 0.9  # share of measurements like this one whose interval holds the true value
+_REACH = 2.0  # how much further each step of a search for an end goes
+_FINE = 1e-3  # relative accuracy of the distance to an end
+LESS = 1e-6  # relative decrease of the sum of squares beyond which another minimum has been met
+CURVE = 25  # values of a parameter at which its profile is kept
 
 
 class BetterMinimumFound(Exception):
@@ -53,8 +46,7 @@ class LikelihoodProfile:
 
     problem: CalibrationProblem
     optimum: FittedLaw
-    index: int
-    """Of the free parameter."""
+    index: int  # of the free parameter
 
     @property
     def centre(self) -> float:
@@ -166,8 +158,8 @@ def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float
             optimum = fit.refined(problem, better.theta)
 
 
+# What can be left out: a temperature to the kelvin, or a decade of speed.
 WAYS = ("temperature", "speed")
-"""What can be left out: a temperature to the kelvin, or a decade of speed."""
 
 
 @dataclass(frozen=True)

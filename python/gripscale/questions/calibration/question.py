@@ -17,8 +17,7 @@ import numpy as np
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
-from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, checks
 from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
@@ -52,8 +51,7 @@ from gripscale.rubber.extrapolation import require_measured
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MODELS = ("direct", "chain")
-"""Models whose hysteresis an area term can be put beside."""
+_MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
 
 
 class Calibration(Result):

@@ -28,8 +28,7 @@ from gripscale.charts.chart import (
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
@@ -323,14 +322,13 @@ def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
     return draw.panels_on_page([panel])[0]
 
 
+# What warms a wave where it loses energy: name in results, in legends, and colour.
 PARTS = {
     "flash_temperature_rise_uniform": ("all waves, spread evenly", SKY),
     "flash_temperature_rise_larger_waves": ("in the contact of larger waves", BLUE),
     "flash_temperature_rise_own": ("the wave's own", ORANGE),
 }
-"""What warms a wave where it loses energy: name in results, in legends, and colour."""
-BAR = 1.25
-"""Left end of a bar over its wavelength, and that over its right end."""
+BAR = 1.25  # left end of a bar over its wavelength, and that over its right end
 
 
 def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
@@ -429,12 +427,9 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     return Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout).on_paper()
 
 
-_HEIGHT, _ROW = 1.5, 0.32
-"""Of the figure without rows, and of each [inch]."""
-_INSIDE = 0.45
-"""Share of the longest bar; in one longer than that its number stands inside."""
-SHARE = 0.6
-"""Share of the height of a row that the bars of all models take."""
+_HEIGHT, _ROW = 1.5, 0.32  # of the figure without rows, and of each [inch]
+_INSIDE = 0.45  # share of the longest bar; in one longer than that its number stands inside
+SHARE = 0.6  # share of the height of a row that the bars of all models take
 PANELS = {
     "total_contact_fraction": f"{AXIS_TITLES['contact_fraction']} [-]",
     "total_friction": "friction, hysteresis $\\mu$ [-]",

@@ -16,8 +16,7 @@ import numpy as np
 from gripscale.charts import draw
 from gripscale.charts.page_elements import Image, Picture
 from gripscale.charts.style import BLUE, DASHES, DPI, FAINT, GREY, INK, ORANGE, ROUND, WIDE
-from gripscale.core import checks
-from gripscale.core.arrays import Array
+from gripscale.core import Array, checks
 from gripscale.core.units import MILLI
 from gripscale.questions.chain.view import PredictionView
 
@@ -26,18 +25,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_LINE = 0.12
-"""Of a title beyond its third line [inch]."""
-FOR_WORDS = 0.2
-"""Wavelengths left free above a wave without a mesh."""
-MESH_DEPTH = 0.55
-"""Depth of the block that is shown [wavelengths]."""
-PRESSURE = 0.42
-"""Height of a panel of pressure over its width."""
+_LINE = 0.12  # of a title beyond its third line [inch]
+FOR_WORDS = 0.2  # wavelengths left free above a wave without a mesh
+MESH_DEPTH = 0.55  # depth of the block that is shown [wavelengths]
+PRESSURE = 0.42  # height of a panel of pressure over its width
+# Beside the panels: for the labels of the first, at the end, for numbers between two [inch].
 LEFT, RIGHT, BETWEEN = 0.6, 0.22, 0.42
-"""Beside the panels: for the labels of the first, at the end, for numbers between two [inch]."""
+# Of a row of panels: its titles, between pressure and block, numbers; below the last [inch].
 _HEAD, MIDDLE, FOOT, LAST = 0.5, 0.2, 0.22, 0.22
-"""Of a row of panels: its titles, between pressure and block, numbers; below the last [inch]."""
 
 
 @dataclass(frozen=True)
@@ -45,14 +40,12 @@ class DrawnBlock:
     """One wave: pressure and mesh of a solution, or the words why there is none."""
 
     caption: str
-    steepness: float
-    """Amplitude of the rigid wave over its wavelength."""
-    mean: float
-    """Mean pressure in the unit of the figure."""
+    steepness: float  # amplitude of the rigid wave over its wavelength
+    mean: float  # mean pressure in the unit of the figure
+    # x over the wavelength and contact pressure; None without a solution.
     pressure: tuple[Array, Array] | None
-    """x over the wavelength and contact pressure; None without a solution."""
+    # Nodes in wavelengths, see `PredictionView.mesh_along`; None without them.
     mesh: tuple[Array, Array] | None
-    """Nodes in wavelengths, see `PredictionView.mesh_along`; None without them."""
     slides: bool
 
 
@@ -63,8 +56,7 @@ class Blocks(draw.Drawing):
     blocks: Sequence[DrawnBlock]
     pressure_unit: str
     columns: int
-    width: float
-    """Of the figure with all its columns [inch]."""
+    width: float  # of the figure with all its columns [inch]
 
     def on_paper(self) -> Figure:
         """Draw the blocks with matplotlib, whose own rules stay as they are.

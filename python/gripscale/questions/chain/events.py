@@ -20,28 +20,23 @@ from typing import TYPE_CHECKING, TypeAlias, get_args
 if TYPE_CHECKING:
     from gripscale.chain.prediction import ChainResult
 
-PASSES = "passes"
-"""Detail of the waves of a prediction whose rubber and contact were iterated."""
+PASSES = "passes"  # detail of the waves of a prediction whose rubber and contact were iterated
 
 
 @dataclass(frozen=True)
 class RunStarted:
     """The inputs of the case are read and fitted; the waves follow."""
 
-    predictions: tuple[str, ...]
-    """Names of the predictions the case asks for, in order."""
-    waves: int
-    """Waves of each prediction."""
-    iterated: bool
-    """Whether rubber and contact are solved in passes until they agree."""
+    predictions: tuple[str, ...]  # names of the predictions the case asks for, in order
+    waves: int  # waves of each prediction
+    iterated: bool  # whether rubber and contact are solved in passes until they agree
 
 
 @dataclass(frozen=True)
 class ResultsReplaced:
     """Results of an earlier run are about to be replaced."""
 
-    message: str
-    """What is replaced, in a sentence."""
+    message: str  # what is replaced, in a sentence
 
 
 @dataclass(frozen=True)
@@ -49,27 +44,20 @@ class WaveSolved:
     """One more wave of a prediction is solved."""
 
     prediction: str
+    # Pass of the prediction, from 1; more than one where rubber and contact are iterated.
     pass_number: int
-    """Pass of the prediction, from 1; more than one where rubber and contact are iterated."""
-    number: int
-    """Number of the wave, from 1."""
-    count: int
-    """Waves of the prediction."""
-    wavelength: float
-    """[m]"""
-    speed: float
-    """Sliding speed [m/s]; zero at rest."""
+    number: int  # number of the wave, from 1
+    count: int  # waves of the prediction
+    wavelength: float  # [m]
+    speed: float  # sliding speed [m/s]; zero at rest
     contact_fraction: float
     friction: float
     status: str
-    message: str
-    """The status in words."""
-    seconds: float
-    """Time it took to solve [s]."""
-    stored: bool
-    """Whether an earlier run of the same case solved it."""
+    message: str  # the status in words
+    seconds: float  # time it took to solve [s]
+    stored: bool  # whether an earlier run of the same case solved it
+    # The prediction down to this wave; not in the line of JSON.
     so_far: ChainResult | None = field(default=None, repr=False, compare=False)
-    """The prediction down to this wave; not in the line of JSON."""
 
     @classmethod
     def last_of(
@@ -89,10 +77,8 @@ class PredictionFinished:
 
     prediction: str
     converged: bool
-    message: str
-    """`converged`, or why it is not."""
-    passes: int | None
-    """Passes until rubber and contact agreed, where they are iterated."""
+    message: str  # `converged`, or why it is not
+    passes: int | None  # passes until rubber and contact agreed, where they are iterated
     contact_fraction: float
     friction: float
 
@@ -126,8 +112,7 @@ class AnswerSolved:
 class EffectsSolved:
     """The effect of each condition on area and friction is solved."""
 
-    effects: tuple[str, ...]
-    """Names of the conditions, such as "heat"."""
+    effects: tuple[str, ...]  # names of the conditions, such as "heat"
 
 
 @dataclass(frozen=True)

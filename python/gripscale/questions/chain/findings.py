@@ -20,11 +20,11 @@ from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO, poisson_ratio
 from gripscale.wave.result import LARGE_MISMATCH
 
+# What a wave may be flagged for, and in words.
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",
     "temperature_extrapolated": "the temperature lies beyond those of the shift",
 }
-"""What a wave may be flagged for, and in words."""
 
 
 def conditions_notices(view: PredictionView) -> Iterator[Finding]:

@@ -116,15 +116,16 @@ MESH = [
     Column("indentation", heading="indentation", unit="mm", size=MILLI),
     Column("load_reached", heading="load reached", format=percent),
 ]
+# Columns that say nothing of rubber at rest.
 MOVING_ONLY = {
     *("sliding_speed", "angular_frequency", "loss_factor"),
     *("outside_band", "decades_below_band", "decades_above_band"),
     *("friction", "running_friction", "friction_from_dissipation"),
     *("friction_mismatch", "friction_bound", "friction_error"),
 }
-"""Columns that say nothing of rubber at rest."""
+# Columns in the unit of a key of the case.
 _GIVEN = {"pressure_received": "pressure", "sliding_speed": "speed"}
-"""Columns in the unit of a key of the case."""
+# Tables of a page by name: caption and columns.
 _TABLES = {
     "load": ("Load and rubber of each wave", _LOAD),
     "contact": ("Contact and friction of each wave", CONTACT),
@@ -133,12 +134,12 @@ _TABLES = {
     "solution": ("Solution of each wave", SOLUTION),
     "mesh": ("Mesh of each wave", MESH),
 }
-"""Tables of a page by name: caption and columns."""
 ALL_WAVES = {
     column.name: column for column in chain(WAVE, *(columns for _, columns in _TABLES.values()))
 }
 _NOTE = f"{NONE}: not reached, not defined, or not usable because the wave did not converge."
 
+# Columns in the terminal; a narrow one shows the two groups below each other.
 IN_TERMINAL = {
     "": ("wavelength",),
     "load": ("amplitude", "slope", "pressure_received", "modulus", "loss_factor"),
@@ -150,7 +151,6 @@ IN_TERMINAL = {
         "friction_from_dissipation",
     ),
 }
-"""Columns in the terminal; a narrow one shows the two groups below each other."""
 LEGEND = (
     "area: contact length over wavelength, and A_r/A_0 down to the wave; μ: of the wave, summed "
     "down to it, and of the wave from the energy lost; |E*| and tan δ at 2πv/λ."

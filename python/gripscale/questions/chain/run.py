@@ -26,13 +26,10 @@ from gripscale.wave.problem import WaveProblem
 from gripscale.wave.result import ScaleResult
 
 DYNAMIC, STATIC = "dynamic", "static"
-CHAIN_REPORT = "chain.txt"
-"""Tables of the chain in the folder of a run."""
+CHAIN_REPORT = "chain.txt"  # tables of the chain in the folder of a run
+# Attributes of a result: what it depends on, and whether its chain came to its end.
 _KEY, FINISHED = "prediction_key", "prediction_finished"
-"""Attributes of a result: what it depends on, and whether its chain came to its end."""
-
-SAVE_EVERY = 2.0
-"""Least time between two savings of an unfinished prediction [s]; each takes 0.1 s."""
+SAVE_EVERY = 2.0  # least time between two savings of an unfinished prediction [s]; each takes 0.1 s
 
 
 @dataclass(frozen=True)
@@ -69,16 +66,14 @@ class ChainRun:
     """Predictions of the chain of a case; more are added as they are solved."""
 
     case: Case
-    folder: Path | None = None
-    """Gets a file for each prediction, `dynamic.nc` and `static.nc`."""
+    folder: Path | None = None  # gets a file for each prediction, `dynamic.nc` and `static.nc`
+    # By name, "dynamic" and "static".
     predictions: dict[str, ChainResult] = field(default_factory=dict)
-    """By name, "dynamic" and "static"."""
+    # Why a prediction has no totals, by name.
     failures: dict[str, ChainError] = field(default_factory=dict)
-    """Why a prediction has no totals, by name."""
+    # Predictions of an earlier run of the same case.
     stored: dict[str, StoredPrediction] = field(default_factory=dict)
-    """Predictions of an earlier run of the same case."""
-    answer: Answer | None = None
-    """The answer of the case, which judges the chain in figures."""
+    answer: Answer | None = None  # the answer of the case, which judges the chain in figures
 
     @classmethod
     def of(cls, case: Case, folder: Path | None = None, *, fresh: bool = False) -> ChainRun:

@@ -25,16 +25,13 @@ class RunSource:
 
     predictions: list[PredictionView]
     inputs: xr.Dataset
+    # Models side by side over the same case, as far as they are there.
     compared: Compared = field(default_factory=Compared)
-    """Models side by side over the same case, as far as they are there."""
+    # What each effect of its conditions is worth, model by model.
     effects: list[xr.Dataset] = field(default_factory=list)
-    """What each effect of its conditions is worth, model by model."""
-    uncertainty: xr.Dataset | None = None
-    """What was sampled of it, or of another case."""
-    direct: xr.Dataset | None = None
-    """Totals of the direct contact of the measured profiles."""
-    cut_off: xr.Dataset | None = None
-    """Contact and friction against the cut-off."""
+    uncertainty: xr.Dataset | None = None  # what was sampled of it, or of another case
+    direct: xr.Dataset | None = None  # totals of the direct contact of the measured profiles
+    cut_off: xr.Dataset | None = None  # contact and friction against the cut-off
 
     @property
     def data(self) -> xr.Dataset:

@@ -34,14 +34,12 @@ from gripscale.questions.words import AXIS_TITLES, believed
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# Largest over smallest number of an axis, at least: less has no numbers of a log axis in it.
 _LEAST_RANGE = 3.0
-"""Largest over smallest number of an axis, at least: less has no numbers of a log axis in it."""
-HALF = 0.27
-"""Half the height of a bar, in rows."""
-_ROW = 44
-"""Height of a row of the ladder on the page [px]."""
+HALF = 0.27  # half the height of a bar, in rows
+_ROW = 44  # height of a row of the ladder on the page [px]
+# Letters of a line of a label beside the ladder: the frame keeps its width on a telephone.
 _LINE = 24
-"""Letters of a line of a label beside the ladder: the frame keeps its width on a telephone."""
 
 
 def comparison_figure(comparison: xr.Dataset) -> Figure:
@@ -213,8 +211,7 @@ def axis_charts(comparison: xr.Dataset) -> list[Chart]:
     return draw.panels_on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
 
 
-_MARGIN = 0.03
-"""Room beside the values of an axis, over its extent."""
+_MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
@@ -268,10 +265,8 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
 
 
 MOST_COLUMNS = 3
-MOST_PANELS = 9
-"""Series that are drawn; more would not be read."""
-LEAST_WIDTH = 4.5
-"""Width below which the legend has no room [inch]."""
+MOST_PANELS = 9  # series that are drawn; more would not be read
+LEAST_WIDTH = 4.5  # width below which the legend has no room [inch]
 
 
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:

@@ -19,10 +19,9 @@ from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.answer.reliance import headline
 
-ASIDE = ("windows",)
-"""Groups of other surfaces, which only give factors of the answer."""
+ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
+# Share of friction or area from which on a wavelength is drawn: longer waves do nothing.
 SEEN = 0.01
-"""Share of friction or area from which on a wavelength is drawn: longer waves do nothing."""
 
 
 class Look(NamedTuple):
@@ -47,13 +46,13 @@ LOOKS = {
     "persson": Look(GREY, "dotted", "P"),
     "klueppel_heinrich": Look(YELLOW, "dotted", "X"),
 }
+# For models that have no look of their own, in turn.
 OTHER_LOOKS = (
     Look(YELLOW, "solid", "d"),
     Look(YELLOW, "dotted", ">"),
     Look(INK, "solid", "h"),
     Look(GREY, "dotted", "p"),
 )
-"""For models that have no look of their own, in turn."""
 
 
 def looks(names: list[str]) -> list[Look]:
@@ -90,8 +89,7 @@ def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
     return comparison.isel(model=chosen) if any(chosen) else comparison
 
 
-MARKERS = "osD^v"
-"""Of measurements at several temperatures or pressures."""
+MARKERS = "osD^v"  # of measurements at several temperatures or pressures
 
 
 def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Series]:
@@ -105,8 +103,8 @@ def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Serie
 
 
 BEST = "answer"
+# Behind the label of a model whose friction rests partly on rubber beyond its measured band.
 STAR = " *"
-"""Behind the label of a model whose friction rests partly on rubber beyond its measured band."""
 
 
 @dataclass(frozen=True)
@@ -116,15 +114,13 @@ class Row:
     label: str
     value: float
     uncertainty: float = math.nan
-    before: float = math.nan
-    """Where the bar begins; NaN for none."""
+    before: float = math.nan  # where the bar begins; NaN for none
     factor: float = math.nan
     samples: tuple[float, ...] = ()
     marker: str = "o"
     colour: str = INK
     filled: bool = True
-    note: str = ""
-    """Said in place of a number there is not."""
+    note: str = ""  # said in place of a number there is not
 
     @property
     def ends(self) -> tuple[float, float]:

@@ -17,10 +17,7 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
+from gripscale.core import Described, InputError, checks, labelled, provenance
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import Bench, OnTask, Progress
@@ -40,8 +37,8 @@ from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.measured_rubber import MeasuredRubber
 
 _SOURCE = "gripscale compare"
+# The two numbers that are compared.
 _WORDS = dict(zip(reduce.SMOOTH, ("contact fraction", "friction coefficient"), strict=True))
-"""The two numbers that are compared."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,6 +72,7 @@ class SolvedLadder(Described):
         return comparison_dataset(self)
 
 
+# Inputs a comparison can be made over: numbers of the load and of the surface.
 COMPARED_OVER = (
     "speed",
     "pressure",
@@ -84,15 +82,11 @@ COMPARED_OVER = (
     "cut_off",
     "top_height_fraction",
 )
-"""Inputs a comparison can be made over: numbers of the load and of the surface."""
 
 MOST_SEEDS = 1000
-FEWEST_WINDOWS = 3
-"""Windows whose scatter is believed."""
-
-
+FEWEST_WINDOWS = 3  # windows whose scatter is believed
+# Called with the comparison as it stands, while more samples are solved.
 OnStage = Callable[[SolvedLadder], None]
-"""Called with the comparison as it stands, while more samples are solved."""
 
 
 def solved_ladder(
@@ -118,7 +112,7 @@ def solved_ladder(
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
     setups = []
-    water = case.conditions and case.conditions.water  # which the chain leaves out
+    water = None if case.conditions is None else case.conditions.water  # which the chain leaves out
     for task in tasks.values():
         chain = checks.instance("model", task.model, Chain)
         conditions = chain.conditions
@@ -252,8 +246,8 @@ def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     return False
 
 
+# Models that predict; the others take a step from one of them to the next.
 PREDICTING = ("chain", "chain_half_plane", "chain_upper", "direct", "persson", "klueppel_heinrich")
-"""Models that predict; the others take a step from one of them to the next."""
 
 
 def at_measured(

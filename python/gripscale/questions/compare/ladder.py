@@ -17,9 +17,7 @@ import numpy as np
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import ContinuedContact
-from gripscale.core import checks
-from gripscale.core.described import Described
-from gripscale.core.errors import InputError
+from gripscale.core import Described, InputError, checks
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
@@ -119,11 +117,8 @@ class ComparedModel:
     """From a setup to its samples; none where the model has nothing to say of it."""
 
 
-WINDOWS = "windows"
-"""The group of models that take a minute and more."""
-_BELOW = "below"
-"""The group of roughness below the measurement, which is compared on request only."""
-
+WINDOWS = "windows"  # the group of models that take a minute and more
+_BELOW = "below"  # the group of roughness below the measurement, which is compared on request only
 LADDER: list[ComparedModel] = []
 """All models, in the order of the functions below."""
 
@@ -163,11 +158,11 @@ def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.chain(solver), setup.surface)]
 
 
+# Waves and pressure classes of the chain that comes nearest to direct contact on surfaces it was
+# not chosen by, see docs/chain-and-direct-contact.md.
 WAVES_OF_UPPER_HALF, CLASSES = 4, 8
-"""Waves and pressure classes of the chain that comes nearest to direct contact on surfaces it was
-not chosen by, see docs/chain-and-direct-contact.md."""
+# Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s.
 POINTS_OF_A_CLASS = 256
-"""Points along each of its waves: within 0.2 % of 1024 on the shipped road, 3 mm/s to 30 m/s."""
 
 
 @_compared(
@@ -205,8 +200,7 @@ def _of_upper_half(
         return None
 
 
-LENGTH_OF_SINES = 10
-"""Period of a surface of sines over its largest wave."""
+LENGTH_OF_SINES = 10  # period of a surface of sines over its largest wave
 
 
 @lru_cache(maxsize=16)
@@ -228,8 +222,7 @@ def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(in_full, with_single_measurement(setup.surface, x)) for x in lines]
 
 
-_shuffled = lru_cache(maxsize=64)(random_phases)
-"""Drawn once for all loads."""
+_shuffled = lru_cache(maxsize=64)(random_phases)  # drawn once for all loads
 
 
 @_compared(
@@ -291,9 +284,9 @@ def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(theory, part, name) for name, part in each_measured(setup.surface)]
 
 
+# Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
+# (those of the roughness that the measurement has), and how many windows at most.
 WINDOW, MOST_WAVES, MOST_WINDOWS = 1.1, 100, 16
-"""Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
-(those of the roughness that the measurement has), and how many windows at most."""
 
 
 def _on_windows(

@@ -43,10 +43,8 @@ from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
-COMPARISON = "comparison"
-"""Folder of a comparison in that of the run, and the name of its file."""
-OVER = "over_*.nc"
-"""Files of comparisons over a varied input."""
+COMPARISON = "comparison"  # folder of a comparison in that of the run, and the name of its file
+OVER = "over_*.nc"  # files of comparisons over a varied input
 
 
 @dataclass(frozen=True)
@@ -54,8 +52,7 @@ class Compared:
     """The comparisons of one case: under its own load, and over varied inputs."""
 
     parts: list[xr.Dataset] = field(default_factory=list)
-    uncertainty: xr.Dataset | None = None
-    """What was sampled of the case, or of another."""
+    uncertainty: xr.Dataset | None = None  # what was sampled of the case, or of another
 
     @property
     def ladder(self) -> xr.Dataset | None:
@@ -84,8 +81,7 @@ def stored_comparisons(folder: Path) -> Compared:
     return Compared([predicted_tree(path).to_dataset() for path in paths if path.is_file()])
 
 
-TINY = 0.05
-"""Per cent below which a spread or an error is as good as none."""
+TINY = 0.05  # per cent below which a spread or an error is as good as none
 _NOTE = (
     "×: factor on the model before; for theories, on the direct contact. Exponents: "
     "d ln/d ln of the smallest wavelength that counts, over its last octave. Beyond band (*): "

@@ -17,8 +17,7 @@ _CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
     AREA: ("contact area $A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
 }
-_SAME = 0.01
-"""Relative distance of two rules that lie on each other in a figure."""
+_SAME = 0.01  # relative distance of two rules that lie on each other in a figure
 
 
 def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:

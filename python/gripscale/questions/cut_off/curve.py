@@ -10,26 +10,23 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.continuation.curve import FACTS, cut_off_at, unforetold
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.core.units import in_mm
+from gripscale.core import Finding, InputError, Severity, Topic, in_mm
 from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
 from gripscale.model import STATUS, Load
 from gripscale.surface import RmsSlope, Surface, find_cut_off
 
+# Name of the wavelength [m] that the roughness of an answer is continued to.
 CONTINUED_TO = "continued_to"
-"""Name of the wavelength [m] that the roughness of an answer is continued to."""
 STATUSES = (STATUS, f"{STATUS}_word")
 FRICTION, AREA = "curve_friction_from_dissipation", "curve_contact_fraction"
 SLOPE_IN_CONTACT = "curve_slope_in_contact"
+# Rms slope in contact of the rule that ends the roughness where small strain ends.
 CONTACT_SLOPE = 1.0
-"""Rms slope in contact of the rule that ends the roughness where small strain ends."""
-MICROTEXTURE = 0.5e-3
-"""Longest wavelength of the microtexture of a road [m] (ISO 13473-1)."""
+MICROTEXTURE = 0.5e-3  # longest wavelength of the microtexture of a road [m] (ISO 13473-1)
+# Usual slopes at which the roughness is cut off: see docs/cut-off.md.
 RMS_SLOPES = {"surface": 1.3, "profile": 1.0}
-"""Usual slopes at which the roughness is cut off: see docs/cut-off.md."""
 
 
 def cut_off_curve(

@@ -16,8 +16,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.charts.draw import Sheet
-from gripscale.core import provenance
-from gripscale.core.finding import Finding, Severity
+from gripscale.core import Finding, Severity, provenance
 from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in

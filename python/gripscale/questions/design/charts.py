@@ -19,11 +19,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PERCENT = 100.0
-SAME = 5e-3
-"""Relative difference of rolling resistances that is none."""
+SAME = 5e-3  # relative difference of rolling resistances that is none
 _FREQUENCY = PlotAxis("frequency [Hz]", log=True, numbers=5)
+# Difference of rolling resistances over today's from which both curves can be told apart.
 _APART = 0.05
-"""Difference of rolling resistances over today's from which both curves can be told apart."""
 COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
 
 

@@ -23,9 +23,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks, provenance
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
@@ -49,11 +47,10 @@ from gripscale.questions.words import believed
 from gripscale.rubber import Rubber
 
 DESIGN_FILE = "design.nc"
+# Estimated relative error of the contacts whose friction is stated, as in comparisons.
 DESIGN_TOLERANCE = 0.05
-"""Estimated relative error of the contacts whose friction is stated, as in comparisons."""
-
+# Attribute of a design: levels that are left out because a lower one has as much friction.
 FRUITLESS = "levels_without_more_friction"
-"""Attribute of a design: levels that are left out because a lower one has as much friction."""
 
 
 @dataclass(frozen=True)

@@ -40,18 +40,13 @@ from gripscale.rubber import Rubber
 class Gain:
     """Logarithm of the friction of a compound over that of another, and its errors."""
 
-    log_ratio: float
-    """G [-]."""
-    twice_cut_off: float
-    """G with twice the cut-off of the road [-]."""
-    sampling: float
-    """Standard error of G [-] from the pieces of the road; NaN if it has too few."""
-    freedom: float
-    """Degrees of freedom of the sampling error."""
-    grid: float
-    """Largest error of G from the grids [-]; the truth is even within it."""
+    log_ratio: float  # G [-]
+    twice_cut_off: float  # G with twice the cut-off of the road [-]
+    sampling: float  # standard error of G [-] from the pieces of the road; NaN if it has too few
+    freedom: float  # degrees of freedom of the sampling error
+    grid: float  # largest error of G from the grids [-]; the truth is even within it
+    # Standard error of G from the measurement of the rubber [-]; NaN if nobody knows it.
     rubber: float = math.nan
-    """Standard error of G from the measurement of the rubber [-]; NaN if nobody knows it."""
 
     @property
     def interval(self) -> tuple[float, float]:

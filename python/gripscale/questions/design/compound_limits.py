@@ -31,10 +31,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, Mask
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core import Array, Checked, InputError, Mask, RubberWarning, checked, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import loss_shape, storage_shape
@@ -42,10 +39,9 @@ from gripscale.rubber.shift import EDGE
 
 LIMITED_QUANTITIES = ("storage_modulus", "loss_factor", "loss_compliance")
 _SYMBOLS = dict(zip(LIMITED_QUANTITIES, ("E'", "tan δ", "J''"), strict=True))
-HANDLING = ZERO_CELSIUS + 20.0
-"""Temperature of the storage modulus that is kept by default [K]."""
+HANDLING = ZERO_CELSIUS + 20.0  # temperature of the storage modulus that is kept by default [K]
+# Distance from a limit, relative to today's moduli, within which it counts as reached.
 _AT_LIMIT = 1e-4
-"""Distance from a limit, relative to today's moduli, within which it counts as reached."""
 
 
 class PointLimit(Checked):
@@ -210,10 +206,8 @@ class AdmissibleChanges:
 
     rubber: Rubber = field(repr=False)
     limits: CompoundLimits
-    points: tuple[PointLimit, ...] = ()
-    """Ranges of the moduli."""
-    rolling: tuple[PointLimit, ...] = ()
-    """Limits of rolling resistance."""
+    points: tuple[PointLimit, ...] = ()  # ranges of the moduli
+    rolling: tuple[PointLimit, ...] = ()  # limits of rolling resistance
 
     @classmethod
     def of(

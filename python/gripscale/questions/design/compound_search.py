@@ -27,9 +27,7 @@ from typing import Any
 import numpy as np
 
 from gripscale.case import Case
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.parallel import worker_count
+from gripscale.core import Array, InputError, worker_count
 from gripscale.questions.design.compound_limits import AdmissibleChanges, CompoundLimits, PointLimit
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
 from gripscale.questions.design.rolling import rolling_band
@@ -37,31 +35,21 @@ from gripscale.questions.vary.inputs import surface_of
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-LEAST_GAP = 1e-4
-"""Gap at which the search ends [-]."""
+LEAST_GAP = 1e-4  # gap at which the search ends [-]
 MOST_CORNERS = 8
 SHORTEST_STEP = 0.05
-_ROUNDING = 1e-6
-"""Violation of a limit that is none."""
-PRECISION = 1e-5
-"""Change of ln mu at which quadratic programming ends."""
+_ROUNDING = 1e-6  # violation of a limit that is none
+PRECISION = 1e-5  # change of ln mu at which quadratic programming ends
 MOST_STEPS = 100
 MOST_HALVINGS = 6
-GIVEN_AWAY = 1e-3
-"""Part of ln mu that a design gives away to stay near today's compound."""
+GIVEN_AWAY = 1e-3  # part of ln mu that a design gives away to stay near today's compound
 LARGEST_FACTOR, PER_DECADE = "largest factor on a modulus", "largest change per decade"
-ROLLING_LEVEL = "rolling resistance"
-"""What is limited, beside ranges of moduli."""
-WIDER = 1.1
-"""Factor on a limit whose worth is asked for."""
-DOWNWARD = 4
-"""Levels below today's, down to the least that the limits admit."""
-UPWARD = (1.15, 1.3)
-"""Levels above today's."""
-_LEVEL_STEP = 1e-6
-"""Relative width of the interval at which the search for the least level ends."""
-NEAR_LEAST = 1.01
-"""Lowest level over the least: at the least itself a single change is left."""
+ROLLING_LEVEL = "rolling resistance"  # what is limited, beside ranges of moduli
+WIDER = 1.1  # factor on a limit whose worth is asked for
+DOWNWARD = 4  # levels below today's, down to the least that the limits admit
+UPWARD = (1.15, 1.3)  # levels above today's
+_LEVEL_STEP = 1e-6  # relative width of the interval at which the search for the least level ends
+NEAR_LEAST = 1.01  # lowest level over the least: at the least itself a single change is left
 
 
 @dataclass(frozen=True)
@@ -70,10 +58,10 @@ class DesignProblem:
 
     friction: GoalFriction
     limits: CompoundLimits
+    # What stands for rolling resistance (`rolling`); each upper end is today's.
     rolling: tuple[PointLimit, ...]
-    """What stands for rolling resistance (`rolling`); each upper end is today's."""
+    # The roads of the goals by their names.
     roads: Mapping[str, Surface] = field(default_factory=dict)
-    """The roads of the goals by their names."""
 
     @property
     def rubber(self) -> Rubber:
@@ -136,14 +124,10 @@ def _most(admissible: AdmissibleChanges, slope: Array) -> float:
 class CompoundOptimum:
     """The best admissible change at one level."""
 
-    ratio: Array
-    """Moduli over today's [-], E_inf first."""
-    log_friction: float
-    """Weighted mean of ln mu on the grid of the search [-]."""
-    slope: Array
-    """Its gradient by the ratios [-]."""
-    gap: float
-    """What any admissible change could still gain in ln mu, to first order [-]."""
+    ratio: Array  # moduli over today's [-], E_inf first
+    log_friction: float  # weighted mean of ln mu on the grid of the search [-]
+    slope: Array  # its gradient by the ratios [-]
+    gap: float  # what any admissible change could still gain in ln mu, to first order [-]
 
 
 def best_change(

@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.core import provenance
-from gripscale.core.arrays import Array
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core import ZERO_CELSIUS, Array, provenance
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.design.compound_limits import (
@@ -29,10 +27,9 @@ from gripscale.questions.design.compound_search import (
 from gripscale.questions.design.rolling import band_in_words
 from gripscale.rubber import Rubber
 
+# The loss factor that is the rule of thumb for wet grip.
 WET = PointLimit("loss_factor", 0.0, 1.0, 10.0, ZERO_CELSIUS)
-"""The loss factor that is the rule of thumb for wet grip."""
-FREQUENCIES_PER_DECADE = 8
-"""Frequencies of a stored master curve in a decade."""
+FREQUENCIES_PER_DECADE = 8  # frequencies of a stored master curve in a decade
 
 
 def variable(
@@ -124,8 +121,7 @@ def today(problem: DesignProblem, contacts: Sequence[RoughContact], tolerance: f
     return xr.Dataset(data, coordinates, about)
 
 
-EXCITED = 0.01
-"""Share of the friction below and above the frequencies that count as excited."""
+EXCITED = 0.01  # share of the friction below and above the frequencies that count as excited
 
 
 def _excited(contact: RoughContact) -> tuple[float, float]:

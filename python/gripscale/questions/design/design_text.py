@@ -10,19 +10,16 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.core import checks
-from gripscale.core.errors import InputError
-from gripscale.core.units import parse_quantity
+from gripscale.core import InputError, checks, parse_quantity
 from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, write_csv
 from gripscale.questions.design.compound_limits import LIMITED_QUANTITIES, PointLimit, changed
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
+# What a goal may state beside `weight` and `road`.
 GOAL_QUANTITIES = ("speed", "pressure", "temperature")
-"""What a goal may state beside `weight` and `road`."""
-LEAST_CHANGE = 0.2
-"""Change of E' or E'' from which a frequency counts as changed."""
+LEAST_CHANGE = 0.2  # change of E' or E'' from which a frequency counts as changed
 
 
 def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:

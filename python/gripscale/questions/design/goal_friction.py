@@ -20,9 +20,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.checks import Checked, checked
+from gripscale.core import Array, Checked, ComplexArray, checked, checks
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.parallel import Job, in_threads
 from gripscale.core.units import celsius
@@ -80,25 +78,20 @@ class MeasuredPart:
 
     goal: int
     surface: Profile | HeightMap
-    smallest_wavelength: float
-    """[m]."""
-    largest_wavelength: float
-    """Of the road's sine waves [m]."""
-    weight: float
-    """Share of the road's length [-]."""
+    smallest_wavelength: float  # [m]
+    largest_wavelength: float  # of the road's sine waves [m]
+    weight: float  # share of the road's length [-]
 
 
 @dataclass
 class GoalFriction:
     """Friction at all goals, solved for one compound after the other."""
 
-    rubber: Rubber
-    """Today's."""
+    rubber: Rubber  # today's
     goals: Sequence[CompoundGoal]
     parts: Sequence[MeasuredPart] = field(repr=False)
     workers: int = 1
-    thickness: float | None = None
-    """Of the rubber [m]; None: a half-space."""
+    thickness: float | None = None  # of the rubber [m]; None: a half-space
     _before: dict[int, RoughContact] = field(default_factory=dict, repr=False)
     _solved: dict[bytes, tuple[float, Array]] = field(default_factory=dict, repr=False)
     _terms: dict[int, ComplexArray] = field(default_factory=dict, repr=False)

@@ -24,8 +24,7 @@ from gripscale.questions.design.design_text import (
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section
 
-DECIDES = 1e-3
-"""Friction gained by a tenth more room from which a limit decides."""
+DECIDES = 1e-3  # friction gained by a tenth more room from which a limit decides
 _TITLE = "Trade-off: each row is the admissible compound of most friction"
 
 

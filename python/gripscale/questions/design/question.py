@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core import checks
-from gripscale.core.finding import doubt
+from gripscale.core import checks, doubt
 from gripscale.experiment.solve import OnTask
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder

@@ -15,10 +15,10 @@ from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.questions.design.compound_limits import PointLimit
 from gripscale.rubber import Rubber
 
+# About one turn of a car's wheel at motorway speed, and its harmonics [Hz].
 FREQUENCIES = (10.0, 50.0)
-"""About one turn of a car's wheel at motorway speed, and its harmonics [Hz]."""
+# Of a rolling tread, the usual one of the laboratory first [K].
 TEMPERATURES = tuple(ZERO_CELSIUS + degrees for degrees in (60.0, 40.0, 50.0, 70.0))
-"""Of a rolling tread, the usual one of the laboratory first [K]."""
 _QUANTITIES = ("loss_factor", "loss_compliance")
 
 

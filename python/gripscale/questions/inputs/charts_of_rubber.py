@@ -19,8 +19,7 @@ from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Serie
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
 from gripscale.questions.inputs.record import band, rubber_variables
 from gripscale.rubber import (

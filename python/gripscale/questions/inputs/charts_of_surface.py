@@ -45,8 +45,7 @@ if TYPE_CHECKING:
 
 DISTANCE, _HEIGHT = PlotAxis("distance $x$ [mm]"), PlotAxis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
-MANY = 500
-"""Removed points whose dots are small, or they would hide the profile."""
+MANY = 500  # removed points whose dots are small, or they would hide the profile
 
 
 def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
@@ -154,10 +153,9 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
     return draw.panels_on_page(panels)
 
 
-MOST_PIXELS = 400
-"""Points of a map along each side that are drawn."""
+MOST_PIXELS = 400  # points of a map along each side that are drawn
+# Colour of what a crop keeps.
 _KEPT = "#cfe3f3"
-"""Colour of what a crop keeps."""
 
 
 def surface_figure(surface: HeightMap | Profile) -> Figure:

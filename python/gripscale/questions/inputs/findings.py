@@ -11,10 +11,8 @@ from gripscale.io.table import significant
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.report.elements import number_text, percent_text
 
-LARGE_MISFIT = 0.05
-"""Of a series from the moduli it stands for: friction errs by about as much."""
-LARGE_RESIDUAL = 0.1
-"""Of the heights of the sine waves."""
+LARGE_MISFIT = 0.05  # of a series from the moduli it stands for: friction errs by about as much
+LARGE_RESIDUAL = 0.1  # of the heights of the sine waves
 
 
 def input_findings(record: InputRecord) -> list[Finding]:

@@ -82,8 +82,8 @@ def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") 
     return Table("texture", columns, title, [other_road] if other_road else [])
 
 
+# Units in which texture is shown, with their sizes.
 _TEXTURE_UNITS = {"m": ("mm", MILLI), "rad": ("°", math.radians(1.0))}
-"""Units in which texture is shown, with their sizes."""
 
 
 def texture_levels_table(data: xr.Dataset) -> Table:
@@ -384,14 +384,14 @@ def rubber_facts(record: InputRecord) -> Facts:
     return Facts("Rubber", pairs)
 
 
+# Keys of [load]: attribute of a study, and what they are called.
 _LOAD = {
     "pressure": ("nominal_pressure", "Nominal pressure"),
     "speed": ("nominal_speed", "Sliding speed"),
     "footprint": ("footprint", "Footprint"),
 }
-"""Keys of [load]: attribute of a study, and what they are called."""
+# Effects of the conditions of a study.
 _CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
-"""Effects of the conditions of a study."""
 
 
 def input_sections(data: xr.Dataset) -> list[Section]:

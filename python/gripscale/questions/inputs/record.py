@@ -27,10 +27,8 @@ from gripscale.surface import HeightDifference, Measured, Profile, SineStack, Su
 from gripscale.surface.cut_off import DEFINITIONS
 from gripscale.surface.sine_fit import as_fitted
 
-BINS = 1200
-"""Pieces a profile is cut into; each keeps its lowest and its highest height."""
-CLOSE_UP = 30e-3
-"""Length of the piece of a profile that is shown point by point [m]."""
+BINS = 1200  # pieces a profile is cut into; each keeps its lowest and its highest height
+CLOSE_UP = 30e-3  # length of the piece of a profile that is shown point by point [m]
 
 
 def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
@@ -93,10 +91,8 @@ def band(rubber: Rubber, master: MasterCurve | None, excitation: ArrayLike, poin
 
 
 Variables = dict[str, Any]
-_Part = tuple[Variables, Variables]
-"""Variables and attributes of the record."""
-_POINTS = 600
-"""Points of a curve that is drawn."""
+_Part = tuple[Variables, Variables]  # variables and attributes of the record
+_POINTS = 600  # points of a curve that is drawn
 
 
 def inputs(

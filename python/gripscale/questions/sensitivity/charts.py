@@ -20,8 +20,7 @@ from gripscale.questions.vary.axis import dimensions, points
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MOST_CURVES = 8
-"""Points of the axes that are drawn, evenly spaced among more."""
+_MOST_CURVES = 8  # points of the axes that are drawn, evenly spaced among more
 _EFFECTS = {
     LOSS: ("$E''$", "more loss, more friction"),
     STORAGE: ("$E'$", "stiffer, less contact and less friction"),

@@ -23,9 +23,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.core import checks
-from gripscale.core.checks import checked
-from gripscale.core.units import ZERO_CELSIUS
+from gripscale.core import ZERO_CELSIUS, checked, checks
 from gripscale.experiment.design import (
     CONVERGED,
     basis_numbers,
@@ -46,31 +44,29 @@ if TYPE_CHECKING:
     from gripscale.surface import Surface
 
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
+# Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction".
 CARRIED = "source_{}_error"
-"""Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction"."""
+# End of the names of derivatives with the rubber's answer to the change.
 FEEDBACK = "_with_feedback"
-"""End of the names of derivatives with the rubber's answer to the change."""
-
+# Of the differences of whole solutions: ln v, ln p_0, and temperature [K]. The friction of a grid
+# bends where an asperity comes into contact; smaller steps are single asperities.
 LOG_STEP, KELVIN_STEP = 0.1, 2.0
-"""Of the differences of whole solutions: ln v, ln p_0, and temperature [K]. The friction of a grid
-bends where an asperity comes into contact; smaller steps are single asperities."""
 
+# Names of derivatives, with the number that they are of; without those by Prony terms, which
+# rubbers do not share.
 _DERIVATIVES = {
     f"d_ln_{quantity}_d_{name}{end}": quantity
     for quantity in ("friction", "contact_fraction")
     for name in TEXTS.keys() - {"ln_modulus"}
     for end in ("", FEEDBACK)
 }
-"""Names of derivatives, with the number that they are of; without those by Prony terms, which
-rubbers do not share."""
 
+# Rules of thumb of tread compounds: tan(delta) at these temperatures [K] and `RULE_FREQUENCY`.
+# M.-J. Wang, Rubber Chem. Technol. 71 (1998) 520, doi:10.5254/1.3538492.
 _RULES = {"wet grip": ZERO_CELSIUS, "rolling resistance": ZERO_CELSIUS + 60.0}
-"""Rules of thumb of tread compounds: tan(delta) at these temperatures [K] and `RULE_FREQUENCY`.
-M.-J. Wang, Rubber Chem. Technol. 71 (1998) 520, doi:10.5254/1.3538492."""
-RULE_FREQUENCY = 10.0
-"""[Hz]"""
+RULE_FREQUENCY = 10.0  # [Hz]
+# Frequencies of the master curve beside the derivatives, and how far it goes beyond them.
 MASTER_POINTS, _MARGIN = 200, 30.0
-"""Frequencies of the master curve beside the derivatives, and how far it goes beyond them."""
 
 
 class FrictionSensitivity(DirectContact):

@@ -23,8 +23,10 @@ from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES
 from gripscale.questions.uncertainty.sampled_answer import ROAD
 from gripscale.questions.words import SYMBOLS
 
+# Share of a standard error that an equal, independent measurement leaves.
 AGAIN = 1.0 / math.sqrt(2.0)
-"""Share of a standard error that an equal, independent measurement leaves."""
+# What measures each source, and the share of its standard error that it leaves. Noise of heights
+# counts by its square.
 MEASUREMENTS = {
     ROAD: ("as much of the road once more", AGAIN),
     "modulus": ("moduli once more, {}", AGAIN),
@@ -37,8 +39,6 @@ MEASUREMENTS = {
     "pressure": ("nominal pressure, twice", AGAIN),
     LINES_TO_SURFACE: ("a map in place of lines; it shows a direction, too", 0.0),
 }
-"""What measures each source, and the share of its standard error that it leaves. Noise of heights
-counts by its square."""
 
 
 def next_measurements(data: xr.Dataset) -> Table | None:

@@ -15,10 +15,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts import draw
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Quantity
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic, doubt
+from gripscale.core import Finding, InputError, Quantity, Severity, Topic, checks, doubt, provenance
 from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
@@ -55,8 +52,9 @@ from gripscale.report.failures import Failure, explained, failures_in, first_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# What may be varied: derivatives are taken at each value.
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
-"""What may be varied: derivatives are taken at each value."""
+# Ends of the names of derivatives by one number, with their headings and units.
 SCALARS = {
     "ln_pressure": ("pressure", "1"),
     "ln_speed": ("speed", "1"),
@@ -64,9 +62,7 @@ SCALARS = {
     "ln_bulk_modulus": ("bulk modulus", "1"),
     "temperature": ("temperature", "1/K"),
 }
-"""Ends of the names of derivatives by one number, with their headings and units."""
-_MOST_POINTS = 6
-"""Points that the table by decade has columns for."""
+_MOST_POINTS = 6  # points that the table by decade has columns for
 _CURVES = (
     "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
     "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "

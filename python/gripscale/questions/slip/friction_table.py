@@ -19,10 +19,8 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.conditions import Conditions
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import ZERO_CELSIUS, Array, InputError
 from gripscale.core.provenance import software
-from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import KEY_LENGTH, Task
@@ -30,22 +28,17 @@ from gripscale.questions.answer.estimate import TOTAL
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.study import study_numbers
 
+# Name of the friction over `kind`, `bound` and the three axes of the table.
 TABLE = "table_friction"
-"""Name of the friction over `kind`, `bound` and the three axes of the table."""
 AXES = ("sliding_speed", "rubber_temperature", "local_pressure")
 KINDS_OF_FRICTION = "hysteresis", "with area term"
-BOUNDS = ("low", "value", "high")
-"""Ends of the 90 % interval, and the value between."""
-
-_SLOWEST = 0.01
-"""Lowest sliding speed of the table [m/s]."""
+BOUNDS = ("low", "value", "high")  # ends of the 90 % interval, and the value between
+_SLOWEST = 0.01  # lowest sliding speed of the table [m/s]
 _SPEEDS = 6
+# Pressures over the mean one: the highest of a parabola, and a quarter of it.
 _PRESSURES = 0.375, 1.5
-"""Pressures over the mean one: the highest of a parabola, and a quarter of it."""
-_WARMEST = 80.0
-"""Rise of the temperature up to which friction is solved where the rubber warms [K]."""
-_WARMER = 47.0
-"""Largest step of the temperatures [K]."""
+_WARMEST = 80.0  # rise of the temperature up to which friction is solved where the rubber warms [K]
+_WARMER = 47.0  # largest step of the temperatures [K]
 
 
 def friction_table(

@@ -22,10 +22,7 @@ from numpy.typing import ArrayLike
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.charts.draw import Sheet
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity, Topic
+from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, provenance
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, on_page, significant
@@ -39,18 +36,14 @@ from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section
 from gripscale.theory.brush import Brush, brush_force
 
+# Of a bristle [Pa/m]: on 100 mm under 3 bar a slip stiffness of 25 loads; tyres have 15 to 30.
 STIFFNESS = 1.5e8
-"""Of a bristle [Pa/m]: on 100 mm under 3 bar a slip stiffness of 25 loads; tyres have 15 to 30."""
 _SLIPS = np.geomspace(0.003, 1.0, 30)
-_BRAKING = "80 km/h", "20 km/h"
-"""Speeds of wet braking tests of tyres (UN Regulation 117)."""
-_BRAKING_SPEEDS = 5
-"""Points of Gauss's quadrature over the speeds of braking."""
+_BRAKING = "80 km/h", "20 km/h"  # speeds of wet braking tests of tyres (UN Regulation 117)
+_BRAKING_SPEEDS = 5  # points of Gauss's quadrature over the speeds of braking
 _GRAVITY = 9.80665
-_FINE = 1000
-"""Slips at which a peak is sought."""
-BRAKES = ("peak", "locked")
-"""An ideal control that holds the peak, and locked wheels."""
+_FINE = 1000  # slips at which a peak is sought
+BRAKES = ("peak", "locked")  # an ideal control that holds the peak, and locked wheels
 _NO_TYRE = (
     "A brush of bristles is no tyre: it has no carcass, pattern, wear or water. Compare compounds, "
     "roads and temperatures with it, not tyres."

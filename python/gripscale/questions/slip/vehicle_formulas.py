@@ -49,8 +49,7 @@ class VehicleFormula(NamedTuple):
         return np.append(fit.x, np.sqrt(np.mean(fit.fun**2)) / peak)
 
 
-MISFIT = "rms"
-"""What the misfit is called among the parameters."""
+MISFIT = "rms"  # what the misfit is called among the parameters
 FORMULAS = {
     "burckhardt": VehicleFormula(
         burckhardt, ("c1", "c2", "c3"), (0, 0.1, -2), (5, 500, 5), "c1 (1 - exp(-c2 s)) - c3 s"

@@ -22,16 +22,12 @@ from gripscale.questions.words import ANSWER, AXIS_TITLES, believed
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}
-"""Titles of axes."""
+_TOTALS = {name: f"{title} [-]" for name, title in reversed(AXIS_TITLES.items())}  # titles of axes
 SYMBOL_TEXTS = {"friction": "$\\mu$", "contact_fraction": "$A_r/A_0$"}
-AS_STATED = "model, inputs as stated"
-"""What figures call the case itself, without anything drawn."""
+AS_STATED = "model, inputs as stated"  # what figures call the case itself, without anything drawn
 MOST_BINS = 24
-MEDIAN, END = 1.6, 0.9
-"""Widths of the lines at median and ends."""
-_FEWEST_SAMPLES = 2
-"""Samples there must be for a distribution."""
+MEDIAN, END = 1.6, 0.9  # widths of the lines at median and ends
+_FEWEST_SAMPLES = 2  # samples there must be for a distribution
 
 
 def axis_of(data: xr.Dataset) -> str:

@@ -31,9 +31,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.conditions import Conditions
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.errors import InputError, RubberWarning
-from gripscale.core.parallel import in_threads, worker_count
+from gripscale.core import Array, ComplexArray, InputError, RubberWarning, in_threads, worker_count
 from gripscale.half_space import sensitivity
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import DirectContact
@@ -48,13 +46,13 @@ from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_
 from gripscale.questions.uncertainty.sources import SOURCES, Source
 from gripscale.rubber import Rubber
 
+# Draws of each source: the standard deviation is known to a tenth. A draw costs no contact.
 DRAWS = 64
-"""Draws of each source: the standard deviation is known to a tenth. A draw costs no contact."""
+# The sources whose draws are solved, and how many. Levels of the cleaning are spread evenly.
 SOLVED = {"height_noise": 16, "cleaning": 8}
-"""The sources whose draws are solved, and how many. Levels of the cleaning are spread evenly."""
+# Draws of another rubber for the contact area. On the shipped road 8 draws of the moduli give 1.0
+# %, 48 draws 1.1 %.
 FEW_DRAWS = 8
-"""Draws of another rubber for the contact area. On the shipped road 8 draws of the moduli give
-1.0 %, 48 draws 1.1 %."""
 CARRIED_QUANTITIES = ("friction", "contact_fraction")
 
 
@@ -66,12 +64,9 @@ class Tangent:
     usual: Inputs
     contacts: Sequence[RoughContact]
     adjoints: Sequence[FrictionAdjoint]
-    share: Array
-    """Of each contact in friction and contact area of all [-], shape (2, contacts)."""
-    totals: Array
-    """Friction from dissipation and contact fraction of all [-]."""
-    sampling_errors: Array
-    """Relative standard errors of both from pieces of the profiles [-]."""
+    share: Array  # of each contact in friction and contact area of all [-], shape (2, contacts)
+    totals: Array  # friction from dissipation and contact fraction of all [-]
+    sampling_errors: Array  # relative standard errors of both from pieces of the profiles [-]
 
     @classmethod
     def of(cls, case: Case) -> Tangent:

@@ -34,13 +34,12 @@ class UncertaintyOptions:
 
     samples: int = 200
     seed: int = 0
+    # "chain", "direct" or "both"; None: the direct contact where profiles were measured.
     model: str | None = None
-    """"chain", "direct" or "both"; None: the direct contact where profiles were measured."""
-    without: tuple[str, ...] = ()
-    """Sources that are taken to be known."""
+    without: tuple[str, ...] = ()  # sources that are taken to be known
+    # What is known of a source, in place of its default.
     ranges: Mapping[str, Any] = field(default_factory=dict)
-    """What is known of a source, in place of its default."""
+    # Length of the blocks of profiles that are drawn [m]; four of the largest waves by default.
     block_length: float | None = None
-    """Length of the blocks of profiles that are drawn [m]; four of the largest waves by default."""
+    # Estimated relative error of each direct contact; that of its first full grid by default.
     tolerance: float | None = None
-    """Estimated relative error of each direct contact; that of its first full grid by default."""

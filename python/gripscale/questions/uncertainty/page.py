@@ -29,8 +29,8 @@ from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained, failures_in
 
+# Symbols of the quantities, in their order.
 HEADS = {name: SYMBOLS[name] for name in propagation.PROPAGATED_QUANTITIES}
-"""Symbols of the quantities, in their order."""
 OF_ANOTHER = (
     "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
     "uncertainty` again."
@@ -39,15 +39,14 @@ UNCERTAINTY = (
     "The case was solved many times, each time with other values of the inputs that are not known "
     "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
 )
+# Share of the samples of a model without an answer up to which the others stand for all.
 MOST_FAILED = 0.25
-"""Share of the samples of a model without an answer up to which the others stand for all."""
+# Share of a part in the variance of the friction from which its linearity is judged: below it the
+# samples do not know the part to a third.
 _LEAST_SHARE = 0.02
-"""Share of a part in the variance of the friction from which its linearity is judged: below it the
-samples do not know the part to a third."""
+# Ratio of errors by derivatives and by samples from which the friction is not linear.
 _APART = 4.0 / 3.0
-"""Ratio of errors by derivatives and by samples from which the friction is not linear."""
-SUMMARY = (0.05, 0.5, 0.95)
-"""Quantiles in the summaries of other reports."""
+SUMMARY = (0.05, 0.5, 0.95)  # quantiles in the summaries of other reports
 
 
 def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:

@@ -26,19 +26,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks
 from gripscale.surface import HeightDifference, Profile
 from gripscale.surface.height_difference import BlockSums, block_starts, block_sums
 
 Indices = NDArray[np.intp]
 
-BLOCK_WAVES = 4.0
-"""Length of a block in largest waves."""
+BLOCK_WAVES = 4.0  # length of a block in largest waves
 _FEWEST_BLOCKS, WANTED_BLOCKS, MOST_BLOCKS = 4, 8, 1000
-JOINT_WAVES = 0.5
-"""Length over which one block goes over into the next, in largest waves."""
+JOINT_WAVES = 0.5  # length over which one block goes over into the next, in largest waves
 
 
 @dataclass(frozen=True, eq=False)

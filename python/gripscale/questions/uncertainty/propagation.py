@@ -26,9 +26,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.core import checks, provenance
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError, RubberWarning
+from gripscale.core import Array, InputError, RubberWarning, checks, provenance
 from gripscale.core.provenance import software
 from gripscale.experiment import design as designs
 from gripscale.experiment.design import CONVERGED, Design, Point
@@ -50,14 +48,13 @@ from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
 
-LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
-"""Quantiles of the samples that a result holds."""
+LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # quantiles of the samples that a result holds
 
+# What each sample answers: its letters and its name.
 PROPAGATED_QUANTITIES = {
     "friction": ("mu", "friction coefficient"),
     "contact_fraction": ("A_r/A_0", "real over nominal contact area"),
 }
-"""What each sample answers: its letters and its name."""
 
 
 def quantiles(values: xr.DataArray) -> xr.DataArray:
@@ -72,12 +69,12 @@ def quantiles(values: xr.DataArray) -> xr.DataArray:
     return levels.where(enough).drop_vars("quantile").transpose(..., "quantile")
 
 
+# What is kept of each sample, and its meaning.
 _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
     "friction_from_dissipation": model.TOTALS["total_friction_from_dissipation"],
     "adhesive_friction": "friction coefficient of the area term",
     "outside_band": model.OUTSIDE_BAND[model.FRICTION_OUTSIDE_BAND][1],
 }
-"""What is kept of each sample, and its meaning."""
 
 
 def uncertainty_dataset(
@@ -161,6 +158,7 @@ def drawn_values(
     return values, logarithms
 
 
+# What is kept of the shares of the sources in a variance: dimensions and meaning.
 _SHARES = {
     "share": (("source",), "share of each source in the variance of the logarithm of {}"),
     "share_error": (("source",), "standard error of the share"),
@@ -171,7 +169,6 @@ _SHARES = {
     "end": (("source", "end"), "{}, at 5 and 95 % of what a source alone does"),
     "unexplained": ((), "share of no source in the variance of the logarithm of {}"),
 }
-"""What is kept of the shares of the sources in a variance: dimensions and meaning."""
 
 
 def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -> xr.Dataset:
@@ -192,14 +189,10 @@ def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -
     return designs.stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
 
-FOLDER, _RESULT = "uncertainty", "uncertainty.nc"
-"""Where it is in the results folder of the case."""
-
+FOLDER, _RESULT = "uncertainty", "uncertainty.nc"  # where it is in the results folder of the case
+# Tables of a case that change no prediction of it.
 NO_INPUTS = ("uncertainty", "measured", "output", "compare")
-"""Tables of a case that change no prediction of it."""
-
-_FILES = "file_sha256"
-"""Attribute of the result: digests of the files the case names, as JSON."""
+_FILES = "file_sha256"  # attribute of the result: digests of the files the case names, as JSON
 
 
 def stored_uncertainty(results: Path) -> xr.Dataset | None:
@@ -225,14 +218,13 @@ def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = 
     return digests is None or sorted(json.loads(data.attrs.get(_FILES, "[]"))) == sorted(digests)
 
 
+# Name of the error of a quantity that each source carries by derivatives alone.
 FIRST_ORDER = "{}_first_order"
-"""Name of the error of a quantity that each source carries by derivatives alone."""
 _MODELS = ("chain", "direct")
+# Inputs that may be varied beside the samples: those of the load, the same samples at each.
 SAMPLED_OVER = ("speed", "pressure")
-"""Inputs that may be varied beside the samples: those of the load, the same samples at each."""
-
+# Models by the word of a case for one or both of them.
 BOTH = {"chain": ("chain",), "direct": ("direct",), "both": _MODELS}
-"""Models by the word of a case for one or both of them."""
 
 
 @dataclass(frozen=True)
@@ -245,8 +237,8 @@ class Plan:
     seed: int
     models: tuple[str, ...]
     axis: Axis | None
+    # Estimated relative error of a direct contact; None: that of its first full grid.
     tolerance: float | None
-    """Estimated relative error of a direct contact; None: that of its first full grid."""
 
     @property
     def key(self) -> str:

@@ -38,25 +38,22 @@ from gripscale.questions.answer.waves import answer_of_waves
 from gripscale.questions.uncertainty.sources import GRID_PLACE, Source
 from gripscale.questions.uncertainty.variance_shares import shares
 
+# End of the name of the half width without errors of the inputs, as `gripscale run` states it.
 OF_RUN = "half_width_of_run"
-"""End of the name of the half width without errors of the inputs, as `gripscale run` states it."""
+# Name of the share of the friction in waves shorter than the `resolution_limit` [m].
 FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
-"""Name of the share of the friction in waves shorter than the `resolution_limit` [m]."""
+# Sources that are errors of the answer itself, too; and what no source does alone.
 ROAD, GRID, REST = "profile", "grid", "together"
-"""Sources that are errors of the answer itself, too; and what no source does alone."""
+# What tables call `REST`: beside sources, and where the samples are too few to tell them apart.
 NOT_ALONE, TOGETHER = "none of them alone", "all inputs together"
-"""What tables call `REST`: beside sources, and where the samples are too few to tell them apart."""
 
 
 class SampledError(NamedTuple):
     """What samples say of the logarithm of one number [-]."""
 
-    errors: list[LogError]
-    """Independent errors, which add up in squares."""
-    variance: dict[str, float]
-    """Of each source, and `REST`."""
-    share_error: dict[str, float]
-    """Standard error of the variance of a source."""
+    errors: list[LogError]  # independent errors, which add up in squares
+    variance: dict[str, float]  # of each source, and `REST`
+    share_error: dict[str, float]  # standard error of the variance of a source
 
 
 def sampled_error(

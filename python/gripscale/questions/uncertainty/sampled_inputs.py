@@ -16,10 +16,7 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import checks, provenance
-from gripscale.core.checks import Checked
-from gripscale.core.errors import InputError
-from gripscale.core.units import parse_quantity
+from gripscale.core import Checked, InputError, checks, parse_quantity, provenance
 from gripscale.experiment.task import Task
 from gripscale.model import Load, Model, OnProgress
 from gripscale.questions.vary.axis import plain_number
@@ -75,8 +72,8 @@ class RefinableLongerLoaded(LongerLoaded):
         return loaded_longer(self.solver.coarser(), self.factor)
 
 
+# Arguments of `fit_sines` that say where the waves end.
 END_KEYS = ("cut_off", "smallest_wavelength")
-"""Arguments of `fit_sines` that say where the waves end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,10 +85,9 @@ class Measurement:
     load: Load
     master: MasterCurve | None = None
     fit: PronyFit | None = None
-    temperature: float | None = None
-    """Before the contact [K]; None where it is not known."""
+    temperature: float | None = None  # before the contact [K]; None where it is not known
+    # Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known.
     cleaning: Mapping[str, Any] = field(default_factory=dict)
-    """Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known."""
 
     @classmethod
     def of(cls, case: Case) -> Measurement:
@@ -122,8 +118,7 @@ class CleanedProfiles:
     """The profiles of a case, cleaned in another way."""
 
     profiles: Sequence[Profile]
-    counted: Mapping[str, Any]
-    """Arguments of `height_difference`."""
+    counted: Mapping[str, Any]  # arguments of `height_difference`
 
     @cached_property
     def correlation(self) -> HeightDifference:
@@ -137,24 +132,18 @@ class Inputs:
 
     surface: Surface
     rubber: Rubber
-    fit: Mapping[str, Any] = field(default_factory=dict)
-    """Arguments of `fit_sines`."""
+    fit: Mapping[str, Any] = field(default_factory=dict)  # arguments of `fit_sines`
+    # Gives profiles before cleaning, where their heights are not those measured.
     raw: Callable[[], Sequence[Profile]] | None = None
-    """Gives profiles before cleaning, where their heights are not those measured."""
+    # The profiles, where they are not cleaned as in the case.
     cleaned: CleanedProfiles | None = None
-    """The profiles, where they are not cleaned as in the case."""
-    recorrelated: Callable[[], HeightDifference] | None = None
-    """Gives C_z of drawn blocks."""
-    redrawn: Callable[[], tuple[Profile, ...]] | None = None
-    """Gives profiles of drawn blocks."""
+    recorrelated: Callable[[], HeightDifference] | None = None  # gives C_z of drawn blocks
+    redrawn: Callable[[], tuple[Profile, ...]] | None = None  # gives profiles of drawn blocks
+    # Whether gaps of the profiles are filled by cubics without a kink, not by straight lines.
     smooth_gaps: bool = False
-    """Whether gaps of the profiles are filled by cubics without a kink, not by straight lines."""
-    load_time_factor: float = 1.0
-    """How much longer each wave is loaded than the model says [-]."""
-    warming: float = 0.0
-    """Above the temperature before the contact [K]."""
-    log_pressure: float = 0.0
-    """Logarithm of the nominal pressure over that of the load [-]."""
+    load_time_factor: float = 1.0  # how much longer each wave is loaded than the model says [-]
+    warming: float = 0.0  # above the temperature before the contact [K]
+    log_pressure: float = 0.0  # logarithm of the nominal pressure over that of the load [-]
 
     @classmethod
     def of(cls, measurement: Measurement) -> Inputs:

@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gripscale.case import Case
-from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, checks
 from gripscale.questions.uncertainty.options import UncertaintyOptions
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sources import (

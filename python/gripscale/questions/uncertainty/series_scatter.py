@@ -28,12 +28,10 @@ from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
 from gripscale.rubber.prony import DECADES_BEYOND, largest_modulus, open_equations
 
-_FEWEST_BLOCKS = 8
-"""Blocks there are at least to draw from."""
+_FEWEST_BLOCKS = 8  # blocks there are at least to draw from
+# Fits after which the scatter, in whose units the equations are, is that about their solution.
 _PASSES = 3
-"""Fits after which the scatter, in whose units the equations are, is that about their solution."""
-MOST_TAKEN = 0.75
-"""Share of the degrees of freedom a fit is believed to take at most."""
+MOST_TAKEN = 0.75  # share of the degrees of freedom a fit is believed to take at most
 
 
 @dataclass(frozen=True, eq=False)

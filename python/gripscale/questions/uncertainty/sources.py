@@ -12,9 +12,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from gripscale.core import checks
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
+from gripscale.core import Array, InputError, checks
 from gripscale.questions.uncertainty import sampled_inputs as quantities
 from gripscale.questions.uncertainty.options import pressure_error
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
@@ -25,8 +23,8 @@ from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
 from gripscale.surface.low_pass import followed
 from gripscale.surface.sines import FACTOR_RANGE
 
+# Sources whose standard error a case must state: nothing in it says how large it is.
 STATED = ("height_noise", "temperature", "pressure")
-"""Sources whose standard error a case must state: nothing in it says how large it is."""
 NOT_STATED = "standard error not stated"
 
 
@@ -71,13 +69,10 @@ class SourceNotApplicable(InputError):
     """A source has nothing to draw in a case; the message says why."""
 
 
-Drawn = tuple[Inputs, Sequence[float]]
-"""The inputs with one draw, and the coordinates of the draw."""
-
+Drawn = tuple[Inputs, Sequence[float]]  # the inputs with one draw, and the coordinates of the draw
+# Draws from a quantile, above 0 and below 1 and spread evenly over all samples, the random numbers
+# of one sample and its inputs.
 Draw = Callable[[float, np.random.Generator, Inputs], Drawn]
-"""Draws from a quantile, above 0 and below 1 and spread evenly over all samples, the random numbers
-of one sample and its inputs."""
-
 Prepare = Callable[[Measurement, SourceOptions], Draw]
 
 
@@ -90,15 +85,12 @@ class Source:
     """
 
     name: str
-    label: str
-    """In words, for tables and figures."""
-    models: tuple[str, ...]
-    """Names of the models it has an effect on."""
+    label: str  # in words, for tables and figures
+    models: tuple[str, ...]  # names of the models it has an effect on
     coordinates: Mapping[str, Coordinate]
+    # Makes what draws; raises `SourceNotApplicable`, or `InputError` for options of no use.
     prepare: Prepare
-    """Makes what draws; raises `SourceNotApplicable`, or `InputError` for options of no use."""
-    draw: Draw | None = None
-    """None before the source is that of a case."""
+    draw: Draw | None = None  # none before the source is that of a case
 
     @property
     def freedom(self) -> float | None:
@@ -115,10 +107,10 @@ class BlockDraw:
     """Draws another stretch of the same road, see `ProfileBlocks`; blocks have no order."""
 
     blocks: ProfileBlocks
+    # Of profiles that many samples share.
     _recut: MutableMapping[CleanedProfiles, ProfileBlocks] = field(
         default_factory=WeakKeyDictionary
     )
-    """Of profiles that many samples share."""
 
     @property
     def freedom(self) -> float:
@@ -142,9 +134,9 @@ class BlockDraw:
 
 _BOTH = ("chain", "direct")
 
+# In the order of the functions below, in which they are drawn: noisy profiles are cleaned and cut
+# into blocks, the waves are fitted last.
 SOURCES: dict[str, Source] = {}
-"""In the order of the functions below, in which they are drawn: noisy profiles are cleaned and cut
-into blocks, the waves are fitted last."""
 
 
 def _source(
@@ -214,11 +206,10 @@ def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
 
 
 USUAL_SPIKE = 3.0
+# Change of height per step at which a spike stands off: half of the usual marks narrow crests,
+# three times of it leaves many spikes of a laser standing.
 SPIKE_RANGE = (1.5, 10.0)
-"""Change of height per step at which a spike stands off: half of the usual marks narrow crests,
-three times of it leaves many spikes of a laser standing."""
-SPIKE_LEVELS = 8
-"""Limits a range is drawn at: the profiles are cleaned once for each."""
+SPIKE_LEVELS = 8  # limits a range is drawn at: the profiles are cleaned once for each
 
 
 @_source(
@@ -283,8 +274,7 @@ def _profile(measurement: Measurement, options: SourceOptions) -> Draw:
     return BlockDraw(blocks)
 
 
-GRID_PLACE = "grid_place"
-"""Coordinate of the source `grid`."""
+GRID_PLACE = "grid_place"  # coordinate of the source `grid`
 
 
 @_source(
@@ -331,9 +321,9 @@ def _modulus(measurement: Measurement, options: SourceOptions) -> Draw:
     return draw
 
 
+# Of rubbers it lies between 1 and 3 GPa (A. N. Gent, Engineering with Rubber, 3rd ed. (2012), ch.
+# 1); 1.5 times more or less than the usual 2 GPa covers that range.
 BULK_MODULUS_FACTOR = 1.5
-"""Of rubbers it lies between 1 and 3 GPa (A. N. Gent, Engineering with Rubber, 3rd ed. (2012), ch.
-1); 1.5 times more or less than the usual 2 GPa covers that range."""
 
 
 @_source("bulk modulus", bulk_modulus=Coordinate("bulk modulus", "Pa", False))
@@ -384,9 +374,9 @@ def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
     return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, log_pressure=value))
 
 
+# The passage of the contact above, t_i = A_(i-1)/v, is the order of a time, not its value: contacts
+# are shorter and longer than their mean.
 LOAD_TIME_FACTOR = 2.0
-"""The passage of the contact above, t_i = A_(i-1)/v, is the order of a time, not its value:
-contacts are shorter and longer than their mean."""
 
 
 @_source(
@@ -420,8 +410,8 @@ def _cut_off(measurement: Measurement, options: SourceOptions) -> Draw:
     return _number(options.range_of("cut_off", quantities.length, usual).at, Inputs.ended_at)
 
 
+# Arguments of a fit that leave no choice of waves.
 CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
-"""Arguments of a fit that leave no choice of waves."""
 
 
 @_source(

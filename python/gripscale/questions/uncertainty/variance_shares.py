@@ -31,13 +31,10 @@ from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array
 
+# Standard errors by which a share must exceed zero, or another share: 95 %, one side.
 SIGNIFICANCE = 1.645
-"""Standard errors by which a share must exceed zero, or another share: 95 %, one side."""
-
-SAMPLES_PER_TERM = 3
-"""Samples there must be for each term of the fit."""
-SWING = (0.05, 0.95)
-"""Quantiles of the effect of a source that tables and figures show."""
+SAMPLES_PER_TERM = 3  # samples there must be for each term of the fit
+SWING = (0.05, 0.95)  # quantiles of the effect of a source that tables and figures show
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,9 +20,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import BelowMeasurement, Case
 from gripscale.conditions.conditions import Conditions
-from gripscale.core.checks import Checked, checked
-from gripscale.core.errors import InputError
-from gripscale.core.labels import labelled
+from gripscale.core import Checked, InputError, checked, labelled
 from gripscale.experiment.design import solve_design, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
@@ -41,12 +39,9 @@ from gripscale.questions.vary.speed_and_temperature import in_decades
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface, SurfacePart
 
-OCTAVE_UNIT = 1e-3
-"""Length [m] of which the lower ends of octaves are multiples by powers of two."""
-
-
+OCTAVE_UNIT = 1e-3  # length [m] of which the lower ends of octaves are multiples by powers of two
+# xarray silences warnings of missing numbers in all threads at once: one of them at a time.
 _REDUCING = threading.Lock()
-"""xarray silences warnings of missing numbers in all threads at once: one of them at a time."""
 
 
 class AnswerModel(Checked, model.Model):

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.core import checks
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, checks
 from gripscale.core.units import (
     GIVEN,
     KEYS,
@@ -26,6 +25,7 @@ from gripscale.model import MOST_CLASSES
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
 
+# Axes of numbers, with the kind of quantity.
 _QUANTITIES = {
     "speed": "speed",
     "pressure": "pressure",
@@ -34,17 +34,13 @@ _QUANTITIES = {
     "cut_off": "length",
     "thickness": "length",
 }
-"""Axes of numbers, with the kind of quantity."""
 
-COLDEST = 100.0
-"""Temperature [K] below which a number without a unit is taken for degrees."""
-
+COLDEST = 100.0  # temperature [K] below which a number without a unit is taken for degrees
+# Axes of whole numbers, with the largest.
 COUNTS = {"waves": MOST_SINE_WAVES, "pressure_classes": MOST_CLASSES}
-"""Axes of whole numbers, with the largest."""
+_NUMBERS = (*_QUANTITIES, *COUNTS, "top_height_fraction")  # axes whose values are numbers
 
-_NUMBERS = (*_QUANTITIES, *COUNTS, "top_height_fraction")
-"""Axes whose values are numbers."""
-
+# All axes.
 LONG_NAMES = {
     "speed": "sliding speed",
     "pressure": "nominal pressure",
@@ -60,18 +56,17 @@ LONG_NAMES = {
     "rubber": "rubber",
     "surface": "surface",
 }
-"""All axes."""
 
 _SI = {"speed": "m/s", "pressure": "Pa", "temperature": "K", "length": "m"}
+# All axes, with the units of their values.
 AXIS_UNITS = {name: _SI.get(_QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
-"""All axes, with the units of their values."""
 
+# Numeric axes by name, and what they are called in tables and figures.
 AXIS_LABELS = {name: LONG_NAMES[name] for name in _NUMBERS} | {
     "speed": "sliding speed $v$",
     "pressure": "nominal pressure $p$",
     "temperature": "temperature $T$",
 }
-"""Numeric axes by name, and what they are called in tables and figures."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +76,7 @@ class Axis:
     name: str
     values: tuple[Any, ...]
     labels: tuple[str, ...]
-    unit: str = ""
-    """The unit the values were given in; empty for plain numbers."""
+    unit: str = ""  # the unit the values were given in; empty for plain numbers
 
     @property
     def numeric(self) -> bool:
@@ -174,14 +168,15 @@ def _cut_off(name: str, value: Any) -> CutOffRule:
         raise InputError(f"{name} = {value!r}: {error}") from error
 
 
+# Numeric axes that are shown in one way whatever was given, and their units in words.
 FIXED = {
     "temperature": DisplayUnit("°C", zero=ZERO_CELSIUS),
     "top_height_fraction": DisplayUnit("of the heights"),
     "pressure_classes": DisplayUnit("pressure classes"),
     "waves": DisplayUnit("waves"),
 }
-"""Numeric axes that are shown in one way whatever was given, and their units in words."""
 
+# Axes that may have names for values.
 WORDS = {
     "cut_off": "where the roughness ends",
     "effects": "effects",
@@ -189,13 +184,10 @@ WORDS = {
     "rubber": "rubber",
     "surface": "surface",
 }
-"""Axes that may have names for values."""
 
-MODELS = {"chain": "chain", "direct": "direct contact"}
-"""What models that know effects are called."""
-
+MODELS = {"chain": "chain", "direct": "direct contact"}  # what models that know effects are called
+# What selections of effects are called where nothing else says what they are of.
 EFFECTS = {"all": "all effects", "none": "no effects"}
-"""What selections of effects are called where nothing else says what they are of."""
 
 
 def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
@@ -265,6 +257,7 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
 MOST_VALUES = 1000
 MOST_AXES = 2
 
+# Ranges of the quantities.
 _EXAMPLES = {
     "speed": "0.01 m/s:10 m/s:log7",
     "pressure": "1 bar:5 bar:lin5",
@@ -273,7 +266,6 @@ _EXAMPLES = {
     "cut_off": "0.1 mm:1 mm:log4",
     "thickness": "1 mm:8 mm:log4",
 }
-"""Ranges of the quantities."""
 
 _RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
 

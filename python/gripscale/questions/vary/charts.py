@@ -47,10 +47,9 @@ from gripscale.questions.words import AXIS_TITLES, believed, is_estimated
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# Curves of a chart of the page, evenly spaced among more; and names in a legend on paper.
 _MOST_CURVES = 12
-"""Curves of a chart of the page, evenly spaced among more; and names in a legend on paper."""
-MOST_BANDS = 3
-"""Curves beyond which intervals would cover each other, and are not drawn."""
+MOST_BANDS = 3  # curves beyond which intervals would cover each other, and are not drawn
 _ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
 INTERVAL = "90 % interval"
 
@@ -276,8 +275,8 @@ def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
 
 
 _AREA = "real contact area $A_r/A_0$"
+# Octaves and decades that never reach this share of the friction are not drawn.
 _LEAST_SHARE = 0.005
-"""Octaves and decades that never reach this share of the friction are not drawn."""
 
 
 def _stacked(
@@ -356,8 +355,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
 
 
-_FINE = 120
-"""Points along each side of a map between those that were solved."""
+_FINE = 120  # points along each side of a map between those that were solved
 
 
 def _finer(log: bool, x: Array, y: Array, values: Array) -> tuple[Array, Array, Array]:

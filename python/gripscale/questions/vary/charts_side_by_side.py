@@ -24,12 +24,11 @@ if TYPE_CHECKING:
 
     from gripscale.rubber import Rubber
 
+# Of the largest difference: decades at either end with less are not drawn.
 LEAST_MODULUS_SHARE = 0.005
-"""Of the largest difference: decades at either end with less are not drawn."""
 MOST_TICKS = 4
 CUBIC_MM = 1e-9
-LEAST_POWER_SHARE = 0.02
-"""Share of the largest friction of an octave from which one is drawn."""
+LEAST_POWER_SHARE = 0.02  # share of the largest friction of an octave from which one is drawn
 _RANKING = (
     "Friction over that of the first, with the 90 % interval of the ratio, and μ below it; "
     "friction of all waves down to each wavelength"

@@ -16,8 +16,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain.prediction import ChainResult
-from gripscale.core import provenance
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, provenance
 from gripscale.experiment.design import (
     CHANGES,
     WITH_AREA_TERM,
@@ -132,8 +131,7 @@ def effects(
     )
 
 
-EFFECTS_FILE = "effects_{model}.nc"
-"""What they are kept in, beside the result."""
+EFFECTS_FILE = "effects_{model}.nc"  # what they are kept in, beside the result
 
 
 def case_effects(

@@ -30,8 +30,7 @@ from typing import ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.labels import labelled
+from gripscale.core import Array, ComplexArray, labelled
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
@@ -48,22 +47,17 @@ from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-ERROR_RATIO = 0.4
-"""Error after halving the spacing over the change by it, as in `grid_sequence`."""
-EXTREME = 3.0
-"""Standard deviations of an admissible series from the best one."""
+ERROR_RATIO = 0.4  # error after halving the spacing over the change by it, as in `grid_sequence`
+EXTREME = 3.0  # standard deviations of an admissible series from the best one
 
 
 @dataclass(frozen=True)
 class FrictionRatio:
     """Logarithm of the friction of one compound or road over that of another, and its error."""
 
-    log_ratio: float
-    """G [-]."""
-    sigma: float
-    """Standard error of G [-]; NaN if it is not known."""
-    freedom: float = math.inf
-    """Degrees of freedom of the standard error."""
+    log_ratio: float  # G [-]
+    sigma: float  # standard error of G [-]; NaN if it is not known
+    freedom: float = math.inf  # degrees of freedom of the standard error
 
     @classmethod
     def of_sources(
@@ -111,8 +105,7 @@ def coarse_friction(contact: RoughContact) -> float:
     return same[-2:][0].friction_from_dissipation
 
 
-NODES_PER_DECADE = 100
-"""Frequencies at which ratios of moduli are taken."""
+NODES_PER_DECADE = 100  # frequencies at which ratios of moduli are taken
 
 
 def series_changes(contact: RoughContact, best: Rubber) -> Array:
@@ -170,6 +163,7 @@ def answer_with_contacts(
     return DirectContact.predict(model, rubber, surface, load, on_progress=keep), contacts
 
 
+# Names and meanings of what a `ComparedContact` answers with beside a direct contact.
 RATIO_BASIS = {
     "profile_friction_from_dissipation": "friction coefficient of a profile from the energy lost",
     "profile_friction": "friction coefficient of a profile from the contact traction",
@@ -178,7 +172,6 @@ RATIO_BASIS = {
     "piece_residual": "friction less load of a piece of a profile, as shares in the whole",
     "series_change": "change of ln μ by an admissible series of the rubber",
 }
-"""Names and meanings of what a `ComparedContact` answers with beside a direct contact."""
 
 
 class ComparedContact(DirectContact):

@@ -19,12 +19,11 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 
+# Attribute of a comparison of compounds: the temperature that all of them hold for [K].
 TEMPERATURE = "temperature_K"
-"""Attribute of a comparison of compounds: the temperature that all of them hold for [K]."""
+# Attribute of what stands side by side: how inputs were read, a line each.
 READING_NOTES = "reading_notes"
-"""Attribute of what stands side by side: how inputs were read, a line each."""
-OF_THE_CASE = "case"
-"""What stands for the surface or the rubber of the case itself."""
+OF_THE_CASE = "case"  # what stands for the surface or the rubber of the case itself
 _NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
 
 
@@ -73,9 +72,8 @@ def identity(value: Any) -> Any:
     return value if isinstance(value, str) else canonical_json(value)
 
 
+# What conditions do to the contact; the area term does nothing to it.
 _EFFECTS = ("temperature", "softening", "heat", "water")
-"""What conditions do to the contact; the area term does nothing to it."""
-
 ALL_EFFECTS, NO_EFFECTS = "all", "none"
 
 
@@ -118,8 +116,8 @@ def rubber_before(rubber: Rubber, model: Model) -> Rubber:
 
 
 NAMED_MODELS = (Chain.name, DirectContact.name)
+# Inputs that no other model of a case depends on.
 OF_THE_CHAIN = ("factors", "waves", "pressure_classes")
-"""Inputs that no other model of a case depends on."""
 
 
 def default_model(case: Case, varied: Mapping[str, Sequence[Any]] | None = None) -> str:

@@ -27,10 +27,8 @@ from gripscale.report.elements import Card, Element, Facts, Page, Section
 from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure, explained, failures_in
 
-_MOST_ROWS = 200
-"""Predictions in the terminal; a page has all of them."""
-ONE_CURVE = 1e-3
-"""Relative distance up to which temperatures over a_T v are one curve."""
+_MOST_ROWS = 200  # predictions in the terminal; a page has all of them
+ONE_CURVE = 1e-3  # relative distance up to which temperatures over a_T v are one curve
 COLLAPSING = {"total_friction": "friction", "total_contact_fraction": "A_r/A_0"}
 
 
@@ -245,8 +243,7 @@ def study_failures(data: xr.Dataset) -> Iterator[Failure]:
             yield Failure(f"{where}: no total")
 
 
-_NAMED_FAILURES = 12
-"""Failed predictions that have a finding each."""
+_NAMED_FAILURES = 12  # failed predictions that have a finding each
 
 
 def study_findings(data: xr.Dataset) -> Iterator[Finding]:

@@ -21,10 +21,9 @@ from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.elements import Card, percent_text
 
-_SAME = 0.03
-"""Relative change that is none."""
+_SAME = 0.03  # relative change that is none
+# Models in words; others by their names.
 _MODELS = {"chain": "chain of sine waves", "direct": "direct contact of the measured surface"}
-"""Models in words; others by their names."""
 
 
 def study_lines(data: xr.Dataset) -> Iterator[str]:

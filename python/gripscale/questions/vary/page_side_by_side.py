@@ -27,10 +27,9 @@ from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.equations import method_section
 
-CALLED = {"surface": "road", "rubber": "compound"}
-"""What stands side by side along a dimension."""
+CALLED = {"surface": "road", "rubber": "compound"}  # what stands side by side along a dimension
+# Confidence from which one lies over another, as outside of a two-sided 90 % interval.
 SIGNIFICANT = 0.95
-"""Confidence from which one lies over another, as outside of a two-sided 90 % interval."""
 _CERTAIN = 0.995
 
 

@@ -17,9 +17,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core.arrays import Array
-from gripscale.core.errors import InputError
-from gripscale.core.units import celsius
+from gripscale.core import Array, InputError, celsius
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.model import input_doubts
@@ -42,20 +40,17 @@ from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
 from gripscale.surface.texture import textures
 
-_SAME = 0.5
-"""Temperatures that differ by less are one [K]: 20 °C and 293 K."""
-_PER_DECADE = 12
-"""Lags and wavenumbers at which roads are drawn together."""
+_SAME = 0.5  # temperatures that differ by less are one [K]: 20 °C and 293 K
+_PER_DECADE = 12  # lags and wavenumbers at which roads are drawn together
 FEWEST_COMPARED, MOST_COMPARED = 2, 6
-NORMAL = 1.645
-"""Half width of a 90 % interval over a standard error."""
+NORMAL = 1.645  # half width of a 90 % interval over a standard error
+# Names and meanings of what is said of each pair.
 RANKED = {
     "friction_ratio": "friction over that of `over`",
     "friction_ratio_low": "low end of its 90 % interval",
     "friction_ratio_high": "high end of its 90 % interval",
     "confidence": "probability that the friction is larger than that of `over`",
 }
-"""Names and meanings of what is said of each pair."""
 
 
 def compare_compounds(

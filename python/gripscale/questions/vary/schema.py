@@ -41,15 +41,12 @@ class Role(StrEnum):
 class StudyVariable(NamedTuple):
     """One variable of a study."""
 
-    label: str
-    """What a page calls it."""
+    label: str  # what a page calls it
     role: Role = Role.NUMBER
+    # `friction` or `contact_fraction`, of what is one of the two numbers of an answer.
     measures: str = ""
-    """`friction` or `contact_fraction`, of what is one of the two numbers of an answer."""
-    running: bool = False
-    """Whether it counts a wave and all longer ones."""
-    at_rest: bool = True
-    """Whether rubber at rest has it."""
+    running: bool = False  # whether it counts a wave and all longer ones
+    at_rest: bool = True  # whether rubber at rest has it
 
 
 _WORDS = {name: f"{HEADINGS[name]} {SYMBOLS[name]}" for name in ESTIMATED} | {
@@ -86,6 +83,7 @@ def _of_answer() -> Iterator[tuple[str, StudyVariable]]:
             yield f"total_{name}_{end}", StudyVariable(label, Role.EVIDENCE, at_rest=rest)
 
 
+# Further numbers of rubber that slides.
 _NUMBERS = {
     "total_friction_from_dissipation": "μ from the energy lost",
     FRICTION_OUTSIDE_BAND: "share of μ beyond the measured band",
@@ -97,7 +95,6 @@ _NUMBERS = {
     "friction_by_decade": "friction μ of relaxation times",
     "octave_friction": "friction μ of octaves of wavelength",
 }
-"""Further numbers of rubber that slides."""
 _OF_A_SLIDING_WAVE = (
     *("sliding_speed", "load_time"),
     *("friction_from_dissipation", "friction_error", "friction_bound", "friction_mismatch"),
@@ -113,6 +110,7 @@ _MOVING |= {
 _MOVING |= {
     name: StudyVariable(name.replace("_", " "), at_rest=False) for name in _OF_A_SLIDING_WAVE
 }
+# Numbers of each wave that are drawn.
 PER_WAVE = {
     "running_contact_fraction": StudyVariable(
         "A_r/A_0 down to the wave", measures="contact_fraction", running=True
@@ -123,7 +121,6 @@ PER_WAVE = {
     "contact_fraction": StudyVariable("contact fraction of each wave", measures="contact_fraction"),
     "friction": StudyVariable("friction μ of each wave", measures="friction", at_rest=False),
 }
-"""Numbers of each wave that are drawn."""
 _COMMON = {
     "total_contact_fraction_cut_off_exponent": StudyVariable("d ln(A_r/A_0) / d ln λ_min"),
     STATUS: StudyVariable("status", Role.STATUS),
@@ -136,8 +133,8 @@ _BASIS |= {
     f"answer_{name}": StudyVariable(name.replace("_", " "), Role.EVIDENCE, at_rest=False)
     for name in BASIS_SHARES
 }
+# All variables that a study knows, of rubber that slides.
 VARIABLES = dict(_of_answer()) | _MOVING | PER_WAVE | _COMMON | _BASIS
-"""All variables that a study knows, of rubber that slides."""
 
 
 def rest_name(name: str) -> str:

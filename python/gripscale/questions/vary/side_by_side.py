@@ -25,8 +25,7 @@ if TYPE_CHECKING:
 class SideBySide(Result):
     """Answers of several roads or compounds, ranked by their friction."""
 
-    dim: ClassVar[str]
-    """Dimension of what stands side by side."""
+    dim: ClassVar[str]  # dimension of what stands side by side
 
     @property
     def notes(self) -> Sequence[str]:

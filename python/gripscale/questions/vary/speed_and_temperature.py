@@ -44,27 +44,22 @@ if TYPE_CHECKING:
 
 _Curve = tuple[Array, Array]
 
+# Largest e at which two curves are compared, points of a curve in a power of ten of its abscissa
+# that this needs, and the least relative error of the interpolation.
 PRECISE, ROUGH = (4e-4, 6, 0.0), (0.01, 2, 0.052)
-"""Largest e at which two curves are compared, points of a curve in a power of ten of its abscissa
-that this needs, and the least relative error of the interpolation."""
-NEAREST, FEWER = 6, 4
-"""Points of the interpolation, and of the one that tells its error."""
-_SAME = 1e-9
-"""Difference of two logarithms that is rounding."""
+NEAREST, FEWER = 6, 4  # points of the interpolation, and of the one that tells its error
+_SAME = 1e-9  # difference of two logarithms that is rounding
 
 
 @dataclass(frozen=True)
 class Collapse:
     """How far curves lie apart where they overlap."""
 
+    # Largest, relative to the curve that has a point there [-]; NaN if nothing can be compared.
     distance: float
-    """Largest, relative to the curve that has a point there [-]; NaN if nothing can be compared."""
-    interpolation_error: float
-    """Largest estimated error of what was compared [-]."""
-    points: int
-    """Compared."""
-    overlapping: int
-    """Points at which two curves overlap, those between too coarse points included."""
+    interpolation_error: float  # largest estimated error of what was compared [-]
+    points: int  # compared
+    overlapping: int  # points at which two curves overlap, those between too coarse points included
 
 
 def collapse(curves: Sequence[tuple[ArrayLike, ArrayLike]]) -> Collapse:
@@ -128,11 +123,11 @@ def _interpolated(x: float, abscissas: Array, values: Array, count: int) -> floa
 
 BEYOND_SHIFT = "rubber_temperature_extrapolated"
 REDUCED_SPEED = "reduced_speed"
+# Names of how far the temperatures lie apart over the reduced speed.
 COLLAPSED = {
     "total_friction": "friction_collapse",
     "total_contact_fraction": "contact_fraction_collapse",
 }
-"""Names of how far the temperatures lie apart over the reduced speed."""
 
 
 def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.DataArray]:
@@ -200,13 +195,10 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
 # it and half way to its neighbours. Where it only stood for its own, a whole share would jump from
 # one decade into the next as a temperature shifts the times.
 
-ON_EDGE = 1e-9
-"""Decades by which rounding may move an end over the edge of a decade."""
-_HARMONICS = 32
-"""Harmonics of the contact pressure that count."""
-
+ON_EDGE = 1e-9  # decades by which rounding may move an end over the edge of a decade
+_HARMONICS = 32  # harmonics of the contact pressure that count
+# Decades up to which an element is a neighbour: further away is another process of relaxation.
 NEAR = 1.0
-"""Decades up to which an element is a neighbour: further away is another process of relaxation."""
 
 
 def friction_by_decade(solved: xr.Dataset, rubber: Rubber) -> dict[int, float]:

@@ -22,8 +22,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.core import provenance
-from gripscale.core.errors import InputError
+from gripscale.core import InputError, provenance
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.design import SURFACE, Design, Point, basis_numbers, variable_attributes
@@ -46,11 +45,10 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
 
-_RENAMED = {"temperature": "wave_temperature"}
-"""Variables over waves that have the name of an axis."""
+_RENAMED = {"temperature": "wave_temperature"}  # variables over waves that have the name of an axis
 _OF_THE_LOAD = ("nominal_pressure", "nominal_speed", "footprint", "thickness")
+# Ends of the roughness, which are stated once where all predictions have them in common.
 _COMMON = ("cutoff_wavelength", CONTINUED_TO)
-"""Ends of the roughness, which are stated once where all predictions have them in common."""
 
 
 def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
@@ -125,11 +123,9 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
     return coords
 
 
+# Inputs that vary the waves of a surface.
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
-"""Inputs that vary the waves of a surface."""
-
-STUDY_FILE = "study.nc"
-"""The Dataset, in the folder of the study."""
+STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
 
 
 class Study:
