@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import shutil
+
 import numpy as np
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
+import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.cli import app
 from gripscale.core.errors import InputError
@@ -94,6 +98,23 @@ def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
     )
     assert told == {True: ANSWERED - 1, False: 1}
     np.testing.assert_array_equal(again.friction, data.friction)
+
+
+def test_the_answer_without_the_errors_comes_before_the_samples(folder, run, tmp_path):
+    """It is that of a run: its interval holds no error of the inputs."""
+    _, target, _ = run
+    shutil.copytree(target / "predictions", tmp_path / "predictions")
+    told: list[object] = []
+    case = read_case(folder / "case.toml")
+    choice = {"samples": 12, "models": ["chain"], "folder": tmp_path}
+    propagate(case, QUICK, **choice, on_answer=told.append, on_task=told.append)
+    (at,) = (i for i, each in enumerate(told) if isinstance(each, xr.Dataset))
+    assert 0 < at < len(told) - 12
+    assert len(told) == ANSWERED + 1
+    own = gs.answer(case)
+    assert float(told[at].answer_friction) == pytest.approx(own.friction, rel=1e-12)
+    width = float(told[at].answer_friction_half_width)
+    assert width == pytest.approx(float(own.data.answer_friction_half_width), nan_ok=True)
 
 
 @pytest.fixture(scope="module")

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from gripscale import terminal
 from gripscale.core.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @terminal.case_command
@@ -79,6 +82,7 @@ def uncertainty_command(
     from gripscale.core.parallel import worker_count
     from gripscale.experiment.solve import PROCESSES
     from gripscale.half_space.model import DirectContact
+    from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.uncertainty import question
     from gripscale.questions.uncertainty.propagation import BOTH, SAMPLED_OVER, stated_models
     from gripscale.questions.uncertainty.sampled_inputs import length
@@ -98,6 +102,14 @@ def uncertainty_command(
     if cluster is None and DirectContact.name in models and worker_count(workers) > 1:
         cluster = PROCESSES
     work.open_results(output, "uncertainty", f"Uncertainty of {work.file.path}")
+
+    def print_answer(answer: xr.Dataset) -> None:
+        """Print the answer without the errors of the inputs, while samples are solved."""
+        lead, *_ = answer_lines(answer)
+        number = lead.removeprefix("Answer: ")
+        lines = ["", f"Without the errors of the inputs: {number}", "Solving the samples ..."]
+        terminal.print_parts(work.console, lines)
+
     result = question.uncertainty(
         work.case,
         **options,
@@ -107,6 +119,7 @@ def uncertainty_command(
         vary=axes,
         tolerance=tolerance,
         client=cluster,
+        on_answer=print_answer,
         **work.solving(workers),
     )
     work.finish(result, "tables and figures")

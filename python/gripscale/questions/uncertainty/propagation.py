@@ -15,7 +15,7 @@ import json
 import math
 import tomllib
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,7 @@ from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
 
+OnAnswer = Callable[[xr.Dataset], None]
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # quantiles of the samples that a result holds
 
 # What each sample answers: its letters and its name.
@@ -269,6 +270,7 @@ def propagate(
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
+    on_answer: OnAnswer | None = None,
 ) -> xr.Dataset:
     """Sample what is not known of a case and predict each sample.
 
@@ -281,7 +283,7 @@ def propagate(
         The case; its speed is the one of the prediction.
     uncertainty : Uncertainty, optional
         What is taken to be uncertain; by default what the case states, or every source it has.
-    samples, seed, models, vary, tolerance, folder, workers, client, on_task
+    samples, seed, models, vary, tolerance, folder, workers, client, on_task, on_answer
         As for `gripscale.uncertainty`. The folder gets `uncertainty.nc`, and the predictions in
         `predictions`.
 
@@ -331,7 +333,7 @@ def propagate(
     chosen = plan.uncertainty.of(Measurement.of(case), plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        data = _answered(plan, chosen, bench)
+        data = _answered(plan, chosen, bench, on_answer)
     return data if path is None else netcdf.load_dataset(netcdf.save(data, path))
 
 
@@ -350,7 +352,9 @@ def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
     return BOTH[word]
 
 
-def _answered(plan: Plan, chosen: sampling.Chosen, bench: Bench) -> xr.Dataset:
+def _answered(
+    plan: Plan, chosen: sampling.Chosen, bench: Bench, on_answer: OnAnswer | None
+) -> xr.Dataset:
     """Return all samples, and the answer of the case at each load."""
     case, axis = plan.case, plan.axis
     usual = Inputs.of(Measurement.of(case))
@@ -366,7 +370,13 @@ def _answered(plan: Plan, chosen: sampling.Chosen, bench: Bench) -> xr.Dataset:
     tasks = design.tasks
     for reference in references:
         tasks |= {} if reference is None else reference.tasks
-    answers = bench.solve(tasks, sample_numbers)
+    first, *further = references
+    answers: dict[str, xr.Dataset] = {}
+    if on_answer is not None and first is not None and not further:
+        answers = bench.solve(first.tasks, sample_numbers)
+        on_answer(measured_answer(first.dataset(answers), case, case.load, None, [], {}))
+    tasks = {label: task for label, task in tasks.items() if task.key not in answers}
+    answers |= bench.solve(tasks, sample_numbers)
     values, logarithms = drawn_values(chosen.sources, drawn)
     data = uncertainty_dataset(design.dataset(answers), chosen, values, logarithms)
     answered = []

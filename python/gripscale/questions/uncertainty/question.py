@@ -18,7 +18,7 @@ from gripscale.questions.answer.answer import NumbersWithIntervals
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.uncertainty import page
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.propagation import propagate
+from gripscale.questions.uncertainty.propagation import OnAnswer, propagate
 from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
 from gripscale.report.elements import Page
 
@@ -83,6 +83,7 @@ def uncertainty(
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
+    on_answer: OnAnswer | None = None,
 ) -> SampledAnswer:
     """Return the answer of a case with the errors of its inputs, from samples of all at once.
 
@@ -116,6 +117,8 @@ def uncertainty(
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     workers, client, on_task
         As for `gripscale.experiment.Bench`.
+    on_answer : callable, optional
+        Called with the answer without the errors of the inputs, before any sample is solved.
     """
     choice = Uncertainty.of_case(
         stated_options(case), without=without, ranges=ranges, block_length=block_length
@@ -132,5 +135,6 @@ def uncertainty(
         workers=workers,
         client=client,
         on_task=on_task,
+        on_answer=on_answer,
     )
     return SampledAnswer(data)
