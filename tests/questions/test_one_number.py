@@ -229,7 +229,7 @@ def test_large_strain_is_no_second_answer() -> None:
 
 @pytest.mark.verification
 def test_uncertainty_has_it(asked: Asked) -> None:
-    sampled = gs.uncertainty(asked.case, samples=10)
+    sampled = gs.uncertainty(asked.case, samples=10, without=["profile"])  # too short to cut up
     assert asked.of(sampled.data) == pytest.approx(asked.expected, rel=1e-12)
 
 

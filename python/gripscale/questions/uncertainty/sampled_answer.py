@@ -176,31 +176,44 @@ def _with_parts(
 ) -> xr.Dataset:
     """Return an answer with what `run` says, and with the parts of its interval."""
     labels = {source.name: source.label for source in sources}
-    data: dict[str, xr.Variable] = {}
-    for name in ESTIMATED:
-        square = float(total[f"answer_{name}_uncertainty"]) ** 2
-        error = sampled.get(name, SampledError([], {}, {}))
-        parts: list[tuple[str, float, float]] = []
-        for source, variance in error.variance.items():
-            text = labels.get(source, NOT_ALONE if len(error.variance) > 1 else TOGETHER)
-            share_error = error.share_error.get(source, math.nan)
-            share_error = share_error / square if square > 0.0 else math.nan
-            parts.append((text, math.sqrt(variance), share_error))
-        if not of_road:
-            road = float(total[f"answer_{name}_sampling_error"])
-            parts.append(("stretch of surface measured", road, math.nan))
-        if math.isfinite(grid := float(total[f"answer_{name}_grid_error"])):
-            parts.append(("grid of the answer", grid, math.nan))
-        factors = total[f"answer_{name}_factor_uncertainty"].values.tolist()
-        for label, factor in zip(total.factor_label.values, factors, strict=True):
-            if math.isfinite(factor):
-                parts.append((f"factor: {label}", factor, math.nan))
-        texts, sigma, share = (np.array(column) for column in zip(*parts, strict=True))
-        about = {"units": "1"}
-        data["part_label"] = xr.Variable("part", texts.astype(object))
-        data[f"answer_{name}_part_error"] = xr.Variable("part", sigma, about)
-        data[f"answer_{name}_part_share_error"] = xr.Variable("part", share, about)
+    parts = {
+        name: _parts_of(total, name, sampled.get(name, SampledError([], {}, {})), labels, of_road)
+        for name in ESTIMATED
+    }
+    texts = list(dict.fromkeys(text for of_number in parts.values() for text in of_number))
+    data = {"part_label": xr.Variable("part", np.array(texts, dtype=object))}
+    for name, of_number in parts.items():
+        values = [of_number.get(text, (math.nan, math.nan)) for text in texts]
+        for end, column in zip(("error", "share_error"), np.transpose(values), strict=True):
+            data[f"answer_{name}_part_{end}"] = xr.Variable("part", column, {"units": "1"})
         data[f"answer_{name}_{OF_RUN}"] = of_run[f"answer_{name}_half_width"].variable
     if TOTAL in total:
         data[f"{TOTAL}_{OF_RUN}"] = of_run[f"{TOTAL}_half_width"].variable
     return total.assign(data)
+
+
+def _parts_of(
+    total: xr.Dataset,
+    name: str,
+    sampled: SampledError,
+    labels: Mapping[str, str],
+    of_road: bool,
+) -> dict[str, tuple[float, float]]:
+    """Return the parts of the interval of a number by label: standard error, and of its share."""
+    square = float(total[f"answer_{name}_uncertainty"]) ** 2
+    parts = {}
+    for source, variance in sampled.variance.items():
+        text = labels.get(source, NOT_ALONE if len(sampled.variance) > 1 else TOGETHER)
+        share_error = sampled.share_error.get(source, math.nan)
+        share_error = share_error / square if square > 0.0 else math.nan
+        parts[text] = (math.sqrt(variance), share_error)
+    if not of_road:
+        road = float(total[f"answer_{name}_sampling_error"])
+        parts["stretch of surface measured"] = (road, math.nan)
+    if math.isfinite(grid := float(total[f"answer_{name}_grid_error"])):
+        parts["grid of the answer"] = (grid, math.nan)
+    factors = total[f"answer_{name}_factor_uncertainty"].values.tolist()
+    for label, factor in zip(total.factor_label.values, factors, strict=True):
+        if math.isfinite(factor):
+            parts[f"factor: {label}"] = (factor, math.nan)
+    return parts
