@@ -91,7 +91,7 @@ TRAPS: dict[str, tuple[dict[str, Any], str]] = {
     "a support below": ({"road": with_plate(-9e-3)}, "mm below the road"),
     "a plate in the middle": (
         {"road": with_plate(12e-3, where=slice(900, 1200))},
-        "they carry the rubber in place of the road",
+        "they carry the rubber in place of the surface",
     ),
     "a crop that keeps the plate": (
         {

@@ -86,7 +86,7 @@ def test_a_bad_profile_is_refused_by_name(x, z, says):
 
 
 def test_the_same_measurement_counts_once():
-    """Twice the same line would halve the error from the sampling of the road."""
+    """Twice the same line would halve the error from the sampling of the surface."""
     x = 1e-3 * np.arange(50)
     first, second = (Profile(x, np.sin(k * x), name=f"station {k}") for k in (300, 400))
     Measured.of([first, second])

@@ -116,7 +116,7 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
     ends = "" if road is None else ' = ["{}", "{}"]'.format(*map(in_mm, road))
     plates = (
         "plates, supports or filled gaps lie in the profile, at "
-        f"{' and '.join(map(str, supports))}: they carry the rubber in place of the road; "
+        f"{' and '.join(map(str, supports))}: they carry the rubber in place of the surface; "
         f"crop{ends} leaves them out."
     )
     return _Doubts((plates, *units), part.z, plates=True, units=bool(units))

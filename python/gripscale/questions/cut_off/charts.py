@@ -31,7 +31,7 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
     ends = chart.wavelength_axis(lengths)
-    words = "cut-off: shortest wavelength of the road [mm]"
+    words = "cut-off: shortest wavelength of the surface [mm]"
     axis = chart.PlotAxis(words, True, ends.low, ends.high)
     rules = list(_rules(data))
     panels = []
@@ -51,7 +51,7 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
                 name=f"cut-off-{'friction' if name == FRICTION else 'area'}",
                 caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
                 "with its 90 % band. Upright lines are rules of cut-off.",
-                alt=f"{title} against the shortest wavelength of the road.",
+                alt=f"{title} against the shortest wavelength of the surface.",
             )
         )
     slope: list[chart.Mark] = [
@@ -65,7 +65,7 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
             chart.PlotAxis("rms slope in contact [-]", low=0.0),
             slope,
             name="cut-off-slope",
-            caption="Rms slope of the road where it touches: small strain ends near 1.",
+            caption="Rms slope of the surface where it touches: small strain ends near 1.",
             alt="Rms slope in contact against the cut-off.",
         )
     )

@@ -102,7 +102,7 @@ def solved_point(
         "gain_searched": (searched, "gain on the grid of the search"),
         "gain_optimum": (sought, "the same of the optimum, which the design stays near"),
         "gain_twice_cut_off": (math.expm1(result.twice_cut_off), "gain with twice the cut-off"),
-        "gain_sampling_error": (result.sampling, "standard error from the sampling of the road"),
+        "gain_sampling_error": (result.sampling, "standard error from the sampling of the surface"),
         "gain_grid_error": (result.grid, "largest error from the grids"),
         "gain_rubber_error": (result.rubber, "standard error from the measurement of the rubber"),
         "gap": (optimum.gap, "what any admissible change could still gain, to first order"),

@@ -123,7 +123,7 @@ def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
 def _interval_sources(point: xr.Dataset) -> str:
     """Return what the interval of a gain is made of."""
     parts = {
-        "pieces of the road": float(point.gain_sampling_error),
+        "pieces of the surface": float(point.gain_sampling_error),
         "grids": float(point.gain_grid_error) / math.sqrt(3.0),
         "measurement of the rubber": float(point.gain_rubber_error),
     }
@@ -133,7 +133,7 @@ def _interval_sources(point: xr.Dataset) -> str:
     )
     doubled = float(point.gain_twice_cut_off)
     return (
-        f"90 % interval from (1 sd): {each}; with twice the cut-off of the road "
+        f"90 % interval from (1 sd): {each}; with twice the cut-off of the surface "
         f"{_percent(doubled)}. Finite strain and the step from lines to a surface are taken to be "
         "the same for both compounds"
     )

@@ -28,7 +28,7 @@ AGAIN = 1.0 / math.sqrt(2.0)
 # What measures each source, and the share of its standard error that it leaves. Noise of heights
 # counts by its square.
 MEASUREMENTS = {
-    ROAD: ("as much of the road once more", AGAIN),
+    ROAD: ("as much of the surface once more", AGAIN),
     "modulus": ("moduli once more, {}", AGAIN),
     "cut_off": ("a finer profile, to where the roughness ends", 0.0),
     "cleaning": ("the profiles once more: spikes do not repeat", 0.0),

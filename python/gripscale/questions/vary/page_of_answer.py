@@ -59,7 +59,7 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
             else "the surface was measured: `--model direct`, the default, gives the answer"
         )
     elif data.attrs.get("model") == "direct":
-        yield "no interval: the surface is too short to tell how well it represents its road"
+        yield "no interval: the surface is too short to tell whether it stands for the whole"
     else:
         yield "no interval: no surface was measured that could judge it"
 
@@ -173,9 +173,9 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
     sampling = float(data["answer_friction_sampling_error"].max())
     has_intervals = math.isfinite(sampling)
     if has_intervals:
-        yield f"sampling of the road up to ± {percent_text(sampling)} of it (standard error)"
+        yield f"sampling of the surface up to ± {percent_text(sampling)} of it (standard error)"
     else:
-        yield "no interval: the surface is too short to tell how well it represents its road"
+        yield "no interval: the surface is too short to tell whether it stands for the whole"
     steep = float(data["answer_steep_share"].max())
     if steep > WORTH_NAMING:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"

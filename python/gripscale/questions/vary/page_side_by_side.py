@@ -158,15 +158,15 @@ def _basis(data: xr.Dataset, dim: str) -> str:
     answer = "direct contact of the measured surface × its factors"
     if not np.isfinite(data["friction_ratio_low"].values).any():
         return (
-            f"{answer}; no interval: a surface is too short to tell how well it represents its road"
+            f"{answer}; no interval: a surface is too short to tell whether it stands for the whole"
         )
     if dim == "surface":
         return f"{answer}; the errors of the roads are independent"
     has_moduli = "series_change" in data and bool(data["series_change"].notnull().any())
     moduli = "measured moduli, " if has_moduli else ""
     return (
-        f"{answer}; what all share of the road and its factors cancels, what is left comes from "
-        f"{moduli}pieces of the road and grids"
+        f"{answer}; what all share of the surface and its factors cancels, what is left comes from "
+        f"{moduli}pieces of the surface and grids"
     )
 
 
