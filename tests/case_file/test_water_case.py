@@ -50,6 +50,12 @@ def test_a_dry_case_says_nothing_of_water() -> None:
     assert "water_load_share" not in samples
 
 
+def test_derivatives_of_a_wet_contact_are_refused(wet: gs.Case) -> None:
+    with pytest.raises(InputError, match="dry contacts only: leave out the water"):
+        gs.sensitivity(wet)
+    assert "water=flooded" in repr(wet)
+
+
 def test_a_saved_case_keeps_its_water(wet: gs.Case, tmp_path: Path) -> None:
     for water, film in ((True, np.inf), ("0.2 mm", 2e-4)):
         case = gs.Case(MAP, ZENER, water=water, **LOAD)

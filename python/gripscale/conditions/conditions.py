@@ -12,7 +12,7 @@ where they are known the logarithms of the factors are linear in log |q|.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
@@ -111,6 +111,12 @@ class Conditions(Checked):
                 f"water must be left out with {effect}, which is iterated with a dry contact; "
                 "got both"
             )
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield each effect that is stated."""
+        for name, text in super().shown_rows():
+            flooded = name == "water" and self.water == math.inf
+            yield name, FLOODED if flooded else text
 
     def to_dict(self) -> dict[str, Any]:
         """Return every effect as plain values, None where it is off."""

@@ -141,6 +141,18 @@ def test_table_is_read_between_its_points_and_kept_beyond() -> None:
     assert friction(*beyond).ravel() == pytest.approx([corner, corner])
 
 
+def test_a_table_without_an_interval_has_its_value() -> None:
+    """The ends are unknown; the value between them is not touched by it."""
+    coords = dict(zip(AXES, ([0.1, 10.0], [293.0], [1e5, 4e5]), strict=True))
+    values = np.full((1, 3, 2, 1, 2), 0.5)
+    values[:, [0, 2]] = np.nan
+    table = xr.DataArray(values, coords, ("kind", "bound", *AXES))
+    at = [np.full((1, 1, 1), x) for x in (1.0, 2e5, 0.0)]
+    low, value, high = TableFriction(table, np.array([293.0]))(*at).ravel()
+    assert value == 0.5
+    assert np.isnan([low, high]).all()
+
+
 @pytest.mark.parametrize("parameters", [DRY, WET])
 def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
     """The Magic Formula follows Burckhardt's curves within 3 % of the peak, rms."""

@@ -338,6 +338,8 @@ def sensitivity(
             reference_temperature=reference_temperature,
         )
     case = subject
+    if case.conditions is not None and case.conditions.water is not None:
+        raise InputError("sensitivity has derivatives of dry contacts only: leave out the water")
     bands = 4 if bands_per_decade is None else bands_per_decade
     axes = {"speed": [case.load.speed]} if vary is None else dict(vary)
     for axis in axes_of(axes):

@@ -123,7 +123,10 @@ class TableFriction:
         speed, kelvin, pressure = (table[axis].values for axis in AXES)
         self._axes = np.log(speed), np.nan_to_num(kelvin), np.log(pressure)
         flat = table.values.reshape(-1, *table.shape[2:])
-        self._values = np.repeat(flat, temperatures.size, axis=0)
+        # rows are neighbours of one another to `map_coordinates`: none may hold NaN
+        values = np.repeat(flat, temperatures.size, axis=0)
+        self._values = np.nan_to_num(values)
+        self._unknown = np.isnan(values).any(axis=(1, 2, 3))
         self._before = np.tile(temperatures, flat.shape[0])
         self.rows = (*table.shape[:2], temperatures.size)
 
@@ -140,4 +143,6 @@ class TableFriction:
             for value, axis in zip(values, self._axes, strict=True)
         ]
         points = np.stack(np.broadcast_arrays(row, *at))
-        return np.asarray(map_coordinates(self._values, points, order=1, mode="nearest"))
+        friction = np.asarray(map_coordinates(self._values, points, order=1, mode="nearest"))
+        friction[np.broadcast_to(self._unknown.reshape(row.shape), friction.shape)] = math.nan
+        return friction

@@ -26,6 +26,7 @@ from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, 
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, on_page, significant
+from gripscale.questions.answer.reliance import AnswerNumber
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.slip.charts import slip_panels, slip_sheet
@@ -59,21 +60,20 @@ class SlipCurve(Result):
     def lines(self) -> Sequence[str]:
         data, kind = self.data, self.data.kind.values[-1]
         first = data.sel(kind=kind).isel(temperature=0, speed=0)
-        low, peak, high = (float(first.peak.sel(bound=bound)) for bound in BOUNDS)
+        peak = _number(first.peak)
         at = float(first.peak_slip.sel(bound="value"))
         locked = float(first.locked.sel(bound="value"))
         speed = f"{3.6 * float(first.speed):.3g} km/h"
         warm = float(first.temperature)
         where = f"{speed} and {celsius(warm)}" if math.isfinite(warm) else speed
-        distance = first.braking_distance.sel(brake="peak")
-        ends = [f"{float(distance.sel(bound=bound)):.3g}" for bound in BOUNDS]
+        distance = _number(first.braking_distance.sel(brake="peak"))
+        level = " (90 % intervals)" if peak.interval else "; no interval: the surface is too short"
         return [
-            f"Answer: peak braking force {significant(peak)} ({significant(low)} to "
-            f"{significant(high)}) of the load at {100.0 * at:.3g} % slip, locked "
-            f"{significant(locked)}, at {where} (90 % intervals).",
+            f"Answer: peak braking force {peak} of the load at {100.0 * at:.3g} % slip, locked "
+            f"{significant(locked)}, at {where}{level}.",
             f"  Friction: {kind}; contact patch {in_mm(data.attrs['length'], 3)}, bristles "
             f"{data.attrs['stiffness']:.3g} Pa/m.",
-            f"  Braking from {self._braking} at the peak: {ends[1]} m ({ends[0]} to {ends[2]} m).",
+            f"  Braking from {self._braking} at the peak: {distance} m.",
         ]
 
     @property
@@ -171,10 +171,17 @@ class SlipCurve(Result):
         return Page.of(title, lead, self.findings, cards, sections, basis)
 
 
+def _number(values: xr.DataArray) -> AnswerNumber:
+    """Return a number over `bound` with the ends of its interval."""
+    low, value, high = (float(values.sel(bound=bound)) for bound in BOUNDS)
+    return AnswerNumber(value, low, high)
+
+
 def _card(force: xr.DataArray, title: str, detail: str) -> Card:
     """Return a force with its interval at the head of the page."""
-    low, value, high = (on_page(significant(float(force.sel(bound=bound)))) for bound in BOUNDS)
-    return Card(title, value, detail, interval=f"{low} to {high} (90 %)")
+    number = _number(force)
+    interval = f"{on_page(number.interval)} (90 %)" if number.interval else ""
+    return Card(title, on_page(significant(number.value)), detail, interval=interval)
 
 
 def slip_curve(
