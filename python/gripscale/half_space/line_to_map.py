@@ -103,6 +103,10 @@ def friction_ratio(line: LineUnderLoad, contact_fraction: ArrayLike) -> SurfaceO
     return SurfaceOverLines(ratio, FRICTION_LAW.uncertainty(line) + 0.0 * ratio)
 
 
+# The step from lines to a surface, by the number of an answer.
+SURFACE_OVER_LINES = {"contact_fraction": contact_fraction_ratio, "friction": friction_ratio}
+
+
 def line_under_load(
     profile: Profile | Sequence[Profile],
     rubber: Rubber,

@@ -245,9 +245,8 @@ def _of_surface(samples: xr.Dataset) -> FactorNumbers:
         reduce.mean(direct, name) for name in ("contact_fraction", "upper_height", "relative_load")
     )
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
-    laws = line_to_map.contact_fraction_ratio, line_to_map.friction_ratio
     numbers = {}
-    for name, law in zip(ESTIMATED, laws, strict=True):
+    for name, law in line_to_map.SURFACE_OVER_LINES.items():
         surface = law(line_to_map.LineUnderLoad(*(number.values for number in line)), lines.values)
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)

@@ -85,13 +85,10 @@ def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the relative standard errors of the factors of the answer, by label."""
     errors = {ASSUMED_FINITE_STRAIN.label: getattr(ASSUMED_FINITE_STRAIN, quantity).uncertainty}
     if math.isfinite(float(point[UPPER_HEIGHT])):  # lines
-        laws = {
-            "friction": line_to_map.friction_ratio,
-            "contact_fraction": line_to_map.contact_fraction_ratio,
-        }
         line = line_to_map.LineUnderLoad(point[UPPER_HEIGHT].values, point[RELATIVE_LOAD].values)
-        law = laws[quantity](line, point["total_contact_fraction"].values)
-        errors[LINES_TO_SURFACE] = float(law.uncertainty)
+        law = line_to_map.SURFACE_OVER_LINES[quantity]
+        surface = law(line, point["total_contact_fraction"].values)
+        errors[LINES_TO_SURFACE] = float(surface.uncertainty)
     return errors
 
 

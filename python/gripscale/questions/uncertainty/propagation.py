@@ -35,7 +35,7 @@ from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Load, Model, input_doubts
-from gripscale.questions.answer.direct_contact import direct_contact_design
+from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_design
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.uncertainty import sampling
 from gripscale.questions.uncertainty.first_order import first_order
@@ -367,20 +367,23 @@ def _answered(
     references = [
         direct_contact_design(case, load, label) for load, label in zip(loads, labels, strict=True)
     ]
+    by_load = list(zip(loads, references, strict=True))
     tasks = design.tasks
     for reference in references:
         tasks |= {} if reference is None else reference.tasks
+    curves = [None if each is None else continued_curve(case, load) for load, each in by_load]
     first, *further = references
     answers: dict[str, xr.Dataset] = {}
     if on_answer is not None and first is not None and not further:
         answers = bench.solve(first.tasks, sample_numbers)
-        on_answer(measured_answer(first.dataset(answers), case, case.load, None, [], {}))
+        samples = first.dataset(answers)
+        on_answer(measured_answer(samples, case, case.load, curves[0], None, [], {}))
     tasks = {label: task for label, task in tasks.items() if task.key not in answers}
     answers |= bench.solve(tasks, sample_numbers)
     values, logarithms = drawn_values(chosen.sources, drawn)
     data = uncertainty_dataset(design.dataset(answers), chosen, values, logarithms)
     answered = []
-    for at, (load, reference) in enumerate(zip(loads, references, strict=True)):
+    for at, (load, reference) in enumerate(by_load):
         part = data if axis is None else data.isel({axis.name: at}, drop=True)
         if reference is None:
             chain = part.sel(model=Chain.name)
@@ -390,7 +393,9 @@ def _answered(
         if DirectContact.name in plan.models:
             direct = part.sel(model=DirectContact.name)
         samples = reference.dataset(answers)
-        answered.append(measured_answer(samples, case, load, direct, chosen.sources, logarithms))
+        answered.append(
+            measured_answer(samples, case, load, curves[at], direct, chosen.sources, logarithms)
+        )
     answer = answered[0] if axis is None else xr.concat(answered, axis.name)
     if axis is None and DirectContact.name in plan.models and case.load.speed > 0.0:
         carried = first_order(case, plan.uncertainty, seed=plan.seed)

@@ -30,7 +30,7 @@ from gripscale.case import Case
 from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import FRICTION_OUTSIDE_BAND, OUTSIDE_BAND, STATUS, STATUS_WORD, Load
-from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_totals
+from gripscale.questions.answer.direct_contact import direct_contact_totals
 from gripscale.questions.answer.estimate import ESTIMATED, TOTAL, SampledErrors
 from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
@@ -96,19 +96,19 @@ def measured_answer(
     reference: xr.Dataset,
     case: Case,
     load: Load,
+    curve: xr.Dataset | None,
     direct: xr.Dataset | None,
     sources: Sequence[Source],
     logarithms: Mapping[str, Array],
 ) -> xr.Dataset:
     """Return the answer of a case with a measured surface under one load, widened by samples.
 
-    `reference` are the samples of `direct_contact_design`. `direct` holds the drawn samples of the
-    direct contact with `_case` of the case itself; None if only the chain was sampled, whose
-    errors say nothing of the direct contact. `answer_..._half_width_of_run` is without
-    samples; over `part` stand `part_label` and the standard errors `answer_..._part_error` that the
-    interval is made of.
+    `reference` are the samples of `direct_contact_design`, `curve` is the `continued_curve` of the
+    load. `direct` holds the drawn samples of the direct contact with `_case` of the case itself;
+    None if only the chain was sampled, whose errors say nothing of the direct contact.
+    `answer_..._half_width_of_run` is without samples; over `part` stand `part_label` and the
+    standard errors `answer_..._part_error` that the interval is made of.
     """
-    curve = continued_curve(case, load)
     total = of_run = direct_contact_totals(reference, case, load, curve)
     errors, of_road = {}, False
     if direct is not None and int(direct.contact_fraction.count()) > 1:
