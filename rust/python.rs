@@ -11,10 +11,13 @@ use pyo3::types::PyMapping;
 use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
 use crate::executor::{Executor, Threads};
+use crate::line_system::{LineSystem, Rows};
+use crate::linear::single_gmres;
+use crate::material::maxwell;
 use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
-use crate::spectral::{Complex32, SingleLines};
+use crate::spectral::{Complex32, Complex64, SingleLines};
 use crate::status::Status;
 use crate::steady;
 use crate::transient::{self, Moment, Run, Stage};
@@ -299,30 +302,125 @@ fn solve_transient<'py>(
     Ok(PyRun(run_cancellable(py, work, solve)?))
 }
 
-/// Filters of lines of a number of points, which release the interpreter.
-#[pyclass(frozen, name = "LineFilter")]
-struct PyLineFilter(SingleLines);
+/// Filters and contacts of lines of a number of points, which release the interpreter.
+#[pyclass(frozen, name = "Line")]
+struct PyLine(SingleLines);
 
 #[pymethods]
-impl PyLineFilter {
+impl PyLine {
     #[new]
     fn new(points: usize) -> Self {
         Self(SingleLines::new(points))
     }
 
     /// Values with each of their harmonics, 0 to half the points, times its factor.
-    fn __call__<'py>(
+    fn filtered<'py>(
         &self,
         py: Python<'py>,
         values: PyReadonlyArray1<'py, f32>,
         factors: PyReadonlyArray1<'py, Complex32>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-        let (line, factors) = (values.as_slice()?.to_vec(), factors.as_slice()?);
-        let text = "expected a value for each point and a factor for each harmonic";
-        let filtered = py.detach(|| self.0.filtered(line, factors));
-        let filtered = filtered.ok_or_else(|| PyValueError::new_err(text))?;
-        Ok(PyArray1::from_vec(py, filtered))
+        let (mut line, factors) = (values.as_slice()?.to_vec(), factors.as_slice()?);
+        if line.len() != self.0.length() {
+            return Err(PyValueError::new_err("expected a value for each point"));
+        }
+        self.check_harmonics(factors)?;
+        py.detach(|| self.0.filter().apply(&mut line, factors));
+        Ok(PyArray1::from_vec(py, line))
     }
+
+    /// Solution of Q K p = r at `places`, its residual and the products it took; |r| = 1.
+    ///
+    /// `filters` are K and S of each harmonic, `extension` the starts, columns and values of the
+    /// rows of E, `factor` that of Q; `limits` the target of the residual and the most products.
+    fn close_gap<'py>(
+        &self,
+        py: Python<'py>,
+        right: PyReadonlyArray1<'py, f32>,
+        places: PyReadonlyArray1<'py, i64>,
+        filters: [PyReadonlyArray1<'py, Complex32>; 2],
+        extension: (
+            PyReadonlyArray1<'py, i32>,
+            PyReadonlyArray1<'py, i32>,
+            PyReadonlyArray1<'py, f32>,
+        ),
+        factor: f32,
+        limits: (f64, usize),
+    ) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
+        let [compliance, stiffness] = &filters;
+        let (starts, columns, values) = &extension;
+        let system = LineSystem {
+            lines: &self.0,
+            places: places.as_slice()?,
+            compliance: compliance.as_slice()?,
+            stiffness: stiffness.as_slice()?,
+            extension: Rows {
+                starts: starts.as_slice()?,
+                columns: columns.as_slice()?,
+                values: values.as_slice()?,
+            },
+            factor,
+        };
+        self.check_harmonics(system.compliance)?;
+        self.check_harmonics(system.stiffness)?;
+        let right = right.as_slice()?.to_vec();
+        if !system.fits(right.len()) {
+            return Err(PyValueError::new_err(
+                "expected points and rows of the line",
+            ));
+        }
+        let (target, most) = limits;
+        let found = py.detach(|| system.solution(right, target, most));
+        Ok((
+            PyArray1::from_vec(py, found.x),
+            found.residual,
+            found.products,
+        ))
+    }
+}
+
+impl PyLine {
+    fn check_harmonics(&self, factors: &[Complex32]) -> PyResult<()> {
+        if factors.len() == self.0.harmonics() {
+            return Ok(());
+        }
+        Err(PyValueError::new_err("expected a factor for each harmonic"))
+    }
+}
+
+/// Solution of A x = `right`, its residual and the products it took; `operator` gives A x.
+#[pyfunction]
+fn gmres<'py>(
+    py: Python<'py>,
+    operator: Bound<'py, PyAny>,
+    right: PyReadonlyArray1<'py, f32>,
+    target: f64,
+    most: usize,
+) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
+    let apply = |x: &[f32]| -> PyResult<Vec<f32>> {
+        let image: PyReadonlyArray1<'_, f32> =
+            operator.call1((PyArray1::from_slice(py, x),))?.extract()?;
+        Ok(image.as_slice()?.to_vec())
+    };
+    let found = single_gmres::gmres(apply, right.as_slice()?.to_vec(), target, most)?;
+    Ok((
+        PyArray1::from_vec(py, found.x),
+        found.residual,
+        found.products,
+    ))
+}
+
+/// sum E_i i w tau_i / (1 + i w tau_i) at frequencies w, without the interpreter's lock.
+#[pyfunction]
+fn relaxing_moduli<'py>(
+    py: Python<'py>,
+    omega: PyReadonlyArray1<'py, f64>,
+    moduli: PyReadonlyArray1<'py, f64>,
+    times: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+    let (omega, moduli, times) = (omega.as_slice()?, moduli.as_slice()?, times.as_slice()?);
+    let values = py.detach(|| maxwell::relaxing_moduli(omega, moduli, times));
+    Ok(PyArray1::from_vec(py, values))
 }
 
 /// Name, default and one sentence of every setting.
@@ -349,7 +447,7 @@ fn strain_energies() -> BTreeMap<&'static str, Vec<&'static str>> {
 mod kernel {
     #[pymodule_export]
     use super::{
-        default_settings, solve_steady, solve_transient, statuses, strain_energies, PyLineFilter,
-        PyRun, PySolution,
+        default_settings, gmres, relaxing_moduli, solve_steady, solve_transient, statuses,
+        strain_energies, PyLine, PyRun, PySolution,
     };
 }

@@ -131,25 +131,54 @@ impl SingleLines {
         }
     }
 
-    /// `line` with each harmonic, 0 to N/2, times its factor; none if a number of values does not fit.
-    pub fn filtered(&self, mut line: Vec<f32>, factors: &[Complex32]) -> Option<Vec<f32>> {
-        let mut spectrum = self.forward.make_output_vec();
-        if factors.len() != spectrum.len() {
-            return None;
+    /// Values on a line.
+    pub fn length(&self) -> usize {
+        self.forward.len()
+    }
+
+    /// Harmonics of a line, 0 to N/2.
+    pub fn harmonics(&self) -> usize {
+        self.length() / 2 + 1
+    }
+
+    /// A filter with its own workspace.
+    pub fn filter(&self) -> SingleFilter<'_> {
+        let scratch = self.forward.get_scratch_len();
+        let scratch = scratch.max(self.inverse.get_scratch_len());
+        SingleFilter {
+            lines: self,
+            spectrum: self.forward.make_output_vec(),
+            scratch: vec![Complex32::default(); scratch],
         }
-        self.forward.process(&mut line, &mut spectrum).ok()?;
-        for (value, factor) in spectrum.iter_mut().zip(factors) {
+    }
+}
+
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+pub struct SingleFilter<'l> {
+    lines: &'l SingleLines,
+    spectrum: Vec<Complex32>,
+    scratch: Vec<Complex32>,
+}
+
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+impl SingleFilter<'_> {
+    /// Multiply each harmonic of `line`, 0 to N/2, by its factor.
+    pub fn apply(&mut self, line: &mut [f32], factors: &[Complex32]) {
+        let (forward, inverse) = (&self.lines.forward, &self.lines.inverse);
+        let done = forward.process_with_scratch(line, &mut self.spectrum, &mut self.scratch);
+        debug_assert!(done.is_ok());
+        for (value, factor) in self.spectrum.iter_mut().zip(factors) {
             *value *= factor;
         }
         // a real line has no imaginary parts of its mean and of the wave that is its own opposite
-        spectrum[0].im = 0.0;
+        self.spectrum[0].im = 0.0;
         if line.len() % 2 == 0 {
-            spectrum[factors.len() - 1].im = 0.0;
+            self.spectrum[line.len() / 2].im = 0.0;
         }
-        self.inverse.process(&mut spectrum, &mut line).ok()?;
+        let done = inverse.process_with_scratch(&mut self.spectrum, line, &mut self.scratch);
+        debug_assert!(done.is_ok());
         let share = 1.0 / line.len() as f32;
         line.iter_mut().for_each(|value| *value *= share);
-        Some(line)
     }
 }
 
@@ -231,12 +260,11 @@ mod tests {
                 .iter()
                 .map(|value| Complex32::new(value.re as f32, value.im as f32))
                 .collect();
-            let found = lines.filtered(single(&line), &factors).unwrap();
+            let mut found = single(&line);
+            lines.filter().apply(&mut found, &factors);
             for (found, expected) in found.iter().zip(&expected) {
                 assert!((f64::from(*found) - expected).abs() < 1e-5);
             }
-            assert!(lines.filtered(single(&line[1..]), &factors).is_none());
-            assert!(lines.filtered(single(&line), &factors[1..]).is_none());
         }
     }
 }

@@ -5,10 +5,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
-    "LineFilter",
+    "Line",
     "Run",
     "Solution",
     "default_settings",
+    "gmres",
+    "relaxing_moduli",
     "solve_steady",
     "solve_transient",
     "statuses",
@@ -16,11 +18,20 @@ __all__ = [
 ]
 
 @final
-class LineFilter:
-    def __new__(cls, points: int) -> LineFilter: ...
-    def __call__(
+class Line:
+    def __new__(cls, points: int) -> Line: ...
+    def filtered(
         self, values: NDArray[np.float32], factors: NDArray[np.complex64]
     ) -> NDArray[np.float32]: ...
+    def close_gap(
+        self,
+        right: NDArray[np.float32],
+        places: NDArray[np.int64],
+        filters: list[NDArray[np.complex64]],
+        extension: tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]],
+        factor: float,
+        limits: tuple[float, int],
+    ) -> tuple[NDArray[np.float32], float, int]: ...
 
 @final
 class Solution:
@@ -166,3 +177,12 @@ def solve_transient(
 def default_settings() -> list[tuple[str, float, str]]: ...
 def statuses() -> list[tuple[str, str, str]]: ...
 def strain_energies() -> dict[str, list[str]]: ...
+def relaxing_moduli(
+    omega: NDArray[np.float64], moduli: NDArray[np.float64], times: NDArray[np.float64]
+) -> NDArray[np.complex128]: ...
+def gmres(
+    operator: Callable[[NDArray[np.float32]], NDArray[np.float32]],
+    right: NDArray[np.float32],
+    target: float,
+    most: int,
+) -> tuple[NDArray[np.float32], float, int]: ...

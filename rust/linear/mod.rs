@@ -3,6 +3,8 @@
 
 mod dense;
 mod gmres;
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+pub mod single_gmres;
 mod sparse;
 #[cfg(test)]
 mod tests;

@@ -43,18 +43,33 @@ def test_it_is_the_contact_from_nothing(contact):
 
 def test_grids_are_refined_from_the_start(contact):
     surface, start = contact
-    warm = solve_from(surface, start, tolerance=0.05)
+    cold, warm = (solve_from(surface, first, tolerance=0.05) for first in (None, start))
     assert warm.converged
-    assert warm.grids[0].points == start.grids[-1].points
-    cold = solve_from(surface, None, tolerance=0.05)
-    assert warm.friction == pytest.approx(cold.friction, rel=0.05)
+    assert [grid.points for grid in warm.grids] == [
+        grid.points for grid in cold.grids[-len(warm.grids) :]
+    ]
+    assert warm.friction_from_dissipation == pytest.approx(cold.friction_from_dissipation, rel=1e-5)
+    assert warm.friction_error == pytest.approx(cold.friction_error, rel=1e-3)
+    # the coarse grid, with and without the last octave, is solved to 1e-4 only
+    exponents = [each.cut_off_exponents.friction for each in (warm, cold)]
+    assert exponents[0] == pytest.approx(exponents[1], abs=1e-3)
 
 
-def test_another_surface_is_refused(contact):
+def test_it_starts_from_other_heights_and_another_cut_off(contact):
     surface, start = contact
-    moved = replace(surface, z=1.01 * surface.z)
-    for other, shortest in ((moved, start.smallest_wavelength), (surface, 2e-3)):
-        with pytest.raises(InputError, match="start must be a contact of the same surface"):
-            solve_from(other, start, smallest_wavelength=shortest)
+    rough = replace(surface, z=1.05 * np.roll(surface.z, 1, axis=0))
+    shortest = 0.5 * start.smallest_wavelength
+    cold, warm = (solve_from(rough, first, smallest_wavelength=shortest) for first in (None, start))
+    assert warm.friction_from_dissipation == pytest.approx(cold.friction_from_dissipation, rel=1e-5)
+    assert np.array_equal(warm.active, cold.active)
+    assert len(warm.grids) == 2  # that of the start, with the new waves, and twice as fine
+    assert sum(grid.products for grid in warm.grids) < sum(grid.products for grid in cold.grids)
+
+
+def test_a_surface_of_another_size_is_refused(contact):
+    surface, start = contact
+    longer = replace(surface, x=1.01 * surface.x)
+    with pytest.raises(InputError, match="start must be a contact of a surface of the same size"):
+        solve_from(longer, start, smallest_wavelength=2e-3)
     with pytest.raises(InputError, match="start must be a RoughContact"):
         solve_from(surface, "before")

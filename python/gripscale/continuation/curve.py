@@ -325,7 +325,7 @@ def contact_by_cut_off(
         slope = math.nan
         if steps:
             slope = slope_on_faces(periodic, steps[-1].faces, 2.0 * cut_off, cut_off)
-        steps.append(solver.step(periodic, float(cut_off), slope))
+        steps.append(solver.step(periodic, float(cut_off), slope, steps[-1] if steps else None))
     if last >= resolved:
         return ContactByCutOff(tuple(steps), resolved, math.nan, None, math.nan)
     if len(steps) < 3:
@@ -344,20 +344,31 @@ class _Solver:
     options: dict[str, Any]
     on_contact: OnContact | None
 
-    def step(self, lines: Sequence[PeriodicLine], cut_off: float, slope: float) -> CutOffContact:
-        """Return the contacts of lines with waves down to a cut-off [m]."""
+    def step(
+        self,
+        lines: Sequence[PeriodicLine],
+        cut_off: float,
+        slope: float,
+        above: CutOffContact | None,
+    ) -> CutOffContact:
+        """Return the contacts of lines with waves down to a cut-off [m], from those `above`."""
 
-        def job(line: PeriodicLine, _: threading.Event) -> RoughContact:
-            return solve_rough_contact(
+        def job(at: int, _: threading.Event) -> RoughContact:
+            start = None if above is None else above.contacts[at]
+            contact = solve_rough_contact(
                 self.rubber,
-                line.profile(),
+                lines[at].profile(),
                 smallest_wavelength=cut_off,
                 periodic=True,
+                start=start,
                 **self.options,
             )
+            if start is None or contact.grids[0].cut_off > cut_off:  # solved from nothing
+                return contact
+            return replace(contact, grids=[start.grids[-1], *contact.grids])
 
         contacts: list[RoughContact | None] = [None] * len(lines)
-        jobs = [partial(job, line) for line in lines]
+        jobs = [partial(job, at) for at in range(len(lines))]
         with closing(in_threads(jobs, worker_count(None))) as solved:
             for at, contact in solved:
                 contacts[at] = contact
@@ -384,7 +395,7 @@ class _Solver:
             replace(line, waves=line.waves + scale * octave.waves)
             for line, octave in zip(step.lines, octaves, strict=True)
         ]
-        return self.step(lines, shortest, slope)
+        return self.step(lines, shortest, slope, step)
 
 
 def _continued(
@@ -481,22 +492,31 @@ def _octave_again(
     intermittency = Intermittency.of(above.lines, steps[-3].faces, above.wavelength, random)
     start = replace(above, lines=tuple(line.resolved_to(above.wavelength) for line in above.lines))
     seed = random.integers(2**32)
-    tried = [
-        solver.next_step(
-            start,
-            intermittency,
-            above.slope * math.exp(log),
-            true.wavelength,
-            np.random.default_rng(seed),  # the same waves, steeper or less steep
-        )
-        for log in _LOG_RATIOS
-    ]
-    frictions = np.log([step.mean("friction_from_dissipation") / mu for step in tried])
-    ratio = math.exp(float(np.interp(0.0, np.maximum.accumulate(frictions), _LOG_RATIOS)))
-    same = tried[_LOG_RATIOS.tolist().index(0.0)]
+
+    def tried(log: float) -> CutOffContact:
+        waves = np.random.default_rng(seed)  # the same waves, steeper or less steep
+        slope = above.slope * math.exp(log)
+        return solver.next_step(start, intermittency, slope, true.wavelength, waves)
+
+    def log_friction(step: CutOffContact) -> float:
+        return math.log(step.mean("friction_from_dissipation") / mu)
+
+    same = tried(0.0)
     area = same.mean("contact_fraction") / true.mean("contact_fraction")
-    friction = same.mean("friction_from_dissipation") / mu
-    return Withheld(area - 1.0, friction - 1.0, ratio, math.nan)
+    friction = log_friction(same)
+    # friction rises with the slope: ratios on one side, until the true friction lies between two
+    side = (
+        _LOG_RATIOS[_LOG_RATIOS > 0.0] if friction < 0.0 else _LOG_RATIOS[_LOG_RATIOS < 0.0][::-1]
+    )
+    known = {0.0: friction}
+    for log in side.tolist():
+        known[log] = log_friction(tried(log))
+        if known[log] * friction <= 0.0:
+            break
+    logs = sorted(known)
+    frictions = np.maximum.accumulate([known[log] for log in logs])
+    ratio = math.exp(float(np.interp(0.0, frictions, logs)))
+    return Withheld(area - 1.0, math.expm1(friction), ratio, math.nan)
 
 
 class ContinuedContact(DirectContact):

@@ -55,7 +55,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from gripscale._kernel import gmres
 from gripscale.core.arrays import Array, Mask
+from gripscale.half_space.grid import Single
 from gripscale.half_space.pools import Averaged, Pools
 from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
@@ -195,9 +197,29 @@ class PointsInContact:
         self.products += 1
         return self._applied(self._response.displacement, self._spread(pressure))
 
-    def __call__(self, pressure: AnyArray) -> AnyArray:
+    def correction(self, right: Single, target: float, most: int) -> tuple[Single, float]:
+        """Return p with |right - Q K_AA p| <= `target`, or the least after `most` products.
+
+        The second value is this residual as GMRES estimates it. `right` has unit length.
+        """
+        response, rows = self._response, self._extension
+        if len(response.grid.shape) > 1:
+            return gmres(self._image, right, target, most)[:2]
+        found, residual, products = response.line.close_gap(
+            right,
+            self._where,
+            [response.compliance_single, response.stiffness],
+            (rows.indptr.astype(np.int32), rows.indices.astype(np.int32), rows.data),
+            SHORTFALL if self._lossy_line else 1.0,
+            (target, most),
+        )
+        self.products += products
+        return found, residual
+
+    def _image(self, pressure: Single) -> Single:
         """Return Q K_AA p."""
-        return self.missing(self.displacement(pressure)[self._where])
+        image = self.missing(self.displacement(pressure)[self._where])
+        return image.astype(np.float32, copy=False)
 
     def _spread(self, values: AnyArray) -> AnyArray:
         """Return `values` at the points, else zero; a single array is reused by the next call."""
@@ -238,7 +260,8 @@ def close_gap(
         if norm <= tolerance * size or run == RUNS or not np.isfinite(norm):
             break
         target, before = max(REDUCTION, 0.5 * tolerance * size / norm), points.products
-        correction, reduction = gmres(points, residual / np.float32(norm), target, most)
+        right = (residual / norm).astype(np.float32)
+        correction, reduction = points.correction(right, target, most)
         short = points.products - before == most
         if short:
             most = min(2 * most, _LONGEST)
@@ -263,46 +286,6 @@ def _eliminated(response: Response, where: _Index, height: Array, load: float) -
     system[:size, :size] = response.influence[tuple(distance)]
     system[size, size] = 0.0
     return np.asarray(np.linalg.solve(system, np.append(height, stiffest * load))[:size])
-
-
-def gmres(
-    operator: Callable[[AnyArray], AnyArray], right: AnyArray, target: float, most: int
-) -> tuple[AnyArray, float]:
-    """Return x with |right - operator(x)| <= `target`, or the least after `most` products.
-
-    The second value is this residual as GMRES estimates it. `right` has unit length. Arnoldi
-    vectors by modified Gram-Schmidt, least squares by rotations.
-    """
-    basis = [right]
-    triangle = np.zeros((most, most))
-    rotations: list[complex] = []
-    reduced = [1.0]
-    for k in range(most):
-        vector = operator(basis[k])
-        column = []
-        for other in basis:
-            column.append(np.dot(other, vector))
-            vector -= column[-1] * other
-        column.append(np.linalg.norm(vector))
-        for i, turn in enumerate(rotations):
-            column[i : i + 2] = _rotated(turn, *column[i : i + 2])
-        radius = np.hypot(*column[k:])
-        rotations.append(complex(*column[k:]) / radius)
-        triangle[:k, k], triangle[k, k] = column[:k], radius
-        reduced[k:] = _rotated(rotations[k], reduced[k], 0.0)
-        if abs(reduced[k + 1]) <= target or column[k + 1] <= 1e-6 * radius:
-            break
-        basis.append(vector / column[k + 1])
-    weights = np.linalg.solve(triangle[: k + 1, : k + 1], reduced[: k + 1])
-    out = np.zeros_like(right)
-    for weight, vector in zip(weights, basis, strict=False):
-        out += np.float32(weight) * vector
-    return out, abs(reduced[k + 1])
-
-
-def _rotated(turn: complex, first: float, second: float) -> tuple[float, float]:
-    c, s = turn.real, turn.imag
-    return c * first + s * second, c * second - s * first
 
 
 def solve_grid(

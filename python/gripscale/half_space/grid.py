@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy
@@ -27,6 +28,7 @@ from gripscale.surface.resampling import fill_gaps
 
 Single = NDArray[np.float32]
 SingleComplex = NDArray[np.complex64]
+_Field = TypeVar("_Field", bound=NDArray[Any])
 
 DEFAULT_STEPS = 4  # steps of the surface in the smallest wave that is kept by default
 FEWEST_STEPS = 2
@@ -114,12 +116,13 @@ def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, .
     return np.asarray(scipy.fft.irfftn(out, s=onto, overwrite_x=True)) * scale
 
 
-def nearest(mask: Mask, shape: tuple[int, ...]) -> Mask:
-    """Return a periodic mask at the points of another grid, each that of the nearest point."""
-    for axis, (old, new) in enumerate(zip(mask.shape, shape, strict=True)):
-        index = np.rint(np.arange(new) * (old / new)).astype(int) % old
-        mask = np.take(mask, index, axis=axis)
-    return mask
+def nearest(values: _Field, shape: tuple[int, ...]) -> _Field:
+    """Return periodic values at the points of another grid, each that of the nearest point."""
+    for axis, (old, new) in enumerate(zip(values.shape, shape, strict=True)):
+        if old != new:
+            index = np.rint(np.arange(new) * (old / new)).astype(int) % old
+            values = np.take(values, index, axis=axis)
+    return values
 
 
 def doubled(values: Array) -> Array:

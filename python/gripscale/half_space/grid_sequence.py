@@ -58,7 +58,7 @@ import scipy
 
 from gripscale.core import Array, ComplexArray, Described, Mask
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, OnIteration, solve_grid
-from gripscale.half_space.grid import Grid, PeriodicHeights, doubled
+from gripscale.half_space.grid import Grid, PeriodicHeights, doubled, nearest, resampled
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
 
@@ -230,6 +230,8 @@ class GridSequence:
     most_iterations: int
     start: KnownLevels = field(default_factory=dict)  # contacts with another rubber, to start from
     solved: dict[Level, LevelContact] = field(default_factory=dict)
+    # Contact on other heights of the same lengths, that the first level starts from.
+    other: LevelContact | None = None
     last: LevelContact | None = None
     on_iteration: OnIteration | None = None
     # When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s].
@@ -237,7 +239,7 @@ class GridSequence:
 
     def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before."""
-        self.last = self.start.get(level, self.last)
+        self.last = self.start.get(level, self.last or self.other)
         height = self.heights.on(level.grid.shape, level.cut_off)
         response = Response.of(self.body, level.grid, self.workers, self.deadline)
         following = response.full_contact(height, self.pressure)
@@ -300,11 +302,17 @@ class GridSequence:
     def _expected(self, response: Response, height: Array) -> Array:
         """Return the start p + S dh - s g from the last contact."""
         assert self.last is not None
-        pressure, gap = self.last.contact.pressure, self.last.contact.gap
-        if self.last.height.shape != height.shape:
-            pressure, gap = doubled(pressure), doubled(gap)
+        last, shape = self.last, height.shape
+        twice = shape == tuple(2 * points for points in last.height.shape)
+        pressure, gap = (
+            doubled(values) if twice else nearest(values, shape)
+            for values in (last.contact.pressure, last.contact.gap)
+        )
         # not the heights of the last grid, doubled: S would press their kinks flat
-        before = self.heights.on(height.shape, self.last.level.cut_off)
+        if last is self.other:
+            before = resampled(scipy.fft.rfftn(last.height), last.height.shape, shape)
+        else:
+            before = self.heights.on(shape, last.level.cut_off)
         opening = _OPENING / response.smallest_compliance * np.maximum(gap, 0.0)
         return np.asarray(pressure - opening + response.pressure(height - before))
 

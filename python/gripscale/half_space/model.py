@@ -195,27 +195,38 @@ class DirectContact(Checked, model.Model):
         contacts = []
         measurement = _measurement(surface, "the direct contact needs a measured profile")
         for measured in measurement.surfaces:
-            smallest = self.smallest_wavelength
-            if smallest is None and not self.periodic:
-                smallest = smallest_wavelength(surface, measured)
-            contact = solve_rough_contact(
-                rubber,
-                measured,
-                pressure=load.pressure,
-                speed=load.speed,
-                smallest_wavelength=smallest,
-                tolerance=self.tolerance,
-                most_points=self.most_points,
-                periodic=self.periodic,
-                thickness=load.thickness,
-                time_limit=self.time_limit,
-                conditions=self.conditions,
-                footprint=load.footprint,
-            )
-            contacts.append(contact)
+            contacts.append(self.contact(rubber, surface, measured, load))
             if on_progress is not None:
-                on_progress(contact)
+                on_progress(contacts[-1])
         return self._answer(contacts, surface, load)
+
+    def contact(
+        self,
+        rubber: Rubber,
+        surface: Surface,
+        measured: Profile | HeightMap,
+        load: Load,
+        start: RoughContact | None = None,
+    ) -> RoughContact:
+        """Return the contact of one profile of a surface, or of its map."""
+        smallest = self.smallest_wavelength
+        if smallest is None and not self.periodic:
+            smallest = smallest_wavelength(surface, measured)
+        return solve_rough_contact(
+            rubber,
+            measured,
+            pressure=load.pressure,
+            speed=load.speed,
+            smallest_wavelength=smallest,
+            tolerance=self.tolerance,
+            most_points=self.most_points,
+            periodic=self.periodic,
+            thickness=load.thickness,
+            time_limit=self.time_limit,
+            conditions=self.conditions,
+            footprint=load.footprint,
+            start=start,
+        )
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:
         """Return the answer of the contacts of all profiles."""

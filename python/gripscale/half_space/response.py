@@ -27,7 +27,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from gripscale._kernel import LineFilter
+from gripscale._kernel import Line
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, ComplexArray, InputError, checks
 from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
@@ -248,12 +248,13 @@ class Response:
         return self._filtered_single(single, self.stiffness)
 
     @cached_property
-    def _line_filter(self) -> LineFilter:
-        return LineFilter(self.grid.points)
+    def line(self) -> Line:
+        """Filters and contacts of the line in single precision."""
+        return Line(self.grid.points)
 
     def _filtered_single(self, values: Single, transfer: SingleComplex) -> Single:
         if values.ndim == 1:
-            return self._line_filter(values, transfer)
+            return self.line.filtered(values, transfer)
         return np.asarray(self._filtered(values, transfer))
 
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
@@ -309,9 +310,9 @@ def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float)
             f"speed must be at most {_MOST / grid.along.max():.3g} m/s, {_MOST:g} rad/s on the "
             f"smallest wave of this surface; got {body.speed:g} m/s"
         )
-    modulus = np.abs(body.modulus(grid))
-    for extreme in (modulus.min(), modulus.max()):
-        _within("the modulus of the rubber", float(extreme), "Pa")
+    for rubber in body.rubbers:
+        for extreme in (rubber.equilibrium_modulus, rubber.glassy_modulus):
+            _within("the modulus of the rubber", extreme, "Pa")
 
 
 def _within(name: str, value: float, unit: str) -> None:

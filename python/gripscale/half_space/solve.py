@@ -156,9 +156,10 @@ def solve_rough_contact(
         the contact, beyond its `valid_band`. The share of the friction from beyond the band is in
         `extrapolation` of the result.
     start : RoughContact, optional
-        Contact of the same surface and cut-off with another rubber, pressure or speed. Its grid is
-        the first and, without a tolerance, the only one, so that the result has no cut-off
-        exponents. Conditions that are iterated start anew.
+        Contact of a surface of the same size that starts the solution, with any cut-off, rubber,
+        pressure and speed. Only the last grids are solved: without a tolerance those with all waves
+        that are not coarser than its own, and the result may have no cut-off exponents. Conditions
+        that are iterated start anew.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions
@@ -191,7 +192,7 @@ def solve_rough_contact(
     for name, hook in (("on_grid", on_grid), ("on_iteration", on_iteration)):
         if hook is not None and not callable(hook):
             raise InputError(f"{name} must be a function or None; got {checks.short_repr(hook)}")
-    first = {} if start is None else _known_level(start, heights)
+    other = None if start is None else _known_contact(start, heights)
     deadline = math.inf
     if time_limit is not None:
         deadline = time.monotonic() + checks.positive("time_limit", time_limit, unit="s")
@@ -206,13 +207,14 @@ def solve_rough_contact(
             threads,
             iterations,
             earlier,
+            other=None if effects.iterated else other,
             on_iteration=on_iteration,
             deadline=deadline,
         )
         return _solve_sequence(sequence, most, reach, on_grid)
 
     if not effects.iterated:
-        contact = solve(None, first, goal).contact
+        contact = solve(None, {}, goal).contact
         if film > 0.0 and contact.status in (Status.CONVERGED, Status.TOLERANCE_NOT_MET):
             contact = with_water(contact, film, workers=threads, most=iterations)
         return replace(contact, conditions=conditions, status=_judged(contact, goal))
@@ -272,20 +274,31 @@ def relative_tolerance(name: str, value: float | None) -> float | None:
     return tolerance
 
 
-def _known_level(start: RoughContact, heights: PeriodicHeights) -> KnownLevels:
-    """Return the contact to start from, by its level; `InputError` if it is of another surface."""
+def _known_contact(start: RoughContact, heights: PeriodicHeights) -> LevelContact:
+    """Return the contact to start from; `InputError` if its surface has another size."""
     checks.instance("start", start, RoughContact)
     start.require_dry("a solution starts without pools")
-    same = (
-        start.grid.lengths == heights.grid.lengths
-        and start.smallest_wavelength == heights.smallest_wavelength
-        and np.array_equal(start.height, heights.on(start.grid.shape, heights.smallest_wavelength))
-    )
-    if not same:
-        raise InputError("start must be a contact of the same surface with the same cut-off")
+    lengths = start.grid.lengths
+    if len(lengths) != len(heights.grid.lengths) or not np.allclose(lengths, heights.grid.lengths):
+        sizes = [
+            " x ".join(f"{length:.6g}" for length in grid.lengths)
+            for grid in (heights.grid, start.grid)
+        ]
+        raise InputError(
+            f"start must be a contact of a surface of the same size, {sizes[0]} m; got {sizes[1]} m"
+        )
     level = Level(start.grid, start.smallest_wavelength)
     contact = GridContact(start.pressure, start.gap, start.active, 0, settled=True)
-    return {level: LevelContact(level, start.height, contact, start.grids[-1])}
+    return LevelContact(level, start.height, contact, start.grids[-1])
+
+
+def _last_levels(other: LevelContact, heights: PeriodicHeights, goal: float) -> list[Level]:
+    """Return the levels to solve from another contact: those a goal is judged by, or fewest."""
+    every = levels(heights)
+    if not math.isinf(goal):
+        return every[-ERROR_GRIDS:]
+    whole = [level for level in every if level.cut_off == heights.smallest_wavelength]
+    return [level for level in whole if level.grid.points >= other.height.size] or every[-1:]
 
 
 def _solve_sequence(
@@ -299,7 +312,10 @@ def _solve_sequence(
         for contact in sequence.start.values()
         if contact.level.cut_off == heights.smallest_wavelength
     ]
-    plan = whole[-(1 if math.isinf(goal) else ERROR_GRIDS) :] or levels(heights)
+    plan = whole[-(1 if math.isinf(goal) else ERROR_GRIDS) :]
+    if not plan:
+        other = sequence.other
+        plan = levels(heights) if other is None else _last_levels(other, heights, goal)
     grids: list[GridRecord] = []
     in_time = True
     while plan:

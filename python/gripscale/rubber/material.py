@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import gripscale
+from gripscale._kernel import relaxing_moduli
 from gripscale.core import Checked, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity, Vector
 from gripscale.core.errors import InputError, RubberWarning
@@ -43,8 +44,6 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_BLOCK = 256  # frequencies at once: with a hundred terms an array of them is 200 kB
 
 
 def storage_shape(phase: Array) -> Array:
@@ -60,23 +59,6 @@ def loss_shape(phase: Array) -> Array:
     size = np.abs(phase)
     smaller = np.where(size <= 1.0, size, 1.0 / np.maximum(size, 1.0))
     return np.copysign(smaller / (1.0 + smaller**2), phase)
-
-
-def complex_sum(omega: Array, times: Array, moduli: Array) -> ComplexArray:
-    """Return sum E_i (E' + i E'')(w tau_i)/E_i [Pa], in blocks that fit the processor's cache."""
-    flat = np.abs(omega).reshape(-1)
-    total = np.empty(flat.size, dtype=np.complex128)
-    for first in range(0, flat.size, _BLOCK):
-        phase = np.outer(flat[first : first + _BLOCK], times)
-        smaller = np.minimum(phase, 1.0 / np.maximum(phase, 1.0))
-        square = smaller * smaller
-        below = 1.0 + square
-        part = total[first : first + _BLOCK]
-        part.imag = (moduli * (smaller / below)).sum(-1)
-        np.copyto(square, 1.0, where=phase > 1.0)
-        part.real = (moduli * (square / below)).sum(-1)
-    total.imag = np.copysign(total.imag, np.reshape(omega, -1))
-    return total.reshape(np.shape(omega))
 
 
 # What files hold of admissible series.
@@ -318,8 +300,9 @@ class Rubber(Checked, Pictured, eq=False):
         below 1e100.
         """
         frequency = checks.real("omega", omega, unit="rad/s")
-        relaxing = complex_sum(frequency, self.relaxation_times, self.moduli)
-        return np.asarray(self.equilibrium_modulus + relaxing)
+        arrays = (frequency.reshape(-1), self.moduli, self.relaxation_times)
+        relaxing = relaxing_moduli(*map(np.ascontiguousarray, arrays))
+        return np.asarray(self.equilibrium_modulus + relaxing.reshape(frequency.shape))
 
     def complex_modulus_band(self, omega: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
         """Return how low and how high E* [Pa] may be at angular frequencies `omega` [rad/s].

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::material::maxwell::{recurrence, Maxwell};
+use crate::material::maxwell::{recurrence, relaxing_moduli, Maxwell};
 use crate::material::sliding_history::SlidingHistory;
 
 fn rubber() -> Maxwell {
@@ -62,6 +62,21 @@ fn a_harmonic_is_multiplied_by_the_complex_modulus() {
         assert!((real - first.0 + (storage - storage_1)).abs() < 1e-12);
         assert!((imaginary + loss).abs() < 1e-12 && (first.1 + loss_1).abs() < 1e-12);
     }
+}
+
+/// In more frequencies than a block, with both signs.
+#[test]
+fn many_frequencies_have_the_complex_modulus_of_each() {
+    let maxwell = rubber();
+    let omega: Vec<f64> = (-600..600).map(|k| 0.01 * k as f64).collect();
+    let values = relaxing_moduli(&omega, &maxwell.moduli, &maxwell.times);
+    for (&w, value) in omega.iter().zip(&values) {
+        let (storage, loss) = maxwell.complex_modulus(w);
+        assert!((value.re + maxwell.equilibrium - storage).abs() < 1e-14 * storage);
+        assert!((value.im - loss).abs() <= 1e-14 * loss.abs());
+    }
+    let fast = relaxing_moduli(&[1e300], &maxwell.moduli, &maxwell.times)[0];
+    assert!((fast.re / maxwell.moduli.iter().sum::<f64>() - 1.0).abs() < 1e-15);
 }
 
 /// The two evaluations differ by the square of the column width over the shortest scale.

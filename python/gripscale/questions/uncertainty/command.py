@@ -99,7 +99,7 @@ def uncertainty_command(
     work = terminal.CaseCommand(case)
     choice = Uncertainty.of_case(stated_options(work.case), **options)
     models = models or stated_models(work.case, choice)
-    if cluster is None and DirectContact.name in models and worker_count(workers) > 1:
+    if cluster is None and DirectContact.name in models and worker_count(workers) > 2:
         cluster = PROCESSES
     work.open_results(output, "uncertainty", f"Uncertainty of {work.file.path}")
 

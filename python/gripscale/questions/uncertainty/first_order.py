@@ -8,8 +8,9 @@ what they change. With the adjoint of `gripscale.half_space.sensitivity`
 
 M' being the moduli of another rubber, h' other heights, e the exponent of the cut-off l over its
 last octave, and a and b the derivatives by nominal pressure and temperature. The standard deviation
-over draws is the error of the source. The contact area has no adjoint: a few draws of another
-rubber, and a and b, are differences of contacts that start from the solved one.
+over draws is the error of the source. The contact area has no adjoint: its derivatives by pressure,
+temperature and moduli are differences of contacts that start from the solved one. The moduli of
+drawn rubbers change along few directions, and each direction has one derivative (`_directions`).
 
 Three sources are no small change. Another stretch of road has the error of the pieces of the
 profiles (`gripscale.half_space.sampling_error`). Where spikes are removed or kept, heights change
@@ -32,6 +33,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.conditions import Conditions
 from gripscale.core import Array, ComplexArray, InputError, RubberWarning, in_threads, worker_count
+from gripscale.core.parallel import Job
 from gripscale.half_space import sensitivity
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import DirectContact
@@ -45,6 +47,7 @@ from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_options
 from gripscale.questions.uncertainty.sources import SOURCES, Source
 from gripscale.rubber import Rubber
+from gripscale.surface import HeightMap, Profile, Surface
 
 # Draws of each source: the standard deviation is known to a tenth. A draw costs no contact.
 DRAWS = 64
@@ -53,6 +56,10 @@ SOLVED = {"height_noise": 16, "cleaning": 8}
 # Draws of another rubber for the contact area. On the shipped road 8 draws of the moduli give 1.0
 # %, 48 draws 1.1 %.
 FEW_DRAWS = 8
+# Sources of another rubber.
+OF_RUBBER = ("modulus", "bulk_modulus", "equilibrium_modulus")
+# Part of the mean square change of the moduli that the directions of the contact area leave out.
+LEFT_OUT = 1e-4
 CARRIED_QUANTITIES = ("friction", "contact_fraction")
 
 
@@ -65,7 +72,6 @@ class Tangent:
     contacts: Sequence[RoughContact]
     adjoints: Sequence[FrictionAdjoint]
     share: Array  # of each contact in friction and contact area of all [-], shape (2, contacts)
-    totals: Array  # friction from dissipation and contact fraction of all [-]
     sampling_errors: Array  # relative standard errors of both from pieces of the profiles [-]
 
     @classmethod
@@ -75,24 +81,32 @@ class Tangent:
         answer = _model(case).predict(
             case.rubber, case.surface, case.load, on_progress=contacts.append
         )
-        each = [(c.friction_from_dissipation, c.contact_fraction) for c in contacts]
-        amounts = np.transpose(each) * [contact.grid.lengths[0] for contact in contacts]
         if not all(each.has_friction for each in contacts):
             status = ", ".join(str(each.status) for each in contacts)
+            frictions = ", ".join(f"{each.friction_from_dissipation:.3g}" for each in contacts)
             raise InputError(
                 "the direct contact must have a result with friction for its derivatives; got "
-                f"status {status}, friction {', '.join(f'{friction:.3g}' for friction, _ in each)}"
+                f"status {status}, friction {frictions}"
             )
+        amounts = _amounts(contacts)
         errors = [float(answer.get(name, math.nan)) for name in reversed(SAMPLING_ERRORS)]
         adjoints = [FrictionAdjoint.of(contact) for contact in contacts]
         usual, share = Inputs.of(Measurement.of(case)), amounts / amounts.sum(1, keepdims=True)
-        return cls(case, usual, contacts, adjoints, share, _totals(answer), np.array(errors))
+        return cls(case, usual, contacts, adjoints, share, np.array(errors))
 
     def solved_change(self, inputs: Inputs) -> Array:
         """Return the changes of ln mu and ln A_r/A_0 by a contact with the other inputs [-]."""
         surface, model = inputs.for_model(_model(self.case))
-        answer = model.predict(inputs.rubber, surface, inputs.under(self.case.load))
-        return np.log(_totals(answer) / self.totals)
+        assert isinstance(model, DirectContact)
+        load, contacts = inputs.under(self.case.load), []
+        for measured, usual, contact in zip(
+            _surfaces(surface), _surfaces(self.case.surface), self.contacts, strict=True
+        ):
+            # cleaned otherwise, a profile may lose its end
+            start = contact if measured.z.shape == usual.z.shape else None
+            contacts.append(model.contact(inputs.rubber, surface, measured, load, start))
+        amounts = [_amounts(each).sum(1) for each in (contacts, self.contacts)]
+        return np.asarray(np.log(amounts[0] / amounts[1]))
 
     def change(self, inputs: Inputs) -> float:
         """Return what other inputs than those of the case change in ln mu, to first order [-]."""
@@ -117,21 +131,27 @@ class Tangent:
                 parts[at] += exponent * math.log(inputs.end / usual.end)
         return float(self.share[0] @ (parts + self._by_conditions(inputs, 0)))
 
-    def area_change(self, inputs: Inputs) -> float:
-        """Return what another rubber or cut-off changes in ln A_r/A_0, to first order [-]."""
-        parts = np.zeros(len(self.contacts))
+    def area_changes(self, drawn: Sequence[Inputs]) -> Array:
+        """Return what other rubbers or cut-offs change in ln A_r/A_0, to first order [-]."""
+        parts = np.zeros((len(drawn), len(self.contacts)))
+        ends = np.array([inputs.end / self.usual.end for inputs in drawn])
+        changed = any(inputs.rubber is not self.usual.rubber for inputs in drawn)
         for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
-            if inputs.rubber is not self.usual.rubber:
-                change = _log_ratio(adjoint, inputs.rubber)
-                parts[at] += sensitivity.ContactFractionDifferences(contact).by_modulus(change)
-            exponent = contact.cut_off_exponents.contact_fraction
-            parts[at] += exponent * math.log(inputs.end / self.usual.end)
-        return float(self.share[1] @ (parts + self._by_conditions(inputs, 1)))
+            parts[:, at] = contact.cut_off_exponents.contact_fraction * np.log(ends)
+            if changed:
+                changes = np.array([_log_ratio(adjoint, inputs.rubber) for inputs in drawn])
+                along, directions = _directions(changes, np.abs(adjoint.weight))
+                differences = sensitivity.ContactFractionDifferences(contact)
+                parts[:, at] += along @ [differences.by_modulus(each) for each in directions]
+        parts += [self._by_conditions(inputs, 1) for inputs in drawn]
+        return np.asarray(parts @ self.share[1])
 
-    def _by_conditions(self, inputs: Inputs, quantity: int) -> Array | float:
+    def _by_conditions(self, inputs: Inputs, quantity: int) -> Array:
         """Return what pressure and temperature change in ln mu or ln A_r/A_0 of each contact."""
         change = [inputs.log_pressure, inputs.warming]
-        return self._by_pressure_and_kelvin[quantity] @ change if any(change) else 0.0
+        if not any(change):
+            return np.zeros(len(self.contacts))
+        return np.asarray(self._by_pressure_and_kelvin[quantity] @ change)
 
     @cached_property
     def _by_pressure_and_kelvin(self) -> tuple[Array, Array]:
@@ -147,9 +167,29 @@ class Tangent:
         return np.array(friction), np.array(area)
 
 
-def _totals(answer: xr.Dataset) -> Array:
-    names = ("total_friction_from_dissipation", "total_contact_fraction")
-    return np.array([float(answer[name]) for name in names])
+def _surfaces(surface: Surface) -> list[Profile | HeightMap]:
+    """Return the profiles of a measured surface, or its map."""
+    assert surface.measured is not None
+    return list(surface.measured.surfaces)
+
+
+def _amounts(contacts: Sequence[RoughContact]) -> Array:
+    """Return friction from dissipation and contact fraction times length, (2, contacts)."""
+    each = [(c.friction_from_dissipation, c.contact_fraction) for c in contacts]
+    return np.asarray(np.transpose(each) * [contact.grid.lengths[0] for contact in contacts])
+
+
+def _directions(changes: ComplexArray, weight: Array) -> tuple[Array, ComplexArray]:
+    """Return directions d_k that changes c_i of ln M are sums of, and how far each goes along them.
+
+    Principal components by `weight` of each wave: c_i = sum_k a_ik d_k, shapes (draws, directions)
+    and (directions, *waves). `LEFT_OUT` of the mean square is left out.
+    """
+    flat = (changes * np.sqrt(weight)).reshape(len(changes), -1)
+    values, vectors = np.linalg.eigh((flat @ flat.conj().T).real)
+    rest = np.cumsum(np.maximum(values, 0.0))
+    kept = vectors[:, rest > LEFT_OUT * rest[-1]]
+    return kept, np.tensordot(kept.T, changes, 1)
 
 
 def _model(case: Case) -> DirectContact:
@@ -192,11 +232,9 @@ def first_order(
     tangent = Tangent.of(case)
     drawn = replace(asked, without=(*asked.without, ROAD, GRID))
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
-    jobs = [lambda _, each=each: _scatter(tangent, each, count, seed) for each in sources]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        scatter = dict(in_threads(jobs, worker_count(None)))
-    errors = {each.name: scatter[at] for at, each in enumerate(sources)}
+        errors = _standard_errors(tangent, sources, count, seed)
     errors |= {ROAD: tangent.sampling_errors} if ROAD not in asked.without else {}
     labels = np.array([SOURCES[name].label for name in errors], dtype=object)
     text = "relative standard error of {}, by first order"
@@ -213,19 +251,42 @@ def first_order(
     )
 
 
-def _scatter(tangent: Tangent, source: Source, count: int, seed: int) -> Array:
-    """Return the standard errors of ln mu and ln A_r/A_0 by draws of a source [-]."""
+def _standard_errors(
+    tangent: Tangent, sources: Sequence[Source], count: int, seed: int
+) -> dict[str, Array]:
+    """Return the standard errors of ln mu and ln A_r/A_0 by draws of each source [-].
 
-    def drawn(count: int) -> list[Inputs]:
+    The draws that are solved come last, so that all threads are busy to the end.
+    """
+
+    def drawn(source: Source, count: int) -> list[Inputs]:
         every = (each.inputs for each in draws(tangent.usual, [source], count, seed))
         return [inputs for inputs in every if inputs is not None]
 
-    if source.name in SOLVED:
-        every = drawn(SOLVED[source.name])
-        changes = np.array([tangent.solved_change(inputs) for inputs in every])
-        return np.asarray(np.sqrt(np.mean(changes**2, axis=0)))
-    of_friction = of_area = drawn(count)
-    if of_area[0].rubber is not tangent.usual.rubber:
-        of_area = drawn(FEW_DRAWS)  # each is a difference of contacts
-    friction = [tangent.change(inputs) for inputs in of_friction]
-    return np.array([np.std(friction), np.std(list(map(tangent.area_change, of_area)))])
+    def scatter(source: Source) -> Array:
+        few = FEW_DRAWS if source.name in OF_RUBBER else count
+        friction = [tangent.change(inputs) for inputs in drawn(source, count)]
+        return np.array([np.std(friction), np.std(tangent.area_changes(drawn(source, few)))])
+
+    def of_draws(source: Source) -> Job[Array]:
+        return lambda _: scatter(source)
+
+    def of_draw(inputs: Inputs) -> Job[Array]:
+        return lambda _: tangent.solved_change(inputs)
+
+    jobs: list[Job[Array]] = []
+    names: list[str] = []
+    for source in sorted(sources, key=lambda source: source.name in SOLVED):
+        if source.name in SOLVED:
+            of_source = [of_draw(inputs) for inputs in drawn(source, SOLVED[source.name])]
+        else:
+            of_source = [of_draws(source)]
+        jobs += of_source
+        names += [source.name] * len(of_source)
+    done = dict(in_threads(jobs, worker_count(None)))
+    values = np.array([done[at] for at in range(len(jobs))])
+    # of a single scatter itself, of solved draws their rms change
+    return {
+        source.name: np.sqrt(np.mean(values[np.array(names) == source.name] ** 2, axis=0))
+        for source in sources
+    }
