@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
@@ -21,7 +22,7 @@ from rich.console import Console
 import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
-from gripscale._kernel import LineFilter
+from gripscale._kernel import Line
 from gripscale.half_space import RoughContact, response
 from gripscale.surface import HeightMap, Profile, self_affine_profile
 
@@ -146,7 +147,7 @@ def _measured(solve: Callable[[], RoughContact]) -> list[str]:
 
 @contextmanager
 def _timed_transforms() -> Iterator[list[float]]:
-    """Give the processor seconds of every transform called within."""
+    """Give the processor seconds of every transform and every linear system of a line within."""
     seconds: list[float] = []
 
     def timed(transform: Callable[..., Any]) -> Callable[..., Any]:
@@ -161,6 +162,10 @@ def _timed_transforms() -> Iterator[list[float]]:
     with ExitStack() as ending:
         for name in ("rfftn", "irfftn", "ifft", "irfft"):
             ending.enter_context(patch.object(scipy.fft, name, timed(getattr(scipy.fft, name))))
-        of_lines = patch.object(response, "LineFilter", lambda points: timed(LineFilter(points)))
-        ending.enter_context(of_lines)
+
+        def timed_line(points: int) -> SimpleNamespace:
+            line = Line(points)
+            return SimpleNamespace(filtered=timed(line.filtered), close_gap=timed(line.close_gap))
+
+        ending.enter_context(patch.object(response, "Line", timed_line))
         yield seconds

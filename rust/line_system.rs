@@ -1,7 +1,5 @@
-//! The linear system of the points of a line in contact, in single precision; the bindings' alone.
-//!
-//!     Q K p = Q r,    Q r = P S E P r,    P r = r - mean r
-//!
+//! The linear system of the points of a line in contact, in single precision; the bindings' alone:
+//!     Q K p = Q r,    Q r = P S E P r,    P r = r - mean r,
 //! with K the displacement under a pressure, S its inverse, and E the extension of a gap beyond the
 //! points: see `gripscale.half_space.active_set`, which refines the solution in double precision.
 

@@ -254,7 +254,9 @@ mod tests {
             let factor = |k: usize| Complex64::new(1.0 / (1 + k) as f64, 0.1 * k as f64);
             let factors: Vec<Complex64> = (0..=length / 2).map(factor).collect();
             Lines::new(length).convolve(&factors, &mut expected);
-            let single = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
+            let single = |values: &[f64]| -> Vec<f32> {
+                values.iter().map(|value| *value as f32).collect()
+            };
             let lines = SingleLines::new(length);
             let factors: Vec<Complex32> = factors
                 .iter()

@@ -9,6 +9,7 @@
 use crate::spectral::Complex64;
 
 /// Frequencies at once in `relaxing_moduli`: their sums stay in the fastest cache.
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
 const BLOCK: usize = 512;
 
 /// Shear moduli and relaxation times, in units of the caller.
@@ -51,6 +52,7 @@ impl Maxwell {
 
 /// sum G_i i w tau_i / (1 + i w tau_i) at many frequencies. Term after term of a block of them, so that the
 /// compiler computes several at once; below and above w tau = 1 without overflow.
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
 pub fn relaxing_moduli(omega: &[f64], moduli: &[f64], times: &[f64]) -> Vec<Complex64> {
     let mut values = Vec::with_capacity(omega.len());
     for block in omega.chunks(BLOCK) {

@@ -60,15 +60,15 @@ def points_of(loss: float) -> tuple[PointsInContact, np.ndarray]:
 
 def test_its_system_is_that_of_numpy() -> None:
     points, right = points_of(1.0)
-    found, residual = points.correction(right, 1e-5, 100)
+    found, residual = points.correction(right, 1e-2, 100)
     products = points.products
-    expected, other_residual, other_products = gmres(points._image, right, 1e-5, 100)
+    expected, other_residual, other_products = gmres(points._image, right, 1e-2, 100)
     assert products == other_products
     # single precision
     assert found == pytest.approx(expected, abs=1e-4 * float(np.abs(expected).max()))
     assert residual == pytest.approx(other_residual, rel=1e-2)
-    rest = np.linalg.norm(right - points._image(found))
-    assert rest == pytest.approx(residual, rel=0.2)
+    rest = float(np.linalg.norm(right - points._image(found)))
+    assert rest == pytest.approx(residual, rel=0.05)
 
 
 def test_a_system_that_does_not_fit_its_line_is_refused() -> None:

@@ -64,7 +64,7 @@ def test_the_promised_friction_is_that_of_finer_contacts():
         friction.averaged(
             [
                 contact.friction_from_dissipation
-                for contact in friction.contacts(rubber, tolerance=tolerance, warm=False)
+                for contact in friction.contacts(rubber, tolerance=tolerance)
             ]
         )
         for tolerance in (DESIGN_TOLERANCE, 0.02)

@@ -145,7 +145,7 @@ def test_the_curve_rises_and_keeps_to_its_levels(data):
 
 def test_a_compound_has_no_gain_over_itself(case):
     friction = design_problem(read_case(case)).friction
-    same = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
+    same = friction.contacts(friction.rubber, tolerance=0.05)
     result = gain(friction, same, same)
     assert (result.log_ratio, result.sampling, result.grid) == (0.0, 0.0, 0.0)
     assert result.interval == (0.0, 0.0)
@@ -155,8 +155,8 @@ def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
     """Less than those of both frictions, of which most cancels, and that of one against none."""
     friction = design_problem(read_case(case)).friction
     ratio = np.linspace(1.3, 0.8, 1 + friction.rubber.moduli.size)
-    before = friction.contacts(friction.rubber, tolerance=0.05, warm=False)
-    after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05, warm=False)
+    before = friction.contacts(friction.rubber, tolerance=0.05)
+    after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05)
     piece = 2.0 * friction.parts[0].largest_wavelength
     each = [sampling_error(contacts[0], piece).friction for contacts in (before, after)]
     carrying = pieces_that_carry(before[0], piece)

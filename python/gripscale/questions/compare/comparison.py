@@ -6,7 +6,6 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,7 @@ from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
-from gripscale.questions.compare.ladder import WINDOWS, ComparedModel, ComparisonSetup, chosen
+from gripscale.questions.compare.ladder import ComparedModel, ComparisonSetup, chosen
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import Study, coordinates
 from gripscale.rubber.extrapolation import require_measured
@@ -138,9 +137,7 @@ def solved_ladder(
 
     wanted = chosen(models)
     answering = [m for m in wanted if m.name == estimates.DIRECT] if axis is None else []
-    quick = [member for member in wanted if member.group != WINDOWS]
-    parts = pairwise([answering, quick, list(wanted), []])
-    asked, *stages = [part for part, after in parts if part and part != after]
+    asked, *stages = [answering, wanted] if answering and answering != wanted else [wanted]
     while True:
         design, solved = _design(setups, list(tasks), asked, axis)
         if not solved and stages:
@@ -218,7 +215,8 @@ def _design(
         "subject": (("model", "sample"), subjects),
     }
     outer = {} if axis is None else {axis.name: len(setups)}
-    return Design(outer | sizes, points, coords), list(draws)
+    # the windows come last on the ladder and take the longest: they start first
+    return Design(outer | sizes, points[::-1], coords), list(draws)
 
 
 def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:

@@ -66,7 +66,7 @@ class Reference:
         """Solve today's compound."""
         value, _ = friction.log_friction(np.ones(1 + friction.rubber.moduli.size))
         series = series_derivatives(friction, friction.contacts(friction.rubber), friction.rubber)
-        fine = friction.contacts(friction.rubber, tolerance=DESIGN_TOLERANCE, warm=False)
+        fine = friction.contacts(friction.rubber, tolerance=DESIGN_TOLERANCE)
         return cls(fine, value, series)
 
 
@@ -82,7 +82,7 @@ def solved_point(
     optimum = nearest_design(friction, admissible, best)
     rubber = changed(problem.rubber, optimum.ratio)
     series = series_derivatives(friction, friction.contacts(rubber), problem.rubber)
-    contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
+    contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE)
     error = series_error(series - reference.series)
     result = gain(friction, reference.contacts, contacts, error)
     rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
@@ -154,8 +154,8 @@ def other_compounds(
     parts = []
     for name in rubbers:
         rubber, friction = together[name], problem.friction
-        contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE, warm=False)
-        series = series_derivatives(friction, friction.contacts(rubber, warm=False), rubber)
+        contacts = friction.contacts(rubber, tolerance=DESIGN_TOLERANCE)
+        series = series_derivatives(friction, friction.contacts(rubber), rubber)
         errors = [series_error(each) for each in (reference.series, series) if each.size]
         error = math.hypot(*errors) if errors else math.nan
         result = gain(friction, reference.contacts, contacts, error)

@@ -134,10 +134,8 @@ class GoalFriction:
         weights = np.array([goal.weight for goal in self.goals])
         return np.asarray(weights / weights.sum())
 
-    def contacts(
-        self, rubber: Rubber, *, tolerance: float | None = None, warm: bool = True
-    ) -> list[RoughContact]:
-        """Return the contact of `rubber` on each part; `warm` starts from the compound before.
+    def contacts(self, rubber: Rubber, *, tolerance: float | None = None) -> list[RoughContact]:
+        """Return the contact of `rubber` on each part, from that of the compound before.
 
         Raises `ConvergenceError` if one cannot be used.
         """
@@ -154,14 +152,14 @@ class GoalFriction:
                 thickness=self.thickness,
                 smallest_wavelength=part.smallest_wavelength,
                 tolerance=tolerance,
-                start=self._before.get(index) if warm else None,
+                start=self._before.get(index),
             )
             if not contact.has_friction:
                 raise ConvergenceError(f"the contact at {goal} has no friction: {contact.status}")
             return contact
 
         solved = self._each(solve)
-        if warm and tolerance is None:
+        if tolerance is None:
             self._before = dict(enumerate(solved))
         return solved
 

@@ -35,7 +35,7 @@ from gripscale.questions.design.compound_design import (
     todays_answers,
 )
 from gripscale.questions.design.compound_limits import CompoundLimits
-from gripscale.questions.design.compound_search import design_problem
+from gripscale.questions.design.compound_search import PRECISION, design_problem
 from gripscale.questions.design.design_dataset import today, variable
 from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.questions.inputs import record
@@ -169,7 +169,7 @@ def design(
             designed = now * (point.friction / base.today_friction).values
             text = "friction of the answer with the design"
             point["answer_friction"] = variable(designed, text, dim="goal")
-        rises = not points or float(point.gain) > float(points[-1].gain)
+        rises = not points or float(point.gain - points[-1].gain) > PRECISION
         if rises:
             points.append(point)
         else:
