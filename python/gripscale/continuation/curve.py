@@ -508,13 +508,13 @@ def _octave_again(
     side = (
         _LOG_RATIOS[_LOG_RATIOS > 0.0] if friction < 0.0 else _LOG_RATIOS[_LOG_RATIOS < 0.0][::-1]
     )
-    known = {0.0: friction}
+    by_log = {0.0: friction}
     for log in side.tolist():
-        known[log] = log_friction(tried(log))
-        if known[log] * friction <= 0.0:
+        by_log[log] = log_friction(tried(log))
+        if by_log[log] * friction <= 0.0:
             break
-    logs = sorted(known)
-    frictions = np.maximum.accumulate([known[log] for log in logs])
+    logs = sorted(by_log)
+    frictions = np.maximum.accumulate([by_log[log] for log in logs])
     ratio = math.exp(float(np.interp(0.0, frictions, logs)))
     return Withheld(area - 1.0, math.expm1(friction), ratio, math.nan)
 

@@ -205,7 +205,7 @@ class PointsInContact:
         response, rows = self._response, self._extension
         if len(response.grid.shape) > 1:
             return gmres(self._image, right, target, most)[:2]
-        found, residual, products = response.line.close_gap(
+        pressure, residual, products = response.line.close_gap(
             right,
             self._where,
             [response.compliance_single, response.stiffness],
@@ -214,7 +214,7 @@ class PointsInContact:
             (target, most),
         )
         self.products += products
-        return found, residual
+        return pressure, residual
 
     def _image(self, pressure: Single) -> Single:
         """Return Q K_AA p."""

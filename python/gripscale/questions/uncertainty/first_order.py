@@ -59,7 +59,7 @@ FEW_DRAWS = 8
 # Sources of another rubber.
 OF_RUBBER = ("modulus", "bulk_modulus", "equilibrium_modulus")
 # Part of the mean square change of the moduli that the directions of the contact area leave out.
-LEFT_OUT = 1e-4
+SMALLEST_PART = 1e-4
 CARRIED_QUANTITIES = ("friction", "contact_fraction")
 
 
@@ -183,12 +183,12 @@ def _directions(changes: ComplexArray, weight: Array) -> tuple[Array, ComplexArr
     """Return directions d_k that changes c_i of ln M are sums of, and how far each goes along them.
 
     Principal components by `weight` of each wave: c_i = sum_k a_ik d_k, shapes (draws, directions)
-    and (directions, *waves). `LEFT_OUT` of the mean square is left out.
+    and (directions, *waves). `SMALLEST_PART` of the mean square is left out.
     """
     flat = (changes * np.sqrt(weight)).reshape(len(changes), -1)
     values, vectors = np.linalg.eigh((flat @ flat.conj().T).real)
     rest = np.cumsum(np.maximum(values, 0.0))
-    kept = vectors[:, rest > LEFT_OUT * rest[-1]]
+    kept = vectors[:, rest > SMALLEST_PART * rest[-1]]
     return kept, np.tensordot(kept.T, changes, 1)
 
 
