@@ -43,6 +43,7 @@ from gripscale.surface import (
     height_difference,
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
+from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
@@ -131,6 +132,8 @@ class Case(Described):
         Thickness of the rubber on a rigid base [m]; without it the rubber has no end.
     smallest_wavelength : float or str, optional
         Shortest wave of the roughness that counts [m]; by default the shortest one measured.
+    kind : str
+        What the surface is called in titles, one of `SURFACE_KINDS`.
     waves : int
         Number of sine waves that are fitted to measured heights.
     conditions : Conditions, optional
@@ -171,6 +174,7 @@ class Case(Described):
         tester: str | None = None,
         thickness: Quantity | None = None,
         smallest_wavelength: Quantity | None = None,
+        kind: SurfaceKind = "surface",
         waves: int = _WAVES,
         conditions: Conditions | None = None,
         water: bool | Quantity | None = None,
@@ -185,6 +189,7 @@ class Case(Described):
         origin: Origin | None = None,
     ) -> None:
         self.origin = origin or Origin()
+        self.kind = checks.one_of("kind", kind, SURFACE_KINDS)
         self.tester = "" if tester is None else checks.one_of("tester", tester, TESTERS)
         preset = TESTERS.get(self.tester)
         if preset is None and (pressure is None or speed is None):
@@ -225,7 +230,7 @@ class Case(Described):
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield surface, rubber, load and conditions."""
-        yield "surface", self.surface.source or "unnamed"
+        yield self.kind, self.surface.source or "unnamed"
         yield "rubber", self.rubber.name or "unnamed"
         for key in ("pressure", "speed", "footprint", "thickness"):
             if getattr(self.load, key) is not None:
@@ -259,7 +264,8 @@ class Case(Described):
             lines = [raw.name for raw, _ in measured.profiles]
             surface = lines[0] if measured.map is None else measured.map.name
             surface += f" and {len(lines) - 1} more" if measured.map is None and lines[1:] else ""
-        return f"{self.rubber.name or 'a rubber'} on {surface or 'a surface'}"
+        kind = "" if self.kind == "surface" else f"the {self.kind} "
+        return f"{self.rubber.name or 'a rubber'} on {kind}{surface or 'a surface'}"
 
     @property
     def units(self) -> Mapping[str, str]:
@@ -271,6 +277,7 @@ class Case(Described):
         """Attributes of every result: text and units of the case file, and the command."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
         command |= {TESTER: self.tester} if self.tester else {}
+        command |= {SURFACE_KIND: self.kind} if self.kind != "surface" else {}
         text = {"case": self.origin.text, CASE_TITLE: self.title}
         return text | {DISPLAY_UNITS: json.dumps(self.units)} | command
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import os
 import sys
-import textwrap
 import time
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from contextvars import ContextVar
@@ -98,17 +97,9 @@ def print_wrapped(console: Console, message: str) -> None:
     """Print a line, continued with its own indent where too long; words and paths stay whole."""
     from rich.text import Text
 
-    indent = " " * (len(message) - len(message.lstrip()))
-    lines = textwrap.wrap(
-        message.replace(" %", "\N{NO-BREAK SPACE}%"),
-        console.width,
-        subsequent_indent=f"{indent}  ",
-        break_long_words=False,
-        break_on_hyphens=False,
-        replace_whitespace=False,
-    )
-    text = "\n".join(lines).replace("\N{NO-BREAK SPACE}%", " %")
-    console.print(Text(text), soft_wrap=True)
+    from gripscale.io.table import wrapped
+
+    console.print(Text(wrapped(message, console.width)), soft_wrap=True)
 
 
 def print_parts(console: Console, parts: Iterable[str | Table]) -> None:

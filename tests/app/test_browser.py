@@ -265,7 +265,7 @@ def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
         assert len(ends) == len(TABS), name
         assert all(0 <= left < right <= width for left, right in ends), (name, ends)
     whole_way.tab("4 Run")
-    for question in ("Roads under this rubber", "Area term", "Contact and friction"):
+    for question in ("Surfaces under this rubber", "Area term", "Contact and friction"):
         whole_way.page.get_by_label("Question").select_option(label=question)
         whole_way.says(next(each.about for each in COMMANDS if each.title == question))
         assert whole_way.width() <= width, question

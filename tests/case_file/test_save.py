@@ -183,6 +183,7 @@ def test_everything_else_of_a_case_comes_back(tmp_path: Path) -> None:
         footprint=0.08,
         load_time=float("inf"),
         static=True,
+        kind="counterface",
         chain=Chain(FiniteStrainBlock(tolerance=0.03), pressure_classes=2),
         below_measurement=BelowMeasurement(2e-5, HurstExponent(0.7), seed=4),
         klueppel_heinrich=KlueppelHeinrich(1.5, 1e-4),
@@ -191,6 +192,8 @@ def test_everything_else_of_a_case_comes_back(tmp_path: Path) -> None:
     other = moved(case, tmp_path)
     assert (other.load, other.static, other.chain) == (case.load, case.static, case.chain)
     assert other.below_measurement == case.below_measurement
+    assert other.kind == "counterface"
+    assert " on the counterface " in other.title
     assert other.klueppel_heinrich == case.klueppel_heinrich
     for column in ("speed", "friction", "spread", "temperature", "pressure"):
         np.testing.assert_array_equal(getattr(other.friction, column), getattr(measured, column))

@@ -449,6 +449,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 speed=load.speed,
                 footprint=load.footprint,
                 tester=load.tester,
+                kind=table.kind,
                 load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 static=load.static,

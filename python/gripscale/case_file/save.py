@@ -149,6 +149,7 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
         "uncertainty": asdict(options) | {"without": list(options.without)},
     }
+    tables["surface"]["kind"] = None if case.kind == "surface" else case.kind
     tables["rubber"]["thickness"] = load.thickness
     tables["rubber"]["extrapolate"] = case.chain.extrapolate
     tables["load"] |= {"static": case.static, "load_time": load.load_time}

@@ -32,6 +32,7 @@ from gripscale.questions.uncertainty.options import (
     pressure_error,
 )
 from gripscale.rubber.strain_energy import NeoHookean
+from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS
 
 _CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
@@ -84,14 +85,16 @@ class SourceKeys(CaseTable):
     """Where a surface comes from: profiles, a map, or waves by hand."""
 
     files: list[str] | None = Field(default=None, min_length=1)
-    """Measured profiles of one road; several are pooled."""
+    """Measured profiles of one surface; several are pooled."""
     lay: list[Literal["along", "across"]] | None = Field(default=None, min_length=1)
     """How each of files lies to the sliding direction; along by default. Profiles across it show
-    whether the road has ridges, and no more."""
+    whether the surface has ridges, and no more."""
     map: str | None = None
     """A measured map, in place of files."""
     sines: list[WaveTable] | None = Field(default=None, min_length=1)
     """Waves stated by hand, in place of files; longest first."""
+    kind: SurfaceKind = "surface"
+    """What the surface is called in titles."""
 
     @property
     def measured_files(self) -> list[str]:

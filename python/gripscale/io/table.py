@@ -73,7 +73,7 @@ def percent(value: float) -> str:
 
 def change(value: float) -> str:
     """Return a relative change in per cent, with its sign."""
-    return f"{100.0 * value:+.1f} %"
+    return f"{100.0 * value:+z.1f} %"
 
 
 def whole_number(value: float) -> str:
@@ -408,6 +408,20 @@ def spaced(parts: Iterable[str | Table]) -> Iterator[str | Table]:
         before = part
 
 
+def wrapped(text: str, width: int) -> str:
+    """Return a line, continued with its own indent; words, paths and numbers with % stay whole."""
+    indent = " " * (len(text) - len(text.lstrip()))
+    lines = textwrap.wrap(
+        text.replace(" %", "\N{NO-BREAK SPACE}%"),
+        width,
+        subsequent_indent=f"{indent}  ",
+        break_long_words=False,
+        break_on_hyphens=False,
+        replace_whitespace=False,
+    )
+    return "\n".join(lines).replace("\N{NO-BREAK SPACE}%", " %")
+
+
 def as_text(*parts: str | Table, width: int = 100) -> str:
     """Return tables and sentences as plain text, as written to the results folder."""
     from rich.console import Console
@@ -417,7 +431,7 @@ def as_text(*parts: str | Table, width: int = 100) -> str:
     )
     with paper.capture() as captured:
         for part in spaced(parts):
-            paper.print(part)
+            paper.print(wrapped(part, width) if isinstance(part, str) else part)
     return "".join(f"{line.rstrip()}\n" for line in captured.get().splitlines())
 
 

@@ -64,5 +64,5 @@ from .vary.ranking import at_one_temperature as at_one_temperature
 from .vary.ranking import compare_compounds as compare_compounds
 from .vary.ranking import compare_surfaces as compare_surfaces
 from .vary.side_by_side import Compounds as Compounds
-from .vary.side_by_side import Roads as Roads
+from .vary.side_by_side import Surfaces as Surfaces
 from .vary.study import Study as Study

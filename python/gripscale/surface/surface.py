@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
@@ -180,6 +180,9 @@ class Measured(Described):
         return Measured.of(self.heights)
 
 
+SurfaceKind = Literal["surface", "road", "floor", "counterface"]
+SURFACE_KINDS = get_args(SurfaceKind)
+SURFACE_KIND = "surface_kind"  # attribute of a result: what its surface is called
 SurfacePart = Literal["waves", "measurement", "cut_off"]
 """A part of a surface that a model may need."""
 

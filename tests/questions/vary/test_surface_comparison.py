@@ -1,4 +1,4 @@
-"""Roads side by side: a twin differs by nothing, a rougher road surely; octaves add up."""
+"""Surfaces side by side: a twin differs by nothing, a rougher road surely; octaves add up."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
 from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.questions import Roads, compare_surfaces
+from gripscale.questions import Surfaces, compare_surfaces
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 
@@ -34,14 +34,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def made(folder: Path) -> Roads:
+def made(folder: Path) -> Surfaces:
     file = read_case_file(folder / "case.toml")
     names = ("road", "twin", "rough")
     surfaces = {name: read_surface(str(folder / f"{name}.txt"), file) for name in names}
     return compare_surfaces(read_case(folder / "case.toml"), surfaces, folder / "out")
 
 
-def test_roads_have_the_answer_and_are_ranked_by_it(folder: Path, made: Roads) -> None:
+def test_roads_have_the_answer_and_are_ranked_by_it(folder: Path, made: Surfaces) -> None:
     data = made.data
     answer = gs.answer(read_case(folder / "case.toml"))
     assert data.answer_friction.sel(surface="road") == pytest.approx(answer.friction, rel=1e-12)
@@ -56,7 +56,7 @@ def test_roads_have_the_answer_and_are_ranked_by_it(folder: Path, made: Roads) -
     assert rows == ["rough", "road", "twin"]
 
 
-def test_the_ratio_is_as_uncertain_as_both_answers(made: Roads) -> None:
+def test_the_ratio_is_as_uncertain_as_both_answers(made: Surfaces) -> None:
     """Two roads share no error."""
     data = made.data
     pair = data.sel(surface="rough", over="road")
@@ -72,14 +72,14 @@ def test_the_ratio_is_as_uncertain_as_both_answers(made: Roads) -> None:
     np.testing.assert_allclose(data.confidence + data.confidence.T.values, 1.0, rtol=1e-12)
 
 
-def test_octaves_add_up_to_the_answer(made: Roads) -> None:
+def test_octaves_add_up_to_the_answer(made: Surfaces) -> None:
     data = made.data
     np.testing.assert_allclose(data.octave_friction.sum("octave"), data.answer_friction, rtol=1e-9)
     octave = np.log2(data.octave.values / 1e-3)
     np.testing.assert_allclose(octave, np.round(octave))
 
 
-def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Roads) -> None:
+def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Surfaces) -> None:
     for name in ("correlation", "spectrum"):
         curve = made.data[name]
         ratio = (curve.sel(surface="rough") / curve.sel(surface="road")).dropna(curve.dims[-1])
@@ -119,13 +119,13 @@ def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
     figures = {path.stem for path in target.glob("*.p*")}
     assert figures == {"roads_statistics", "roads_friction"}
     page = (target / "report.html").read_text()
-    assert "Roads side by side" in page
-    assert page.index("friction μ ranks rough") < page.index("Roads by friction")
+    assert "Surfaces side by side" in page
+    assert page.index("friction μ ranks rough") < page.index("Surfaces by friction")
     assert "Texture: ISO 13473-1" in text
     assert "MPD" in page
     assert f"gripscale compare-surfaces {given[0]} {given[1]}" in page
 
 
 def test_two_to_six_roads(folder: Path) -> None:
-    with pytest.raises(InputError, match="surfaces must be 2 to 6 roads to be compared; got 1"):
+    with pytest.raises(InputError, match="surfaces must be 2 to 6 surfaces to be compared; got 1"):
         compare_surfaces(read_case(folder / "case.toml"), {"one": "case"})

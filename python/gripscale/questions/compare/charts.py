@@ -1,6 +1,6 @@
 """Charts of a comparison: from model to model, down to each wavelength, over a varied input.
 
-Roads and compounds side by side are in `gripscale.questions.vary.charts_side_by_side`.
+Surfaces and compounds side by side are in `gripscale.questions.vary.charts_side_by_side`.
 """
 
 from __future__ import annotations

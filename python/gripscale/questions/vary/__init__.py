@@ -1,11 +1,11 @@
-"""How the answer varies: over inputs of a case, from road to road, from compound to compound."""
+"""How the answer varies: over inputs, from surface to surface, from compound to compound."""
 
 from gripscale.questions.registry import Form, FormField
 
 KINDS = {
     "study": "question:Variation",
     "compounds": "side_by_side:Compounds",
-    "roads": "side_by_side:Roads",
+    "surfaces": "side_by_side:Surfaces",
 }
 COMMANDS = {
     "study": "command:study_command",
@@ -30,14 +30,14 @@ FORMS = (
     ),
     Form(
         "compare-rubbers",
-        "Compounds on this road",
-        "The rubber of the case beside others, on its road and under its load.",
+        "Compounds on this surface",
+        "The rubber of the case beside others, on its surface and under its load.",
         others="compounds",
     ),
     Form(
         "compare-surfaces",
-        "Roads under this rubber",
-        "The road of the case beside others, under its rubber and its load.",
-        others="roads",
+        "Surfaces under this rubber",
+        "The surface of the case beside others, under its rubber and its load.",
+        others="surfaces",
     ),
 )

@@ -54,18 +54,18 @@ def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterat
 
 
 def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield the figures of `gripscale.questions.Roads`: friction, and statistics."""
+    """Yield the figures of `gripscale.questions.Surfaces`: friction, and statistics."""
     yield Picture(
         "roads_friction",
         ranking_figure(data, "surface"),
         f"{_RANKING}.",
-        "A point with an interval and a curve for each road, rising towards short waves.",
+        "A point with an interval and a curve for each surface, rising towards short waves.",
     )
     yield Picture(
         "roads_statistics",
         roads_statistics_figure(data),
-        "Height difference correlation and spectrum of each road.",
-        "Two panels of curves, one for each road.",
+        "Height difference correlation and spectrum of each surface.",
+        "Two panels of curves, one for each surface.",
     )
 
 
@@ -152,7 +152,7 @@ def _decades_panel(data: xr.Dataset) -> Panel:
 def roads_statistics_figure(data: xr.Dataset) -> Figure:
     """Draw C_z [mm^2] over lag and the spectrum of lines [mm^3] over wavenumber of each road.
 
-    `data` is that of `gripscale.questions.Roads`.
+    `data` is that of `gripscale.questions.Surfaces`.
     """
     correlation: list[Mark] = []
     spectrum: list[Mark] = []

@@ -101,7 +101,7 @@ def compare_surfaces_command(
     surfaces: Annotated[
         list[str],
         argument(
-            "Two to six roads: files of profiles, cases (their surface), or surfaces known by "
+            "Two to six surfaces: files of profiles, cases (their surface), or surfaces known by "
             "name.",
             "SURFACE...",
         ),
@@ -110,13 +110,13 @@ def compare_surfaces_command(
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
-    """Rank roads under one rubber by friction: with what confidence, and by which wavelengths."""
+    """Rank surfaces under one rubber by friction: how surely, and by which wavelengths."""
     from gripscale.case_file.named_inputs import names_of, read_surface
     from gripscale.questions.vary.ranking import compare_surfaces
 
     work = terminal.CaseCommand(case_of(surfaces, case, "the rubber and the load"))
     work.open_results(output, "surfaces")
-    roads = compare_surfaces(
+    ranking = compare_surfaces(
         work.case,
         {
             name: read_surface(value, work.file)
@@ -124,7 +124,7 @@ def compare_surfaces_command(
         },
         **work.solving(workers),
     )
-    work.finish(roads, "tables and figures", drawings="")
+    work.finish(ranking, "tables and figures", drawings="")
 
 
 @case_command
@@ -150,7 +150,7 @@ def compare_rubbers(
     from gripscale.core.units import si_value
     from gripscale.questions.vary.ranking import compare_compounds
 
-    chosen = case_of(rubbers, case, "the road and the load")
+    chosen = case_of(rubbers, case, "the surface and the load")
     kelvin = si_value("--temperature", temperature, "K")
     work = terminal.CaseCommand(chosen)
     work.open_results(output, "rubbers")

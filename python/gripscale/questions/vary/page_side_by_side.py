@@ -26,8 +26,8 @@ from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.equations import method_section
+from gripscale.surface.surface import SURFACE_KIND
 
-CALLED = {"surface": "road", "rubber": "compound"}  # what stands side by side along a dimension
 # Confidence from which one lies over another, as outside of a two-sided 90 % interval.
 SIGNIFICANT = 0.95
 _CERTAIN = 0.995
@@ -108,6 +108,11 @@ def ranking_lines(data: xr.Dataset, dim: str) -> Iterator[str]:
     yield f"  for {pressure} and {speed}{at}; {_basis(data, dim)}"
 
 
+def noun(data: xr.Dataset, dim: str) -> str:
+    """Return what stands side by side along a dimension."""
+    return "compound" if dim == "rubber" else str(data.attrs.get(SURFACE_KIND, "surface"))
+
+
 def ranked_order(data: xr.Dataset, dim: str) -> list[int]:
     """Return the numbers of what has friction along `dim`, the largest first."""
     friction = data[believed(data, "friction")].transpose(dim).values
@@ -161,7 +166,7 @@ def _basis(data: xr.Dataset, dim: str) -> str:
             f"{answer}; no interval: a surface is too short to tell whether it stands for the whole"
         )
     if dim == "surface":
-        return f"{answer}; the errors of the roads are independent"
+        return f"{answer}; the errors of the surfaces are independent"
     has_moduli = "series_change" in data and bool(data["series_change"].notnull().any())
     moduli = "measured moduli, " if has_moduli else ""
     return (
@@ -176,7 +181,7 @@ def ranking_table(data: xr.Dataset, dim: str) -> Table:
     order = ranked_order(data, dim)
     order += [at for at in range(len(every)) if at not in order]
     following = [*order[1:], None]
-    columns = [Column(dim, [str(every[at]) for at in order], CALLED[dim])]
+    columns = [Column(dim, [str(every[at]) for at in order], noun(data, dim))]
     columns += answer_columns(data, lambda name: data[name].values[order].tolist())
 
     def over_next(name: str) -> Array:
@@ -194,14 +199,14 @@ def ranking_table(data: xr.Dataset, dim: str) -> Table:
     status = [str(data[STATUS].values[at]) for at in order]
     bad = [text != CONVERGED for text in status]
     columns += [Column("status", status)] if any(bad) else []
-    return Table(f"{dim}s", columns, f"{CALLED[dim].capitalize()}s by friction", bad=bad)
+    return Table(f"{dim}s", columns, f"{noun(data, dim).capitalize()}s by friction", bad=bad)
 
 
 def side_by_side_tables(data: xr.Dataset, dim: str) -> list[Table]:
-    """Return the ranking, and the texture of roads."""
+    """Return the ranking, and the texture of surfaces."""
     tables = [ranking_table(data, dim)]
     if "rms_height" in data:
-        tables.append(texture_table(data, dim, CALLED[dim]))
+        tables.append(texture_table(data, dim, noun(data, dim)))
     return tables
 
 
@@ -219,12 +224,12 @@ def ranking_cards(data: xr.Dataset, dim: str) -> Iterator[Card]:
 def side_by_side_page(
     data: xr.Dataset, dim: str, findings: Sequence[Finding], pictures: Sequence[Picture]
 ) -> Page:
-    """Return the page of roads or compounds side by side."""
+    """Return the page of surfaces or compounds side by side."""
     notes = str(data.attrs.get(READING_NOTES, "")).splitlines()
     elements: list[Element] = [*side_by_side_tables(data, dim), *map(Text, notes)]
     names = ", ".join(map(str, data[dim].values))
     return Page.of(
-        f"{CALLED[dim].capitalize()}s side by side: {names}",
+        f"{noun(data, dim).capitalize()}s side by side: {names}",
         str(data.attrs.get("title", "")),
         findings,
         ranking_cards(data, dim),

@@ -32,7 +32,7 @@ from gripscale.questions.vary.inputs import (
     reading_notes,
     surface_of,
 )
-from gripscale.questions.vary.side_by_side import Compounds, Roads
+from gripscale.questions.vary.side_by_side import Compounds, Surfaces
 from gripscale.questions.vary.study import Study, study_numbers
 from gripscale.questions.words import believed
 from gripscale.rubber import Rubber, temperature_doubts
@@ -106,7 +106,7 @@ def compare_compounds(
     loads = [point.task.load for point in study.points]
     data = data.assign_attrs(
         input_doubts([*study.surfaces, *measured.values()], loads, case.units),
-        title="Compounds on one road, by friction",
+        title="Compounds on one surface, by friction",
         **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
     )
     kelvins = [rubber.reference_temperature for rubber in together.values()]
@@ -122,15 +122,15 @@ def compare_surfaces(
     *,
     workers: int | None = None,
     on_task: OnTask | None = None,
-) -> Roads:
-    """Rank several roads under the rubber of a case by the friction of their answers.
+) -> Surfaces:
+    """Rank several surfaces under the rubber of a case by the friction of their answers.
 
     Parameters
     ----------
     case : Case
         Rubber, load and conditions; without measured surfaces also the solver of the chain.
     surfaces
-        Two to six roads by what they are called: a `Surface`, a `SineStack`, "case", or a surface
+        Two to six surfaces by what they are called: a `Surface`, a `SineStack`, "case", or one
         known by name.
     folder : path, optional
         Keeps each answer as soon as it is there: what was interrupted resumes.
@@ -139,7 +139,7 @@ def compare_surfaces(
 
     Returns
     -------
-    Roads
+    Surfaces
         Over `surface` the numbers of the answer and the texture (`gripscale.surface.texture`); over
         `surface` and `over` the ratio of their frictions and so on
         (`gripscale.questions.vary.ranking.RANKED`); friction by octave of wavelength,
@@ -148,9 +148,9 @@ def compare_surfaces(
     Raises
     ------
     InputError
-        If there are fewer than two or more than six roads, or one is not known.
+        If there are fewer than two or more than six surfaces, or one is not known.
     """
-    require_some("surfaces", surfaces, "roads")
+    require_some("surfaces", surfaces, "surfaces")
     roads = {
         # a synthetic road with its profile, for the direct contact
         name: with_profile(value)
@@ -165,9 +165,9 @@ def compare_surfaces(
         name: road.measured.heights if road.measured else None for name, road in roads.items()
     }
     data = data.assign(textures(heights, "surface")).assign(_measured(roads))
-    return Roads(
+    return Surfaces(
         data.assign_attrs(
-            title="Roads under one rubber, by friction",
+            title="Surfaces under one rubber, by friction",
             **{READING_NOTES: "\n".join([*reading_notes(surfaces.values()), *waves])},
         )
     )

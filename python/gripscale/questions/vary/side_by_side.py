@@ -1,4 +1,4 @@
-"""Roads under one rubber, or compounds on one road, side by side: their results."""
+"""Surfaces under one rubber, or compounds on one surface, side by side: their results."""
 
 from __future__ import annotations
 
@@ -46,10 +46,10 @@ class SideBySide(Result):
     def failure(self) -> str:
         """What has no answer; empty if everything has."""
         failed, total = page.failed_predictions(self.data)
-        return first_of(failed, total, f"{page_side_by_side.CALLED[self.dim]}s")
+        return first_of(failed, total, f"{page_side_by_side.noun(self.data, self.dim)}s")
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the ranking, the texture of roads, and notes."""
+        """Yield the ranking, the texture of surfaces, and notes."""
         yield from page_side_by_side.side_by_side_tables(self.data, self.dim)
         yield from (f"note: {note}" for note in self.notes)
 
@@ -59,7 +59,7 @@ class SideBySide(Result):
 
     @abstractmethod
     def pictures(self) -> Iterator[Picture]:
-        """Yield friction by wavelength, and the statistics of roads or the moduli of compounds."""
+        """Yield friction by wavelength, and statistics of surfaces or moduli of compounds."""
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
         """Yield the pictures, with their names."""
@@ -72,10 +72,10 @@ class SideBySide(Result):
         return page_side_by_side.side_by_side_page(self.data, self.dim, self.findings, pictures)
 
 
-class Roads(SideBySide):
-    """Several roads under the rubber and the load of a case."""
+class Surfaces(SideBySide):
+    """Several surfaces under the rubber and the load of a case."""
 
-    kind = "roads"
+    kind = "surfaces"
     file = "surfaces.nc"
     dim = "surface"
 
@@ -87,7 +87,7 @@ class Roads(SideBySide):
 
 
 class Compounds(SideBySide):
-    """Several compounds on the road and under the load of a case."""
+    """Several compounds on the surface and under the load of a case."""
 
     kind = "compounds"
     file = "compounds.nc"
