@@ -110,7 +110,7 @@ def test_surface_half_says_where_the_waves_end(shell: Shell, inputs: Path) -> No
 
     assert "note: no smallest wavelength is stated" in notes("--scales", 2)
     below = notes("--scales", 2, "--smallest-wavelength", "0.05 mm")
-    assert "note: the smallest wave, 0.05 mm, is shorter than the measurement resolves" in below
+    assert "note: The smallest wave, 0.05 mm, is shorter than the measurement resolves" in below
     measured = notes("--scales", 2, "--smallest-wavelength", "1 mm")
     assert "note: Profiles in one direction do not show ridges" in measured
     assert measured.count("note:") == 1

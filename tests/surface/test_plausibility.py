@@ -142,7 +142,7 @@ def test_it_is_said_where_the_waves_end():
     assert note({"scales": 2}).endswith("where the fit puts it.")
     below = of_waves({"scales": 5, "smallest_wavelength": 0.2e-3})
     assert [str(finding) for finding in below] == [
-        "the smallest wave, 0.2 mm, is shorter than the measurement resolves, 0.4 mm: it "
+        "The smallest wave, 0.2 mm, is shorter than the measurement resolves, 0.4 mm: it "
         "extrapolates the waves above it."
     ]
     assert of_waves({"scales": 5, "smallest_wavelength": 0.4e-3}) == []

@@ -210,12 +210,12 @@ def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iter
     last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
     if limit is not None and _beyond(last, limit):
         yield _warning(
-            f"the smallest wave, {in_mm(last, 3)}, is shorter than the measurement resolves, "
+            f"The smallest wave, {in_mm(last, 3)}, is shorter than the measurement resolves, "
             f"{in_mm(limit, 3)}: it extrapolates the waves above it."
         )
     if end is not None and limit is not None and _beyond(end, limit):
         yield _warning(
-            f"the cut-off, {in_mm(end, 3)}, lies beyond what the measurement carries, "
+            f"The cut-off, {in_mm(end, 3)}, lies beyond what the measurement carries, "
             f"{in_mm(limit, 3)}: the roughness between them is extrapolated."
         )
 
