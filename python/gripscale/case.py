@@ -25,7 +25,14 @@ from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quant
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND
-from gripscale.core.units import DISPLAY_UNITS, DisplayUnit, display_unit, in_mm, si_value
+from gripscale.core.units import (
+    DISPLAY_UNITS,
+    DisplayUnit,
+    display_unit,
+    in_mm,
+    si_value,
+    stated_units,
+)
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.experiment.task import canonical_json
 from gripscale.model import Load, LoadTime, load_doubts
@@ -188,7 +195,6 @@ class Case(Described):
         options: Mapping[str, Any] | None = None,
         origin: Origin | None = None,
     ) -> None:
-        self.origin = origin or Origin()
         self.kind = checks.one_of("kind", kind, SURFACE_KINDS)
         self.tester = "" if tester is None else checks.one_of("tester", tester, TESTERS)
         preset = TESTERS.get(self.tester)
@@ -196,6 +202,12 @@ class Case(Described):
             missing = "pressure" if pressure is None else "speed"
             raise InputError(" must be given, or tester; got neither", key=missing)
         chosen = {"pressure": pressure, "speed": speed, "footprint": footprint}
+        tables = {
+            "load": chosen,
+            "rubber": {"thickness": thickness},
+            "surface": {"smallest_wavelength": smallest_wavelength},
+        }
+        self.origin = origin or Origin(units=stated_units(tables))
         values: dict[str, Any] = {
             name: getattr(preset, name, 0.1) if value is None else value
             for name, value in chosen.items()

@@ -79,8 +79,11 @@ def test_a_profile_may_be_cleaned_and_a_master_curve_fitted_before(answer: gs.An
 
 
 def test_texts_with_units_are_the_same_case(answer: gs.Answer) -> None:
-    texts = {"pressure": "3 bar", "speed": "0.3 m/s", "footprint": "100 mm"}
-    assert numbers(gs.answer(made(**texts, smallest_wavelength="2 mm"))) == numbers(answer)
+    texts = {"pressure": "300 kPa", "speed": "0.3 m/s", "footprint": "100 mm"}
+    same = gs.answer(made(**texts, smallest_wavelength="2 mm"))
+    assert numbers(same) == numbers(answer)
+    assert "For 300 kPa and 0.3 m/s, roughness down to 2 mm." in str(same)
+    assert "For 0.3 MPa and 0.3 m/s, roughness down to 2 mm." in str(answer)
 
 
 def test_a_saved_answer_is_the_same(answer: gs.Answer, tmp_path: Path) -> None:
