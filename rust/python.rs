@@ -332,7 +332,7 @@ impl PyLine {
     /// Solution of Q K p = r at `places`, its residual and the products it took; |r| = 1.
     ///
     /// `filters` are K and S of each harmonic, `extension` the starts, columns and values of the
-    /// rows of E, `factor` that of Q; `limits` the target of the residual and the most products.
+    /// rows of E; `numbers` the factor of Q, the target of the residual and the most products.
     fn close_gap<'py>(
         &self,
         py: Python<'py>,
@@ -344,10 +344,10 @@ impl PyLine {
             PyReadonlyArray1<'py, i32>,
             PyReadonlyArray1<'py, f32>,
         ),
-        factor: f32,
-        limits: (f64, usize),
+        numbers: (f32, f64, usize),
     ) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
         let [compliance, stiffness] = &filters;
+        let (factor, target, most) = numbers;
         let (starts, columns, values) = &extension;
         let system = LineSystem {
             lines: &self.0,
@@ -369,7 +369,6 @@ impl PyLine {
                 "expected points and rows of the line",
             ));
         }
-        let (target, most) = limits;
         let found = py.detach(|| system.solution(right, target, most));
         Ok((
             PyArray1::from_vec(py, found.x),

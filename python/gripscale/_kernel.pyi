@@ -29,8 +29,7 @@ class Line:
         places: NDArray[np.int64],
         filters: list[NDArray[np.complex64]],
         extension: tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]],
-        factor: float,
-        limits: tuple[float, int],
+        numbers: tuple[float, float, int],
     ) -> tuple[NDArray[np.float32], float, int]: ...
 
 @final

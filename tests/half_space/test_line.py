@@ -81,6 +81,5 @@ def test_a_system_that_does_not_fit_its_line_is_refused() -> None:
                 np.array(places),
                 [transfer, transfer],
                 (*rows, *none),
-                1.0,
-                (1e-3, 5),
+                (1.0, 1e-3, 5),
             )

@@ -21,10 +21,11 @@ from tests.half_space.rough_cases import isotropic_map
 pytestmark = pytest.mark.verification
 
 LINES, MAPS = 30, 10
-STEP = 3e-4
+STEP = 1e-4
 """Of ln M and ln p_0. On a line an asperity that comes into contact within the step bends mu(p_0):
 with 3e-3 the difference of six patches by pressure is off by 21 %, on a grid eight times finer by
-20 %, and with 3e-4 by 0.6 and 0.06 %."""
+20 %, and with 3e-4 by 0.6 and 0.06 %. One of thirty lines still bends within 3e-4, by 9 %; with 1e-4
+the residuals of the contacts add 0.07 %."""
 
 
 def random_rubber(random: np.random.Generator) -> gs.Rubber:
@@ -129,8 +130,7 @@ def test_derivatives_as_central_differences(dimensions, count):
     rows = np.array(table)
     print("median", np.median(rows, axis=0), "nine of ten", np.quantile(rows, 0.9, axis=0))
     assert len(rows) >= 0.8 * count
-    # measured 0.02, 0.18 and 0.56 % on lines, 0.02, 0.12 and 0.45 % on maps: the worst has six
-    # patches, and 0.06 % on a grid eight times finer
+    # measured 0.07, 0.19 and 0.92 % on lines, 0.07, 0.24 and 0.25 % on maps
     assert (np.median(rows, axis=0) <= 0.001).all()
     assert (np.quantile(rows, 0.9, axis=0) <= 0.003).all()
     assert (rows <= 0.01).all()

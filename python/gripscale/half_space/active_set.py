@@ -210,8 +210,7 @@ class PointsInContact:
             self._where,
             [response.compliance_single, response.stiffness],
             (rows.indptr.astype(np.int32), rows.indices.astype(np.int32), rows.data),
-            SHORTFALL if self._lossy_line else 1.0,
-            (target, most),
+            (SHORTFALL if self._lossy_line else 1.0, target, most),
         )
         self.products += products
         return pressure, residual
