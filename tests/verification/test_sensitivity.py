@@ -24,8 +24,8 @@ LINES, MAPS = 30, 10
 STEP = 1e-4
 """Of ln M and ln p_0. On a line an asperity that comes into contact within the step bends mu(p_0):
 with 3e-3 the difference of six patches by pressure is off by 21 %, on a grid eight times finer by
-20 %, and with 3e-4 by 0.6 and 0.06 %. One of thirty lines still bends within 3e-4, by 9 %; with 1e-4
-the residuals of the contacts add 0.07 %."""
+20 %, and with 3e-4 by 0.6 and 0.06 %. One of thirty lines still bends within 3e-4, by 9 %; with
+1e-4 the residuals of the contacts add 0.07 %."""
 
 
 def random_rubber(random: np.random.Generator) -> gs.Rubber:
