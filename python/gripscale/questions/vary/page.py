@@ -22,7 +22,7 @@ from gripscale.questions.vary.page_of_answer import study_cards, study_lines
 from gripscale.questions.vary.schema import Role, label_of, rest_name, telling, variable_of
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
-from gripscale.report.again import rerun_section
+from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section
 from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure, explained, failures_in
@@ -267,7 +267,7 @@ def study_page(data: xr.Dataset) -> Page:
     axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
     totals = totals_table(data)
     return Page.of(
-        str(data.attrs.get("title", "Study")),
+        f"Study: {case_title(data.attrs)}",
         f"varied: {', '.join(label_of(data, axis) for axis in dimensions(data))}",
         study_findings(data),
         [*study_cards(data), *count_cards(data)],
