@@ -14,6 +14,7 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file import read_case, run_case
+from gripscale.core.provenance import CASE_TITLE
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
@@ -129,6 +130,7 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         },
         attrs={
             "title": "Study of <contact>",
+            CASE_TITLE: "tread on <contact>",
             "case": CASE,
             "display_units": '{"pressure": "bar", "footprint": "mm"}',
             "nominal_pressure": 3e5,

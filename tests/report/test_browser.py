@@ -227,7 +227,7 @@ def test_injected_script_does_not_run(browser: Any, study_file: Path, tmp_path: 
     path.write_text(text.replace("<main>", "<main><script>document.title = 'taken'</script>"))
     with visit(browser, path) as seen:
         drawn(seen)
-        assert seen.page.title() == "Study of <contact>"
+        assert seen.page.title() == "Study: tread on <contact>"
         assert any("Content Security Policy" in text for text in seen.said)
 
 
@@ -349,7 +349,7 @@ def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
     with visit(browser, write_report(study_file, tmp_path / "study.html")) as seen:
         opened(seen)
         assert check_figures(seen) == 5
-        assert seen.page.title() == "Study of <contact>"
+        assert seen.page.title() == "Study: tread on <contact>"
         assert seen.said == []
         assert seen.asked == []
 

@@ -127,5 +127,5 @@ def test_parts_of_friction_are_stacked_to_the_whole(solved: Path) -> None:
 
 def test_folder_of_a_study_is_found(study_file: Path) -> None:
     path = write_report(study_file.parent)
-    assert "Study of <contact>" in Page(path).text
+    assert "Study: tread on <contact>" in Page(path).text
     path.unlink()
