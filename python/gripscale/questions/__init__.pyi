@@ -46,7 +46,6 @@ from .slip.question import SlipCurve as SlipCurve
 from .uncertainty.first_order import first_order as first_order
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
 from .uncertainty.propagation import of_same_inputs as of_same_inputs
-from .uncertainty.propagation import propagate as propagate
 from .uncertainty.propagation import stored_uncertainty as stored_uncertainty
 from .uncertainty.sampled_inputs import Range as Range
 from .uncertainty.sampling import Uncertainty as Uncertainty

@@ -15,9 +15,11 @@ from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
-from gripscale.questions import Uncertainty, propagate
+from gripscale.questions import Uncertainty
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.uncertainty.page import page_notices, sampling_failure, too_many_failed
+
+from .sampled import propagate
 
 QUICK = Uncertainty(without=["waves"])
 

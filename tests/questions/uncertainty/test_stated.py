@@ -14,8 +14,10 @@ from gripscale.case_file.tables import RangesTable, SourceName
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
-from gripscale.questions import Uncertainty, propagate
+from gripscale.questions import Uncertainty
 from gripscale.questions.uncertainty.sources import SOURCES
+
+from .sampled import propagate
 
 STATED = """
 [uncertainty]

@@ -1,9 +1,5 @@
 """What is not known of a case, and what it does to friction and contact area.
 
-    from gripscale.questions import Uncertainty, propagate
-    data = propagate("case.toml", Uncertainty(without=["waves"]), samples=200, folder="results")
-    float(data.answer_friction)
-
 All sources are drawn at once for each sample, and each sample is a task of
 `gripscale.experiment`: kept as soon as it is solved, on all cores or a cluster.
 """
@@ -241,6 +237,48 @@ class Plan:
     # Estimated relative error of a direct contact; None: that of its first full grid.
     tolerance: float | None
 
+    @classmethod
+    def of(
+        cls,
+        case: Case,
+        uncertainty: Uncertainty | None = None,
+        *,
+        samples: int | None = None,
+        seed: int | None = None,
+        models: Sequence[str] | None = None,
+        vary: Mapping[str, Any] | None = None,
+        tolerance: float | None = None,
+    ) -> Plan:
+        """Return what a case states where an argument is None; arguments as `uncertainty`."""
+        defaults = sampling.stated_options(case)
+        choice = Uncertainty.of_case(defaults) if uncertainty is None else uncertainty
+        named = stated_models(case, choice) if models is None else models
+        named = [named] if isinstance(named, str) else list(named)
+        for name in named:
+            checks.one_of("model", name, _MODELS)
+        if not named or len(set(named)) < len(named):
+            short = checks.short_repr(models)
+            raise InputError(f"models must be one or both of chain, direct; got {short}")
+        axis: Axis | None = None
+        if vary:
+            axis, *further = axes_of(vary)
+            if further or axis.name not in SAMPLED_OVER:
+                names = ", ".join(each.name for each in (axis, *further))
+                raise InputError(
+                    f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}"
+                )
+        number = defaults.samples if samples is None else samples
+        start = defaults.seed if seed is None else seed
+        return cls(
+            case,
+            choice,
+            checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
+            checks.whole("seed", start, least=0, most=MOST_SEED),
+            tuple(name for name in _MODELS if name in named),
+            axis,
+            defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance),
+        )
+
     @property
     def key(self) -> str:
         """A hash of all the result depends on."""
@@ -258,79 +296,20 @@ class Plan:
 
 
 def propagate(
-    case: Case,
-    uncertainty: Uncertainty | None = None,
-    *,
-    samples: int | None = None,
-    seed: int | None = None,
-    models: Sequence[str] | None = None,
-    vary: Mapping[str, Any] | None = None,
-    tolerance: float | None = None,
+    plan: Plan,
     folder: str | Path | None = None,
+    *,
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
     on_answer: OnAnswer | None = None,
 ) -> xr.Dataset:
-    """Sample what is not known of a case and predict each sample.
-
-    Raises `InputError` or `FileError` if an argument or a file cannot be used, or a result cannot
-    be written.
-
-    Parameters
-    ----------
-    case : Case
-        The case; its speed is the one of the prediction.
-    uncertainty : Uncertainty, optional
-        What is taken to be uncertain; by default what the case states, or every source it has.
-    samples, seed, models, vary, tolerance, folder, workers, client, on_task, on_answer
-        As for `gripscale.uncertainty`. The folder gets `uncertainty.nc`, and the predictions in
-        `predictions`.
-
-    Returns
-    -------
-    xarray.Dataset
-        The answer of the case (`answer_friction`, `answer_contact_fraction`, ..., as of `gripscale
-        run`) with its interval and what that is made of, see `sampled_answer`.
-        Over `model`, what is varied, and `sample`: `friction`, `contact_fraction` and `status`,
-        with what was drawn as coordinates of `sample`; `_case` of the case itself; `_quantile`
-        over `quantile`; `_grid_error` of each sample of the direct contact; `failed` samples,
-        which count in no quantile; `_share` of each `source` in the variance (see
-        `variance_shares`). At one load `_first_order` of each source of the
-        direct contact, its error by derivatives (see `first_order`).
-    """
-    defaults = sampling.stated_options(case)
-    choice = Uncertainty.of_case(defaults) if uncertainty is None else uncertainty
-    number = defaults.samples if samples is None else samples
-    start = defaults.seed if seed is None else seed
-    accuracy = defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance)
-    named = stated_models(case, choice) if models is None else models
-    named = [named] if isinstance(named, str) else list(named)
-    for name in named:
-        checks.one_of("model", name, _MODELS)
-    if not named or len(set(named)) < len(named):
-        short = checks.short_repr(models)
-        raise InputError(f"models must be one or both of chain, direct; got {short}")
-    axis: Axis | None = None
-    if vary:
-        axis, *further = axes_of(vary)
-        if further or axis.name not in SAMPLED_OVER:
-            names = ", ".join(each.name for each in (axis, *further))
-            raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
-    plan = Plan(
-        case,
-        choice,
-        checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-        checks.whole("seed", start, least=0, most=MOST_SEED),
-        tuple(name for name in _MODELS if name in named),
-        axis,
-        accuracy,
-    )
+    """Predict each sample of a plan; return the Dataset of `gripscale.uncertainty`, and keep it."""
     path = None if folder is None else Path(folder) / _RESULT
     data = None if path is None else load_stored(path)
     if data is not None and data.attrs.get("plan_key") == plan.key:
         return data
-    chosen = plan.uncertainty.of(Measurement.of(case), plan.models)
+    chosen = plan.uncertainty.of(Measurement.of(plan.case), plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         data = _answered(plan, chosen, bench, on_answer)

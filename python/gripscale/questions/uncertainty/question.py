@@ -18,7 +18,7 @@ from gripscale.questions.answer.answer import NumbersWithIntervals
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.uncertainty import page
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.propagation import OnAnswer, propagate
+from gripscale.questions.uncertainty.propagation import OnAnswer, Plan, propagate
 from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
 from gripscale.report.elements import Page
 
@@ -119,22 +119,26 @@ def uncertainty(
         As for `gripscale.experiment.Bench`.
     on_answer : callable, optional
         Called with the answer without the errors of the inputs, before any sample is solved.
+
+    Returns
+    -------
+    SampledAnswer
+        The answer of the case (`answer_friction`, `answer_contact_fraction`, ..., as of `gripscale
+        run`) with its interval and what that is made of. Over `model`, what is varied, and
+        `sample`: `friction`, `contact_fraction` and `status`, with what was drawn as coordinates of
+        `sample`; `_case` of the case itself; `_quantile` over `quantile`; `_grid_error` of each
+        sample of the direct contact; `failed` samples, which count in no quantile; `_share` of each
+        `source` in the variance (`gripscale.questions.shares`). At one load `_first_order` of each
+        source of the direct contact, its error by derivatives. The folder gets `uncertainty.nc`,
+        and the predictions in `predictions`.
     """
     choice = Uncertainty.of_case(
         stated_options(case), without=without, ranges=ranges, block_length=block_length
     )
+    plan = Plan.of(
+        case, choice, samples=samples, seed=seed, models=models, vary=vary, tolerance=tolerance
+    )
     data = propagate(
-        case,
-        choice,
-        samples=samples,
-        seed=seed,
-        models=models,
-        vary=vary,
-        tolerance=tolerance,
-        folder=folder,
-        workers=workers,
-        client=client,
-        on_task=on_task,
-        on_answer=on_answer,
+        plan, folder, workers=workers, client=client, on_task=on_task, on_answer=on_answer
     )
     return SampledAnswer(data)
