@@ -336,6 +336,7 @@ TEXTS = """text => {
 """Keeps every text that the case has from now on."""
 
 
+@pytest.mark.verification
 def test_files_dropped_together_are_taken_together(
     browser: Any, server: str, small: Path, tmp_path: Path
 ) -> None:
@@ -412,9 +413,14 @@ FIRST_CHANGE = """label => new Promise(done => {
 
 
 @pytest.mark.parametrize(
-    ("tab", "label"), [("1 Road", "Read, clean and fit"), ("1 Road", "Load the example"),
-                       ("2 Rubber", "Read and fit"), ("4 Run", "Run")]
-)  # fmt: skip
+    ("tab", "label"),
+    [
+        ("1 Road", "Read, clean and fit"),
+        ("1 Road", "Load the example"),
+        ("2 Rubber", "Read and fit"),
+        pytest.param("4 Run", "Run", marks=pytest.mark.verification),
+    ],
+)
 def test_a_click_shows_at_once_that_work_is_under_way(
     browser: Any, server: str, small: Path, tab: str, label: str
 ) -> None:

@@ -240,6 +240,7 @@ def test_seal_leak(run):
     assert "critical junction" in printed
 
 
+@pytest.mark.verification
 def test_wet_road(run):
     """Trapped water and the film that stays have nearly the same friction: two models."""
     printed = run("wet_road")

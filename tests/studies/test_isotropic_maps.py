@@ -73,6 +73,7 @@ def test_a_map_is_cut_off_in_all_directions() -> None:
     np.testing.assert_allclose(cut_off(along * along.T).z, 0.0, atol=1e-12)
 
 
+@pytest.mark.verification
 def test_a_stopped_study_goes_on_where_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

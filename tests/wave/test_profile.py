@@ -243,6 +243,7 @@ def test_rows_that_grow_gently_are_enough():
     assert one.contact_fraction == pytest.approx(more.contact_fraction, rel=3e-3)
 
 
+@pytest.mark.verification
 def test_a_profile_too_rough_for_its_columns_says_what_it_carried():
     load = {"pressure": 1e6, "speed": 0.3, "periodic": True, "columns": 128}
     one = gs.solve_profile(tread(), self_affine(20, 2.0), **load)
