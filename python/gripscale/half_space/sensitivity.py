@@ -101,7 +101,9 @@ class FrictionAdjoint:
     residual: float  # of the linear system, relative [-]
 
     @classmethod
-    def of(cls, contact: RoughContact, layer: int = 0) -> FrictionAdjoint:
+    def of(
+        cls, contact: RoughContact, layer: int = 0, tolerance: float = ADJOINT_TOLERANCE
+    ) -> FrictionAdjoint:
         """Return the multipliers of a contact that slides."""
         grid = contact.grid
         response = Response.of(contact.body, grid, 1)
@@ -114,7 +116,7 @@ class FrictionAdjoint:
             right,
             np.zeros(where.size),
             np.zeros(grid.points),
-            ADJOINT_TOLERANCE,
+            tolerance,
             check=True,
         )
         multiplier = np.zeros(grid.points)

@@ -38,6 +38,8 @@ from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, Surface
 
 _T = TypeVar("_T")
+# Residual of the adjoint system over its right side: the grid of the search errs by a per cent.
+GRADIENT_TOLERANCE = 1e-5
 
 
 class CompoundGoal(Checked):
@@ -186,7 +188,7 @@ class GoalFriction:
 
     def _gradient(self, index: int, contact: RoughContact) -> Array:
         """Return d mu / d r_i of one part, all terms of E* at once."""
-        grid, adjoint = contact.grid, FrictionAdjoint.of(contact)
+        grid, adjoint = contact.grid, FrictionAdjoint.of(contact, tolerance=GRADIENT_TOLERANCE)
         if index not in self._terms:  # the same for all compounds: their grid is
             body = rubber_at(self.rubber, self.goals[self.parts[index].goal].temperature)
             omega = contact.speed * np.broadcast_to(grid.along, grid.spectrum_shape)
