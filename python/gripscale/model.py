@@ -170,6 +170,10 @@ class Model(Protocol):
             f"got the model {self.name}"
         )
 
+    def parts(self, surface: Surface) -> int:
+        """Return how many threads one prediction on `surface` keeps busy."""
+        return 1
+
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
     ) -> xr.Dataset:

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import threading
 from contextlib import closing
+from dataclasses import dataclass
 
 import pytest
+import xarray as xr
 
+from gripscale import Rubber
 from gripscale.core.errors import InputError
 from gripscale.core.parallel import cores, in_threads, sharing, worker_count
 from gripscale.experiment import solve
+from gripscale.experiment.task import Task
+from gripscale.model import Load, Model, OnProgress
+from gripscale.surface import Surface
+from tests.samples import THREE_SINES
 
 
 def count(_: object = None) -> int:
@@ -31,6 +38,39 @@ def test_what_is_asked_for_comes_before_all_else() -> None:
 def test_jobs_side_by_side_share_the_workers(jobs: int, workers: int, each: int) -> None:
     with closing(in_threads([count] * jobs, workers)) as stream:
         assert [used for _, used in stream] == [each] * jobs
+
+
+@pytest.mark.parametrize(("at_once", "each"), [(1, 4), (2, 2), (4, 1)])
+def test_fewer_jobs_at_once_have_more_workers_each(at_once: int, each: int) -> None:
+    with closing(in_threads([count] * 5, 4, at_once)) as stream:
+        assert [used for _, used in stream] == [each] * 5
+
+
+@dataclass(frozen=True)
+class Shared(Model):
+    """Model that answers with the threads it may use."""
+
+    threads: int
+    name = "shared"
+
+    def parts(self, surface: Surface) -> int:
+        return self.threads
+
+    def predict(
+        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
+    ) -> xr.Dataset:
+        return xr.Dataset({"used": count()})
+
+
+@pytest.mark.parametrize(
+    ("parts", "workers", "each"), [(1, 2, 1), (2, 2, 2), (2, 8, 2), (3, 2, 1), (4, 4, 4)]
+)
+def test_tasks_with_parts_leave_them_threads(parts: int, workers: int, each: int) -> None:
+    loads = [Load(1e5, float(speed), 0.1) for speed in range(1, 10)]
+    surface, model = Surface(THREE_SINES, ""), Shared(parts)
+    tasks = {str(load): Task(Rubber(6e6), surface, load, model) for load in loads}
+    answers = solve.Bench(None, workers).solve(tasks)
+    assert [int(answer["used"]) for answer in answers.values()] == [each] * len(loads)
 
 
 def test_a_share_is_that_of_one_thread() -> None:

@@ -13,7 +13,7 @@ import xarray as xr
 import gripscale as gs
 from gripscale.experiment import Bench, Design, Point, Progress, Store, Task, solve_design
 from gripscale.experiment.design import stack
-from gripscale.model import Load, predicted_answer
+from gripscale.model import Load, Model, predicted_answer
 from gripscale.surface import Surface
 
 SURFACE = Surface(gs.SineStack(wavelength=[1e-2], amplitude=[1e-4]), "one wave")
@@ -22,16 +22,12 @@ LOAD = Load(3e5, 0.3, 0.1)
 
 
 @dataclass(frozen=True)
-class Amontons:
+class Amontons(Model):
     """Friction that is a number times the pressure."""
 
     factor: float
     name = "amontons"
-    conditions = None
     needs = frozenset({"waves"})
-
-    def relevant(self, surface: Surface) -> Surface:
-        return surface
 
     def predict(self, rubber: Any, surface: Any, load: Load, **_: Any) -> xr.Dataset:
         mu = self.factor * load.pressure

@@ -80,20 +80,23 @@ def worker_count(workers: int | None) -> int:
     return cores() if share is None else share
 
 
-def in_threads(jobs: Sequence[Job[_T]], workers: int) -> Generator[tuple[int, _T], None, None]:
+def in_threads(
+    jobs: Sequence[Job[_T]], workers: int, at_once: int | None = None
+) -> Generator[tuple[int, _T], None, None]:
     """Yield the index and the result of each job in the order of completion.
 
-    If there are fewer jobs than workers, each job may use an equal share of the workers. After an
-    error, Ctrl-C or `close`, the event of the other jobs is set, `look` raises in their threads,
+    Up to `at_once` jobs, by default as many as workers, run together and share the workers. After
+    an error, Ctrl-C or `close`, the event of the other jobs is set, `look` raises in their threads,
     and the running ones are awaited.
     """
     stop = threading.Event()
-    share = max(workers // max(len(jobs), 1), 1)
+    at_once = max(min(at_once or workers, len(jobs)), 1)
+    share = max(workers // at_once, 1)
 
     def start_thread() -> None:
         _here.stop, _here.workers = stop, share
 
-    pool = ThreadPoolExecutor(workers, "gripscale", initializer=start_thread)
+    pool = ThreadPoolExecutor(at_once, "gripscale", initializer=start_thread)
     try:
         futures: dict[Future[_T], int] = {
             pool.submit(job, stop): index for index, job in enumerate(jobs)

@@ -166,8 +166,14 @@ def solve_all(
 def _in_threads(
     tasks: list[Task], workers: int, on_step: OnProgress
 ) -> Generator[Solved, None, None]:
+    """Yield results as they come.
+
+    Tasks whose parts fill the threads are solved one after the other: the first answer comes early.
+    """
     jobs = [partial(task.solve, on_step=on_step) for task in tasks]
-    with closing(in_threads(jobs, workers)) as stream:
+    parts = min((task.model.parts(task.surface) for task in tasks), default=1)
+    at_once = workers // parts if workers % parts == 0 else workers
+    with closing(in_threads(jobs, workers, at_once)) as stream:
         yield from (solved for _, solved in stream)
 
 

@@ -32,6 +32,7 @@ from gripscale.questions.answer.direct_contact import (
     continued_curve,
     direct_contact_design,
     direct_contact_totals,
+    each_measured,
 )
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.vary.friction_ratio import RATIO_BASIS, ComparedContact
@@ -72,6 +73,10 @@ class AnswerModel(Checked, model.Model):
     def with_conditions(self, conditions: Conditions | None) -> AnswerModel:
         """Return the model under other conditions."""
         return replace(self, conditions=conditions)
+
+    def parts(self, surface: Surface) -> int:
+        """Return the number of profiles, whose direct contacts are solved concurrently."""
+        return len(each_measured(surface)) or 1
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
