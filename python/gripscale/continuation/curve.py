@@ -377,18 +377,11 @@ class _Solver:
         return CutOffContact(cut_off, tuple(c for c in contacts if c), tuple(lines), slope)
 
     def next_step(
-        self,
-        step: CutOffContact,
-        intermittency: Intermittency,
-        slope: float,
-        shortest: float,
-        random: np.random.Generator,
+        self, step: CutOffContact, octaves: Sequence[PeriodicLine], slope: float, shortest: float
     ) -> CutOffContact:
         """Return the contacts with another octave, whose slope on the faces is `slope`."""
-        longest = step.wavelength
-        octaves = [intermittency.octave(line, longest, shortest, random) for line in step.lines]
         # the line itself holds a part of it: flanks of edges, and waves near its end
-        part = slope_on_faces(step.lines, step.faces, longest, shortest)
+        part = slope_on_faces(step.lines, step.faces, step.wavelength, shortest)
         rest = math.sqrt(max(slope**2 - part**2, 0.0))
         scale = rest / slope_on_faces(octaves, step.faces, math.inf, 0.0)
         lines = [
@@ -432,7 +425,8 @@ def _continued(
             ratio = usual * (ratio / usual) ** PERSISTENCE
             # a part of an octave has its part of the mean square slope
             slope = here.slope * ratio * math.sqrt(math.log2(here.wavelength / shortest))
-        here = solver.next_step(here, intermittency, slope, shortest, random)
+        octaves = intermittency.octaves(here.lines, here.wavelength, shortest, random)
+        here = solver.next_step(here, octaves, slope, shortest)
         steps.append(here)
     return ContactByCutOff(tuple(steps), resolved, ratio, withheld, overlap)
 
@@ -491,12 +485,12 @@ def _octave_again(
         return None
     intermittency = Intermittency.of(above.lines, steps[-3].faces, above.wavelength, random)
     start = replace(above, lines=tuple(line.resolved_to(above.wavelength) for line in above.lines))
-    seed = random.integers(2**32)
+    waves = np.random.default_rng(random.integers(2**32))
+    octaves = intermittency.octaves(start.lines, start.wavelength, true.wavelength, waves)
 
     def tried(log: float) -> CutOffContact:
-        waves = np.random.default_rng(seed)  # the same waves, steeper or less steep
-        slope = above.slope * math.exp(log)
-        return solver.next_step(start, intermittency, slope, true.wavelength, waves)
+        slope = above.slope * math.exp(log)  # the same waves, steeper or less steep
+        return solver.next_step(start, octaves, slope, true.wavelength)
 
     def log_friction(step: CutOffContact) -> float:
         return math.log(step.mean("friction_from_dissipation") / mu)

@@ -40,6 +40,7 @@ LONGEST_SHARE = 0.25  # longest wavelength of a line that counts, over the lengt
 # 2.5 stones with sharp edges and cascades change their friction by 3 % at most.
 _MOST_ABOVE = 1.25
 _LEAST = 1e-100
+_MOST_PASSED = math.sqrt(2.0)  # longest wave of which nothing is passed: the cut-off over this
 _MARGIN = 3  # points of a period on either side that a cubic between two points depends on
 
 
@@ -75,9 +76,14 @@ class PeriodicLine:
         return 2.0 * np.pi * np.asarray(scipy.fft.rfftfreq(self.points, self.length / self.points))
 
     def between(self, longest: float, shortest: float) -> ComplexArray:
-        """Return the waves between two wavelengths [m], whose ends are `_passed` by halves."""
-        octave = _passed(self.wavenumber, shortest) - _passed(self.wavenumber, longest)
-        return np.asarray(self.waves * np.sqrt(octave))
+        """Return the waves between two wavelengths [m], whose ends are `_passed` by halves.
+
+        Shorter waves, of which none is passed, have no place in the array.
+        """
+        count = math.ceil(self.length * _MOST_PASSED / shortest) + 1 if shortest > 0.0 else None
+        q = self.wavenumber[:count]
+        octave = _passed(q, shortest) - _passed(q, longest)
+        return np.asarray(self.waves[:count] * np.sqrt(octave))
 
     def resolved_to(self, shortest: float) -> PeriodicLine:
         """Return the line as points measure it, four in a wave of `shortest` [m].
@@ -94,16 +100,20 @@ class PeriodicLine:
 
     def slope(self, longest: float, shortest: float) -> Array:
         """Return the slope [-] of the waves between two wavelengths [m], shape (points,)."""
-        derivative = self.between(longest, shortest) * (1j * self.wavenumber)
+        waves = self.between(longest, shortest)
+        derivative = waves * (1j * self.wavenumber[: waves.size])
         return np.asarray(scipy.fft.irfft(derivative, self.points))
 
     def amplitude(self, longest: float, shortest: float) -> Array:
         """Return the natural logarithm of the local amplitude of the slope, shape (points,)."""
-        both = np.zeros(self.points, dtype=complex)
-        both[: self.waves.size] = self.between(longest, shortest) * (2j * self.wavenumber)
-        square = np.abs(scipy.fft.ifft(both)) ** 2
-        bell = np.exp(-0.5 * (0.5 * shortest * self.wavenumber) ** 2)
-        smooth = scipy.fft.irfft(scipy.fft.rfft(square) * bell, self.points)
+        waves = self.between(longest, shortest)
+        q = self.wavenumber[: waves.size]
+        # no wave of the square is shorter than the shortest of the signal
+        coarse = min(2 * scipy.fft.next_fast_len(waves.size, real=True), self.points)
+        signal = scipy.fft.ifft(waves * (2j * q), coarse) * (coarse / self.points)
+        square = scipy.fft.rfft(np.abs(signal) ** 2)[: waves.size]
+        bell = np.exp(-0.5 * (0.5 * shortest * q) ** 2)
+        smooth = scipy.fft.irfft(square * bell, self.points) * (self.points / coarse)
         return np.asarray(0.5 * np.log(np.maximum(smooth, np.finfo(float).tiny)))
 
     def noise(self, random: np.random.Generator) -> PeriodicLine:
@@ -169,13 +179,22 @@ class Intermittency:
         rest = float(np.var(below - coupling * above) - chance[1, 1])
         return cls(coupling, math.sqrt(max(rest, 0.0)))
 
-    def octave(
+    def octaves(
+        self,
+        lines: Sequence[PeriodicLine],
+        longest: float,
+        shortest: float,
+        random: np.random.Generator,
+    ) -> list[PeriodicLine]:
+        """Return the waves of a new octave of each line, of any scale and with H = 1 within it.
+
+        `longest` and `shortest` [m] are its ends; the octave above is part of the lines.
+        """
+        return [self._octave(line, longest, shortest, random) for line in lines]
+
+    def _octave(
         self, line: PeriodicLine, longest: float, shortest: float, random: np.random.Generator
     ) -> PeriodicLine:
-        """Return the waves of a new octave of `line`, of any scale and with H = 1 within it.
-
-        `longest` and `shortest` [m] are its ends; the octave above is part of the line.
-        """
         q = line.wavenumber
         bell = np.exp(-0.5 * (0.5 * longest * q) ** 2)
         smooth = scipy.fft.irfft(line.noise(random).waves * bell, line.points)
