@@ -21,6 +21,7 @@ Names are taken in any case, with =, a colon or blanks before their value. BAD i
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -63,8 +64,8 @@ def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
                 f"{path}: expected a map with the number {name} in its header; got "
                 f"{checks.short_repr(text) if text else 'none'}"
             ) from error
-        if not value > 0.0 and not default:
-            raise FileError(f"{path}: expected {name} above zero; got {text}")
+        if not default and not 0.0 < value < math.inf:
+            raise FileError(f"{path}: expected {name} finite and above zero; got {text}")
         return value
 
     along, across = ("ncols", "nrows") if esri else ("NumPoints", "NumProfiles")
