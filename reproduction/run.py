@@ -8,7 +8,7 @@ from typing import Any
 
 from gripscale.charts import save_figure
 from gripscale.core import checks
-from gripscale.experiment import Progress, Store, Task, solve_all
+from gripscale.experiment import Bench, Progress, Store, Task
 from gripscale.io import netcdf
 from reproduction.figures import TITLES, make
 from reproduction.inputs import DATA, read_inputs
@@ -44,7 +44,7 @@ def reproduce(
     data
         Folder of the example data; by default the one beside this folder.
     workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
+        As for `gripscale.experiment.Bench`.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def reproduce(
     inputs = read_inputs(DATA if data is None else Path(data))
     wanted = {name: panels_of(name, inputs) for name in _with_needed(names)}
     store = Store(Path(output) / "predictions")
-    solved = solve_all(_labelled(wanted), store, workers=workers, client=client, on_task=on_task)
+    solved = Bench(store, workers, client, on_task).solve(_labelled(wanted))
     results = {name: results_of(panels, solved) for name, panels in wanted.items()}
     statements: list[Statement] = []
     for name in names:

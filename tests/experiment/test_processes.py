@@ -14,7 +14,7 @@ import xarray as xr
 from gripscale import Rubber
 from gripscale.case_file import read_case
 from gripscale.core.errors import ConvergenceError
-from gripscale.experiment.solve import PROCESSES, solve_all
+from gripscale.experiment.solve import PROCESSES, Bench
 from gripscale.experiment.task import Store, Task
 from gripscale.model import Load, Model
 from gripscale.questions import Study
@@ -44,4 +44,4 @@ class Dying(Model):
 def test_a_process_that_dies_is_one_sentence(tmp_path: Path) -> None:
     task = Task(Rubber(6e6), Surface(THREE_SINES, ""), Load(3e5, 0.3, 0.1), Dying())
     with pytest.raises(ConvergenceError, match="short of memory"):
-        solve_all({"dying": task}, Store(tmp_path), client=PROCESSES, workers=1)
+        Bench(Store(tmp_path), 1, PROCESSES).solve({"dying": task})

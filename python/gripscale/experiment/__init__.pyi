@@ -5,6 +5,5 @@ from .measured_friction import MeasuredFriction as MeasuredFriction
 from .measured_friction import read_measured_friction as read_measured_friction
 from .solve import Bench as Bench
 from .solve import Progress as Progress
-from .solve import solve_all as solve_all
 from .task import Store as Store
 from .task import Task as Task

@@ -147,22 +147,6 @@ def bench_in(
         yield Bench(Store(Path(folder) / PREDICTIONS), workers, client, on_task, on_step)
 
 
-def solve_all(
-    tasks: Mapping[str, Task],
-    store: Store,
-    *,
-    workers: int | None = None,
-    client: Any = None,
-    on_task: OnTask | None = None,
-) -> dict[str, xr.Dataset]:
-    """Return the answer of every task by its key, solving only what `store` does not have.
-
-    Tasks are given by label; `workers`, `client` and `on_task` are those of `Bench`, errors those
-    of `Bench.solve`.
-    """
-    return Bench(store, workers, client, on_task).solve(tasks)
-
-
 def _in_threads(
     tasks: list[Task], workers: int, on_step: OnProgress
 ) -> Generator[Solved, None, None]:

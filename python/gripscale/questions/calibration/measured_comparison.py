@@ -164,7 +164,7 @@ def predictions_at(
 ) -> Predicted:
     """Return what `model` predicts at each measured speed, temperature and pressure.
 
-    Raises `InputError` or `FileError` as the model and `solve_all` do; a temperature other than
+    Raises `InputError` or `FileError` as the model and `Bench.solve` do; a temperature other than
     that of the rubber needs a shift.
 
     Parameters
@@ -180,7 +180,7 @@ def predictions_at(
     store : Store
         Keeps each answer as soon as it is there; what it has is not solved again.
     workers, client, on_task
-        As for `gripscale.experiment.solve_all`.
+        As for `gripscale.experiment.Bench`.
     """
     design = measured_design(measured, model, rubber, surface, load)
     return predicted_of(solve_design(design, Bench(store, workers, client, on_task)))

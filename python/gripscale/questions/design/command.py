@@ -67,7 +67,7 @@ def design_command(
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
-    """Design a compound: most friction on the case's road for each rolling resistance.
+    """Design a compound: most friction on the surface of a case for each rolling resistance.
 
     Resumes where it was stopped.
     """

@@ -145,7 +145,7 @@ def compare_rubbers(
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
-    """Rank compounds on one road by friction: with what confidence, and why."""
+    """Rank compounds on one surface by friction: with what confidence, and why."""
     from gripscale.case_file.named_inputs import names_of, read_rubber
     from gripscale.core.units import si_value
     from gripscale.questions.vary.ranking import compare_compounds

@@ -77,7 +77,7 @@ def compare_compounds(
         Where they are compared [K]; by default the temperature of the case's conditions, or one
         all of them have or can be shifted to.
     workers, on_task
-        As for `gripscale.experiment.solve_all`.
+        As for `gripscale.experiment.Bench`.
 
     Returns
     -------
@@ -135,7 +135,7 @@ def compare_surfaces(
     folder : path, optional
         Keeps each answer as soon as it is there: what was interrupted resumes.
     workers, on_task
-        As for `gripscale.experiment.solve_all`.
+        As for `gripscale.experiment.Bench`.
 
     Returns
     -------

@@ -267,7 +267,7 @@ class Study:
             this is returned. Several studies may share one
             folder for their predictions, one after the other; the last one's Dataset stays.
         workers, client, on_task
-            As for `solve_all`.
+            As for `Bench`.
         """
         data = None if folder is None else self.stored(folder)
         if data is not None:
