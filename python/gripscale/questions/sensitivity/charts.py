@@ -53,10 +53,11 @@ def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
         Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
     ]
     lowest = float(data.loss_modulus.min()) / MEGA / 2.0
-    moduli += [
-        Note(at, (1.4 + 0.9 * i) * lowest, f" tan δ, {name}", GREY, italic=True)
-        for i, (name, at) in enumerate(_rules(data))
-    ]
+    middle = float(np.sqrt(omega[0] * omega[-1]))
+    for i, (name, at) in enumerate(_rules(data)):
+        align = "left" if at < middle else "right"  # where the axis leaves room for the words
+        height = (1.4 + 0.9 * i) * lowest
+        moduli.append(Note(at, height, f" tan δ, {name} ", GREY, align=align, italic=True))
     frequency = data.frequency.values
     panels = [
         Panel(
