@@ -213,7 +213,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
     lines = list(design_lines(worst))
     assert "with rolling resistance -20 %" in lines[0]
     assert "still with friction" not in lines[0]  # the only point is not said twice
-    assert "  more rolling resistance than -20 % gives no more friction" in lines
+    assert "  More rolling resistance than -20 % gives no more friction." in lines
     monkeypatch.setattr(compound_design, "best_change", None)  # no level is sought again
     again = gs.design(read_case(case), folder=tmp_path, levels=LEVELS).data
     np.testing.assert_array_equal(again.gain.values, worst.gain.values)
@@ -285,7 +285,7 @@ def test_answer_first_and_the_limits_named(data):
     assert limits in lines
     assert any("moduli are at the largest factor (2)" in line for line in lines)
     assert any(
-        "a limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines
+        "A limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines
     )
 
 

@@ -53,21 +53,22 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         )
     if json.loads(data.attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
         last = _percent(float(data.rolling_ratio[-1]) - 1.0)
-        yield f"  more rolling resistance than {last} gives no more friction"
+        yield f"  More rolling resistance than {last} gives no more friction."
     tangent = float(data.today_rolling_loss_factor)
     yield (
-        f"  rolling resistance is tan δ and loss compliance at {data.attrs['rolling_band']}, the "
-        f"worst of them; tan δ is {significant(tangent)} at {data.attrs['rolling_condition']} today"
+        f"  Rolling resistance is tan δ and loss compliance at {data.attrs['rolling_band']}, the "
+        f"worst of them; today tan δ is {significant(tangent)} at "
+        f"{data.attrs['rolling_condition']}."
     )
     yield f"  {_what_changes(data, chosen)}"
     count = round(float(chosen.limited_share) * chosen.sizes["term"])
     yield (
         f"  {count} of {chosen.sizes['term']} moduli are at the largest factor "
         f"({data.attrs['largest_factor']:g}) or as far from a neighbour as they may be (a factor "
-        f"of {data.attrs['factor_per_decade']:g} a decade)"
+        f"of {data.attrs['factor_per_decade']:g} a decade)."
     )
     relaxed = [f"{name}, {_percent(worth)}" for name, worth in worths.items()]
-    yield f"  a limit relaxed by a tenth gives, to first order: {'; '.join(relaxed)}"
+    yield f"  A limit relaxed by a tenth gives, to first order: {'; '.join(relaxed)}."
     yield f"  {_interval_sources(chosen)}"
     yield from (f"note: {note}" for note in data.attrs.get("notes", "").splitlines())
 
@@ -109,15 +110,14 @@ def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
                 texts.append(
                     f"{symbol} × {ratio[at]:.2f} at {significant(data.frequency.values[at], 2)} Hz"
                 )
-    ranges = [
-        f"{significant(low, 2)} to {significant(high, 2)} Hz"
-        for low, high in changed_frequencies(data, point)
+    ends = [
+        dict.fromkeys(significant(hertz, 2) for hertz in band)
+        for band in changed_frequencies(data, point)
     ]
-    if not ranges:
-        return "the master curve stays within 20 % of today's"
-    return (
-        f"the master curve changes by more than 20 % from {', '.join(ranges)}: {', '.join(texts)}"
-    )
+    if not ends:
+        return "The master curve stays within 20 % of today's."
+    bands = ", ".join(" to ".join(band) for band in ends)
+    return f"The master curve changes by more than 20 % at {bands} Hz: {', '.join(texts)}."
 
 
 def _interval_sources(point: xr.Dataset) -> str:
@@ -133,9 +133,9 @@ def _interval_sources(point: xr.Dataset) -> str:
     )
     doubled = float(point.gain_twice_cut_off)
     return (
-        f"90 % interval from (1 sd): {each}; with twice the cut-off of the surface "
+        f"The 90 % interval is made of (1 sd): {each}; with twice the cut-off of the surface "
         f"{_percent(doubled)}. Finite strain and the step from lines to a surface are taken to be "
-        "the same for both compounds"
+        "the same for both compounds."
     )
 
 
