@@ -147,7 +147,7 @@ def test_a_grid_of_esri(tmp_path: Path) -> None:
     [
         ("nrows 17", "nrows 18", "expected 20 x 18 heights by its header; got 340"),
         ("cellsize 0,2\n", "", "the number cellsize in its header; got none"),
-        ("cellsize 0,2", "cellsize 0", "expected cellsize above zero; got 0"),
+        ("cellsize 0,2", "cellsize 0", "expected cellsize finite and above zero; got 0"),
     ],
 )
 def test_a_faulty_grid_is_refused(tmp_path: Path, old: str, new: str, words: str) -> None:

@@ -100,7 +100,7 @@ def correlations(data: xr.Dataset) -> str:
     """Return the correlations of the estimates in a sentence, empty for a single one."""
     names = data.parameter.values.tolist()
     pairs = [
-        f"{name} and {names[b]} {round(float(data.correlation[a, b]), 2) + 0.0:+.2f}"
+        f"{name} and {names[b]} {float(data.correlation[a, b]):+z.2f}"
         for a, name in enumerate(names)
         for b in range(a + 1, len(names))
     ]
