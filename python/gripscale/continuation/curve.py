@@ -118,6 +118,13 @@ class CutOffContact:
         lengths = [contact.grid.lengths[0] for contact in self.contacts]
         return float(np.average(values, weights=lengths))
 
+    def octaves(
+        self, intermittency: Intermittency, shortest: float, random: np.random.Generator
+    ) -> list[PeriodicLine]:
+        """Return the next octave of each line, down to a wavelength [m] and of any scale."""
+        longest = self.wavelength
+        return [intermittency.octave(line, longest, shortest, random) for line in self.lines]
+
     @property
     def faces(self) -> list[Mask]:
         """Where each line is in contact, on the points of the line."""
@@ -425,7 +432,7 @@ def _continued(
             ratio = usual * (ratio / usual) ** PERSISTENCE
             # a part of an octave has its part of the mean square slope
             slope = here.slope * ratio * math.sqrt(math.log2(here.wavelength / shortest))
-        octaves = intermittency.octaves(here.lines, here.wavelength, shortest, random)
+        octaves = here.octaves(intermittency, shortest, random)
         here = solver.next_step(here, octaves, slope, shortest)
         steps.append(here)
     return ContactByCutOff(tuple(steps), resolved, ratio, withheld, overlap)
@@ -486,7 +493,7 @@ def _octave_again(
     intermittency = Intermittency.of(above.lines, steps[-3].faces, above.wavelength, random)
     start = replace(above, lines=tuple(line.resolved_to(above.wavelength) for line in above.lines))
     waves = np.random.default_rng(random.integers(2**32))
-    octaves = intermittency.octaves(start.lines, start.wavelength, true.wavelength, waves)
+    octaves = start.octaves(intermittency, true.wavelength, waves)
 
     def tried(log: float) -> CutOffContact:
         slope = above.slope * math.exp(log)  # the same waves, steeper or less steep

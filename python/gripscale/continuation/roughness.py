@@ -110,10 +110,10 @@ class PeriodicLine:
         q = self.wavenumber[: waves.size]
         # no wave of the square is shorter than the shortest of the signal
         coarse = min(2 * scipy.fft.next_fast_len(waves.size, real=True), self.points)
-        signal = scipy.fft.ifft(waves * (2j * q), coarse) * (coarse / self.points)
+        signal = scipy.fft.ifft(waves * (2j * q), coarse)
         square = scipy.fft.rfft(np.abs(signal) ** 2)[: waves.size]
         bell = np.exp(-0.5 * (0.5 * shortest * q) ** 2)
-        smooth = scipy.fft.irfft(square * bell, self.points) * (self.points / coarse)
+        smooth = scipy.fft.irfft(square * bell, self.points) * (coarse / self.points)
         return np.asarray(0.5 * np.log(np.maximum(smooth, np.finfo(float).tiny)))
 
     def noise(self, random: np.random.Generator) -> PeriodicLine:
@@ -179,22 +179,13 @@ class Intermittency:
         rest = float(np.var(below - coupling * above) - chance[1, 1])
         return cls(coupling, math.sqrt(max(rest, 0.0)))
 
-    def octaves(
-        self,
-        lines: Sequence[PeriodicLine],
-        longest: float,
-        shortest: float,
-        random: np.random.Generator,
-    ) -> list[PeriodicLine]:
-        """Return the waves of a new octave of each line, of any scale and with H = 1 within it.
-
-        `longest` and `shortest` [m] are its ends; the octave above is part of the lines.
-        """
-        return [self._octave(line, longest, shortest, random) for line in lines]
-
-    def _octave(
+    def octave(
         self, line: PeriodicLine, longest: float, shortest: float, random: np.random.Generator
     ) -> PeriodicLine:
+        """Return the waves of a new octave of `line`, of any scale and with H = 1 within it.
+
+        `longest` and `shortest` [m] are its ends; the octave above is part of the line.
+        """
         q = line.wavenumber
         bell = np.exp(-0.5 * (0.5 * longest * q) ** 2)
         smooth = scipy.fft.irfft(line.noise(random).waves * bell, line.points)

@@ -241,7 +241,7 @@ class Plan:
     def of(
         cls,
         case: Case,
-        uncertainty: Uncertainty | None = None,
+        choice: Uncertainty,
         *,
         samples: int | None = None,
         seed: int | None = None,
@@ -251,7 +251,6 @@ class Plan:
     ) -> Plan:
         """Return what a case states where an argument is None; arguments as `uncertainty`."""
         defaults = sampling.stated_options(case)
-        choice = Uncertainty.of_case(defaults) if uncertainty is None else uncertainty
         named = stated_models(case, choice) if models is None else models
         named = [named] if isinstance(named, str) else list(named)
         for name in named:

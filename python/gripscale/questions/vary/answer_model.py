@@ -32,7 +32,6 @@ from gripscale.questions.answer.direct_contact import (
     continued_curve,
     direct_contact_design,
     direct_contact_totals,
-    each_measured,
 )
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.vary.friction_ratio import RATIO_BASIS, ComparedContact
@@ -76,7 +75,7 @@ class AnswerModel(Checked, model.Model):
 
     def parts(self, surface: Surface) -> int:
         """Return the number of profiles, whose direct contacts are solved concurrently."""
-        return len(each_measured(surface)) or 1
+        return 1 if surface.measured is None else len(surface.measured.surfaces)
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
