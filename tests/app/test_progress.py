@@ -26,7 +26,7 @@ from gripscale.questions.chain.events import (
     event_from_json,
     event_to_json,
 )
-from gripscale.terminal import PROGRESS_LINES
+from gripscale.questions.terminal import PROGRESS_LINES
 
 
 def waves(last: int, name: str = "dynamic", *, of: int = 3, pass_number: int = 1) -> list[Event]:
@@ -176,7 +176,7 @@ def test_another_wording_does_not_change_the_progress(
         return [RunProgress.of(events[:count]).share for count in range(len(events))]
 
     before = shares()
-    command = import_module("gripscale.terminal")
+    command = import_module("gripscale.questions.terminal")
     print_wrapped: Callable[..., None] = command.print_wrapped
 
     def reworded(console: object, message: str) -> None:

@@ -37,7 +37,7 @@ from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.questions.compare.page import Compared, comparison_table, judgement, remarks
 from gripscale.questions.page_of_folder import page_of
-from gripscale.terminal import PROGRESS_LINES
+from gripscale.questions.terminal import PROGRESS_LINES
 from tests.samples import Shell
 
 FORMATS = ("png",)

@@ -19,7 +19,7 @@ from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.reliance import no_answer
-from gripscale.terminal import time_left
+from gripscale.questions.terminal import time_left
 from gripscale.theory import HalfPlane
 from gripscale.wave import ScaleResult, WaveProblem
 from tests.samples import Shell

@@ -17,12 +17,12 @@ import typer
 from rich.console import Console
 
 import gripscale as gs
-from gripscale import terminal
 from gripscale.case_file.folder import CASE_NOTE
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.cli import app
 from gripscale.core.units import si_unit
 from gripscale.io.table import Column, Table, as_text, digits
+from gripscale.questions import terminal
 from gripscale.questions.registry import commands
 from gripscale.questions.result_json import result_as_json
 from tests.samples import Shell

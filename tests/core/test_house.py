@@ -11,7 +11,7 @@ from pathlib import Path
 import gripscale
 
 PACKAGE = Path(gripscale.__file__).parent
-FACES = {"case_file", "cli", "app", "terminal"}
+FACES = {"case_file", "cli", "app"}
 """Rooms that know a case file."""
 
 

@@ -35,7 +35,7 @@ from gripscale.questions.chain.events import (
     event_from_json,
 )
 from gripscale.questions.registry import Form, forms
-from gripscale.terminal import PROGRESS_LINES
+from gripscale.questions.terminal import PROGRESS_LINES
 
 RUN_COMMAND = "run"
 COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())

@@ -9,7 +9,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Annotated
 
-from gripscale.terminal import argument, command, print_wrapped, screen
+from gripscale.questions.terminal import argument, command, print_wrapped, screen
 
 _COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
 CODE = re.compile(r"^(`{3,}|~{3,}).*?^\1", flags=re.MULTILINE | re.DOTALL)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gripscale.core.errors import InputError
-from gripscale.terminal import Modulus, argument, command, option, print_wrapped, screen
+from gripscale.questions.terminal import Modulus, argument, command, option, print_wrapped, screen
 
 if TYPE_CHECKING:
     from gripscale.rubber import Rubber

@@ -20,7 +20,7 @@ from gripscale.cli.new import (
     shift_of_wlf,
 )
 from gripscale.core.errors import about_keys
-from gripscale.terminal import (
+from gripscale.questions.terminal import (
     COLUMNS,
     argument,
     column_of,

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
-from gripscale import terminal
 from gripscale.core import GripscaleError, Words
+from gripscale.questions import terminal
 
 # Options that state what is missing, by its key in a case.
 _EXAMPLES = {

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale import terminal
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.terminal import CasePath, argument, case_command, command, option
+from gripscale.questions import terminal
+from gripscale.questions.terminal import CasePath, argument, case_command, command, option
 
 if TYPE_CHECKING:
     from gripscale.questions.chain.events import Event, OnEvent

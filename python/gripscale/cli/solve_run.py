@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gripscale import case_file, terminal
+from gripscale import case_file
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
+from gripscale.questions import terminal
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, answer_with_inputs
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.reliance import headline

@@ -10,7 +10,7 @@ from functools import lru_cache
 from importlib import metadata
 from pathlib import Path
 
-from gripscale import _kernel
+import gripscale._kernel as _kernel
 
 CASE_TITLE = "case_title"  # attribute of a result: rubber and surface of its case, in words
 # The command that makes a result, as it was typed; empty in Python.

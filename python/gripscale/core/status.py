@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from gripscale import _kernel
+import gripscale._kernel as _kernel
 
 
 class Status(StrEnum):

@@ -1,5 +1,3 @@
-import gripscale.continuation
-
 from .grid_sequence import GridRecord as GridRecord
 from .location import contact_trace as contact_trace
 from .model import BlockOnProfile as BlockOnProfile
@@ -16,10 +14,3 @@ from .windows import solve_windows as solve_windows
 from .windows import spread_windows as spread_windows
 from .windows import surface_of_sines as surface_of_sines
 from .windows import windows as windows
-
-ContactByCutOff = gripscale.continuation.ContactByCutOff
-ContinuedContact = gripscale.continuation.ContinuedContact
-FinerMeasurement = gripscale.continuation.FinerMeasurement
-HurstExponent = gripscale.continuation.HurstExponent
-OwnFaces = gripscale.continuation.OwnFaces
-contact_by_cut_off = gripscale.continuation.contact_by_cut_off

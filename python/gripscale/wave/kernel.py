@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Protocol, TypeVar, runtime_checkable
 
-from gripscale import _kernel
+import gripscale._kernel as _kernel
 from gripscale.core import InputError, checks
 from gripscale.core.parallel import look, worker_count
 from gripscale.rubber import Rubber

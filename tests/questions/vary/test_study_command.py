@@ -8,7 +8,7 @@ import pytest
 
 from gripscale.core.status import Status
 from gripscale.io import netcdf
-from gripscale.terminal import PROGRESS_LINES
+from gripscale.questions.terminal import PROGRESS_LINES
 from tests.samples import Shell, fail_waves
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from gripscale import terminal
+from gripscale.questions import terminal
 
 
 @terminal.case_command

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale import terminal
+from gripscale.questions import terminal
 
 if TYPE_CHECKING:
     import xarray as xr

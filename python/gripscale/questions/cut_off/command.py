@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-from gripscale import terminal
 from gripscale.core.units import si_value
-from gripscale.terminal import CasePath, OwnFolder, Workers, case_command, option
+from gripscale.questions import terminal
+from gripscale.questions.terminal import CasePath, OwnFolder, Workers, case_command, option
 
 if TYPE_CHECKING:
     from gripscale.half_space.result import RoughContact

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from gripscale import terminal
-from gripscale.terminal import (
+from gripscale.questions import terminal
+from gripscale.questions.terminal import (
     CasePath,
     Modulus,
     OwnFolder,

@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from gripscale import terminal
-from gripscale.terminal import CasePath, OwnFolder, Workers, case_command, option
+from gripscale.questions import terminal
+from gripscale.questions.terminal import CasePath, OwnFolder, Workers, case_command, option
 
 
 @case_command

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
-from gripscale import terminal
 from gripscale.core.errors import InputError
+from gripscale.questions import terminal
 
 if TYPE_CHECKING:
     import xarray as xr

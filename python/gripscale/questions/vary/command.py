@@ -9,9 +9,9 @@ from typing import Annotated
 
 import typer
 
-from gripscale import terminal
 from gripscale.core.errors import InputError
-from gripscale.terminal import (
+from gripscale.questions import terminal
+from gripscale.questions.terminal import (
     CasePath,
     Cluster,
     Modulus,
