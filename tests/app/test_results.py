@@ -11,9 +11,10 @@ import pytest
 
 from gripscale.app.elements import Cards, Folded, html, notice_elements
 from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
-from gripscale.case_file import read_case_file, run_case
+from gripscale.case_file import read_case_file
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
+from gripscale.cli.run_case import run_case
 from gripscale.core.finding import Finding, Severity
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import answer

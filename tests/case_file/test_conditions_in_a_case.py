@@ -14,8 +14,8 @@ from gripscale.case_file import (
     read_case,
     read_case_file,
 )
-from gripscale.case_file.run import run_case
 from gripscale.chain import solve_chain
+from gripscale.cli.run_case import run_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF

@@ -10,8 +10,9 @@ from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale import surface
-from gripscale.case_file import read_case, read_case_file, run_case
+from gripscale.case_file import read_case, read_case_file
 from gripscale.cli import app
+from gripscale.cli.run_case import run_case
 from gripscale.io import netcdf
 from gripscale.questions import Study
 from tests.samples import HALF_PLANE, case_text, write_road

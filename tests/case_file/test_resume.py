@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gripscale.case_file import run_case
+from gripscale.cli.run_case import run_case
 from gripscale.io import netcdf
 from gripscale.questions.chain.events import Event, ResultsReplaced, WaveSolved
 from gripscale.theory import HalfPlane

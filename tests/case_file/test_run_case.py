@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import case_chain, read_case_file, run_case
+from gripscale.case_file import case_chain, read_case_file
+from gripscale.cli.run_case import run_case
 from gripscale.core.errors import ExtrapolationError
 from gripscale.core.status import Status
 from gripscale.io import netcdf

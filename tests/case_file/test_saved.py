@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.case_file import folder, read_case, read_case_file, run_case
+from gripscale.case_file import folder, read_case, read_case_file
 from gripscale.case_file import folder as results_folder
 from gripscale.case_file.folder import renamed, saved_case
+from gripscale.cli.run_case import run_case
 
 
 def test_the_results_folder_alone_gives_the_same_result_elsewhere(

@@ -13,7 +13,8 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case_file import read_case, run_case
+from gripscale.case_file import read_case
+from gripscale.cli.run_case import run_case
 from gripscale.core.provenance import CASE_TITLE
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf

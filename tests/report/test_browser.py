@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from gripscale.case_file import run_case
+from gripscale.cli.run_case import run_case
 from gripscale.questions.page_of_folder import write_report
 from tests.browsing import CURVES, Visit
 

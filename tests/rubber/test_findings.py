@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.case_file import run_case
+from gripscale.cli.run_case import run_case
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report
 from gripscale.rubber.material import fast_end, require_load_bearing, slow_end

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gripscale.case_file import run_case
+from gripscale.cli.run_case import run_case
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.verification.families import ROOT
 

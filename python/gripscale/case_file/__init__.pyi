@@ -12,7 +12,6 @@ from .read import read_case_file as read_case_file
 from .read import validate as validate
 from .rubber_tables import ConditionsTable as ConditionsTable
 from .rubber_tables import RubberSource as RubberSource
-from .run import run_case as run_case
 from .tables import CaseTables as CaseTables
 from .tables import ChainOptions as ChainOptions
 from .tables import CompareTable as CompareTable

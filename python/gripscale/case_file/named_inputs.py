@@ -13,9 +13,8 @@ from gripscale.case_file.read import CaseFile, read_case_file, validate
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS, RubberSource
 from gripscale.case_file.tables import SurfaceTable
 from gripscale.core import ZERO_CELSIUS, FileError
+from gripscale.experiment.design import OF_THE_CASE, named_values
 from gripscale.io.text_table import is_excel
-from gripscale.questions.vary.axis import named_values
-from gripscale.questions.vary.inputs import OF_THE_CASE
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.sweeps import states_temperature

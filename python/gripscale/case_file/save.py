@@ -32,7 +32,6 @@ from gripscale.continuation.roughness import FinerMeasurement, HurstExponent
 from gripscale.core import Array, FileError, InputError, quantity_in_si
 from gripscale.core.provenance import version_of
 from gripscale.experiment.measured_friction import MEASURED
-from gripscale.questions.uncertainty.options import UncertaintyOptions
 from gripscale.rubber import ShiftTable, fit_prony_report
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningTable
@@ -40,6 +39,7 @@ from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface import HeightMap, Profile, fit_sines
 from gripscale.surface.cut_off import ContactSlope, RmsSlope
 from gripscale.theory.half_plane import HalfPlane
+from gripscale.uncertainty_options import UncertaintyOptions
 from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh
 

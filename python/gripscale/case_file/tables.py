@@ -23,7 +23,10 @@ from gripscale.case_file.schema import (
 )
 from gripscale.core.units import in_mm, parse_quantity, such_as
 from gripscale.model import MOST_CLASSES, Load
-from gripscale.questions.uncertainty.options import (
+from gripscale.rubber.strain_energy import NeoHookean
+from gripscale.surface.surface import SurfaceKind
+from gripscale.testers import TESTERS
+from gripscale.uncertainty_options import (
     FEWEST_SAMPLES,
     MOST_SAMPLES,
     MOST_SEED,
@@ -31,9 +34,6 @@ from gripscale.questions.uncertainty.options import (
     UncertaintyOptions,
     pressure_error,
 )
-from gripscale.rubber.strain_energy import NeoHookean
-from gripscale.surface.surface import SurfaceKind
-from gripscale.testers import TESTERS
 
 _CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
 

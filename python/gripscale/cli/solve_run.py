@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gripscale import case_file
+from gripscale.case_file import CaseFile
+from gripscale.cli.run_case import run_case
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
@@ -122,7 +123,7 @@ def _print_answer(console: Console, case: Case, answer: Answer) -> None:
 def _solve(
     console: Console,
     emit: events.OnEvent,
-    file: case_file.CaseFile,
+    file: CaseFile,
     chain: ChainRun,
     draw: events.OnEvent,
 ) -> xr.Dataset | None:
@@ -137,7 +138,7 @@ def _solve(
         draw(event)
 
     terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
-    case_file.run_case(file, output=target, on_event=on_event, run=chain)
+    run_case(file, output=target, on_event=on_event, run=chain)
     effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
     if effects is not None:
         emit(events.EffectsSolved(tuple(effects_asked(case.chain))))

@@ -7,14 +7,16 @@ solved once. The Dataset holds missing values where there is no answer.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.core import InputError
 from gripscale.experiment.solve import Bench, Pick
 from gripscale.experiment.task import Task
 
@@ -210,3 +212,27 @@ def stack(parts: Mapping[Index, xr.Dataset], sizes: Mapping[str, int]) -> xr.Dat
             values[where] = variable.transpose(*inner).values if inner else variable.values.item()
         data[name] = xr.Variable((*sizes, *inner), values, example.attrs)
     return xr.Dataset(data, labels)
+
+
+OF_THE_CASE = "case"  # what stands for the surface or the rubber of the case itself
+
+
+def named_values(name: str, value: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
+    """Return values and labels of varied rubbers or surfaces: a mapping, or texts and paths.
+
+    Raises `InputError` for anything else.
+    """
+    if isinstance(value, Mapping):
+        return tuple(value.values()), tuple(str(label) for label in value)
+    if isinstance(value, str):
+        entries = value.split(",")
+    else:
+        entries = [*value] if isinstance(value, Iterable) else [value]
+    for entry in entries:
+        if not isinstance(entry, str | Path):
+            raise InputError(
+                f"{name} must be names and files, or a mapping from names; got {entry!r:.60}"
+            )
+    texts = [str(entry).strip() for entry in entries]
+    stems = tuple(Path(text).stem for text in texts)
+    return tuple(texts), stems if len(set(stems)) == len(stems) else tuple(texts)

@@ -24,7 +24,7 @@ from gripscale.questions.words import JUDGE, OF_THE_PAPER
 def background_figures(run: ChainRun, figures: Figures) -> Iterator[OnEvent]:
     """Draw the figures of a case while it is being solved.
 
-    Gives a function to be called with the events of `gripscale.case_file.run_case`: with the
+    Gives a function to be called with the events of `gripscale.cli.run_case`: with the
     first wave the folder of results is ready and the direct contact solved, with the end of a
     prediction its blocks are complete. On leaving, what went wrong is raised.
     """

@@ -35,7 +35,6 @@ from gripscale.questions.answer.direct_contact import continued_curve, direct_co
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.uncertainty import sampling
 from gripscale.questions.uncertainty.first_order import first_order
-from gripscale.questions.uncertainty.options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
 from gripscale.questions.uncertainty.sampled_answer import chain_answer, measured_answer
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sampling import SampledInputs, Uncertainty
@@ -43,6 +42,7 @@ from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, Source
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
+from gripscale.uncertainty_options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
 
 OnAnswer = Callable[[xr.Dataset], None]
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # quantiles of the samples that a result holds

@@ -11,7 +11,6 @@ import numpy as np
 
 from gripscale.case import Case
 from gripscale.core import InputError, checks
-from gripscale.questions.uncertainty.options import UncertaintyOptions
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
 from gripscale.questions.uncertainty.sources import (
     SOURCES,
@@ -19,6 +18,7 @@ from gripscale.questions.uncertainty.sources import (
     SourceNotApplicable,
     SourceOptions,
 )
+from gripscale.uncertainty_options import UncertaintyOptions
 
 
 def stated_options(case: Case) -> UncertaintyOptions:

@@ -14,7 +14,6 @@ import numpy as np
 
 from gripscale.core import Array, InputError, checks
 from gripscale.questions.uncertainty import sampled_inputs as quantities
-from gripscale.questions.uncertainty.options import pressure_error
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
 from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inputs, Measurement
 from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
@@ -22,6 +21,7 @@ from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
 from gripscale.surface.low_pass import followed
 from gripscale.surface.sines import FACTOR_RANGE
+from gripscale.uncertainty_options import pressure_error
 
 # Sources whose standard error a case must state: nothing in it says how large it is.
 STATED = ("height_noise", "temperature", "pressure")

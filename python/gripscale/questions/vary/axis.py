@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from gripscale.core.units import (
     parse_quantity,
     unit_of,
 )
+from gripscale.experiment.design import named_values
 from gripscale.model import MOST_CLASSES
 from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
@@ -373,21 +373,3 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     if name in COUNTS:
         return [float(value) for value in np.unique(np.rint(values))]
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
-
-
-def named_values(name: str, value: Any) -> tuple[tuple[Any, ...], tuple[str, ...]]:
-    """Return values and labels of varied rubbers or surfaces: a mapping, or texts and paths.
-
-    Raises `InputError` for anything else.
-    """
-    if isinstance(value, Mapping):
-        return tuple(value.values()), tuple(str(label) for label in value)
-    entries = value.split(",") if isinstance(value, str) else [*_entries(name, value)]
-    for entry in entries:
-        if not isinstance(entry, str | Path):
-            raise InputError(
-                f"{name} must be names and files, or a mapping from names; got {entry!r:.60}"
-            )
-    texts = [str(entry).strip() for entry in entries]
-    stems = tuple(Path(text).stem for text in texts)
-    return tuple(texts), stems if len(set(stems)) == len(stems) else tuple(texts)

@@ -10,6 +10,7 @@ from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
+from gripscale.experiment.design import OF_THE_CASE
 from gripscale.experiment.task import canonical_json
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Model
@@ -23,7 +24,6 @@ from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
 TEMPERATURE = "temperature_K"
 # Attribute of what stands side by side: how inputs were read, a line each.
 READING_NOTES = "reading_notes"
-OF_THE_CASE = "case"  # what stands for the surface or the rubber of the case itself
 _NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
 
 

@@ -25,7 +25,14 @@ from gripscale.chain.chain import Chain
 from gripscale.core import InputError, provenance
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
-from gripscale.experiment.design import SURFACE, Design, Point, basis_numbers, variable_attributes
+from gripscale.experiment.design import (
+    OF_THE_CASE,
+    SURFACE,
+    Design,
+    Point,
+    basis_numbers,
+    variable_attributes,
+)
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import JUDGED_TO
@@ -184,7 +191,7 @@ class Study:
     @cached_property
     def surfaces(self) -> list[Surface]:
         """The varied surfaces, or the one of the case."""
-        values = self._values("surface") or (inputs.OF_THE_CASE,)
+        values = self._values("surface") or (OF_THE_CASE,)
         return [inputs.surface_of(value, self.case) for value in values]
 
     @cached_property
@@ -195,7 +202,7 @@ class Study:
     @cached_property
     def measured_rubbers(self) -> list[MeasuredRubber]:
         """The `rubbers` with what they come from and what is doubtful of them."""
-        values = self._values("rubber") or (inputs.OF_THE_CASE,)
+        values = self._values("rubber") or (OF_THE_CASE,)
         return [inputs.measured_rubber_of(value, self.case) for value in values]
 
     def _values(self, name: str) -> tuple[Any, ...]:
