@@ -234,7 +234,7 @@ def test_uncertainty_has_it(asked: Asked) -> None:
 
 
 def test_a_number_and_its_per_cent_stay_on_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    from gripscale import terminal
+    from gripscale.questions import terminal
 
     for length in range(80, 100):
         terminal.print_wrapped(terminal.screen(), f"{'x' * length} large strain ± 5.0 % (assumed)")
