@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from gripscale.case_file import read_case
-from gripscale.questions.design.compound_design import DESIGN_TOLERANCE
+from gripscale.questions.design.compound_gain import DESIGN_TOLERANCE
 from gripscale.questions.design.compound_limits import changed
 from gripscale.questions.design.compound_search import best_change, design_problem, nearest_design
 from tests.questions.design.test_search import log_friction, mixtures

@@ -31,14 +31,10 @@ from gripscale.questions.design.charts import design_figure
 from gripscale.questions.design.compound_gain import Gain, gain
 from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.questions.design.compound_search import design_problem
-from gripscale.questions.design.design_text import (
-    parse_goal,
-    parse_levels,
-    parse_limit,
-    rolling_at_todays_friction,
-)
+from gripscale.questions.design.design_text import parse_goal, parse_levels, parse_limit
 from gripscale.questions.design.goal_friction import CompoundGoal
-from gripscale.questions.design.page import design_cards, design_lines, design_table
+from gripscale.questions.design.page import design_cards, design_lines, rolling_at_todays_friction
+from gripscale.questions.design.question import CompoundDesign
 from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
@@ -100,7 +96,7 @@ def test_todays_friction_is_the_answer(case, data):
 
 
 def test_shares_at_a_limit_are_per_cent(data):
-    column = next(c for c in design_table(data).columns if c.name == "limited_share")
+    column = next(c for c in CompoundDesign(data).table().columns if c.name == "limited_share")
     assert column.format(0.5) == "50 %"
 
 

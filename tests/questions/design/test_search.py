@@ -17,10 +17,10 @@ from gripscale.questions.design.compound_limits import (
     PointLimit,
     changed,
     modulus_parts,
+    rolling_band,
 )
 from gripscale.questions.design.compound_search import DesignProblem, best_change, nearest_design
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction, MeasuredPart
-from gripscale.questions.design.rolling import rolling_band
 from gripscale.rubber import ShiftTable
 from gripscale.surface import Profile
 from tests.half_space.rough_cases import WAVELENGTH, sine

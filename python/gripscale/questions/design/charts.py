@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from itertools import cycle
 from typing import TYPE_CHECKING
 
-import numpy as np
 import xarray as xr
 
 from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series
@@ -13,22 +12,21 @@ from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.units import MEGA
-from gripscale.questions.design.design_text import at_todays_rolling, changed_frequencies
+from gripscale.questions.design.page import SAME, answering_point, changed_frequencies
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PERCENT = 100.0
-SAME = 5e-3  # relative difference of rolling resistances that is none
 _FREQUENCY = PlotAxis("frequency [Hz]", log=True, numbers=5)
 # Difference of rolling resistances over today's from which both curves can be told apart.
 _APART = 0.05
 COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
 
 
-def design_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield the figure of a design."""
-    yield Picture(
+def design_picture(data: xr.Dataset) -> Picture:
+    """Return the figure of a design with its caption."""
+    return Picture(
         "design",
         design_figure(data),
         "Friction gained against rolling resistance, and the master curves of some points beside "
@@ -43,24 +41,19 @@ def design_figure(data: xr.Dataset) -> Figure:
 
     `data` is that of `gripscale.design`.
     """
-    ratio = data.rolling_ratio.values
-    last = data.sizes["point"] - 1
-    same = at_todays_rolling(data)
-    answer = last if same is None else int(np.abs(ratio - float(same.rolling_ratio)).argmin())
-    colours = {0: BLUE, last: ORANGE, answer: GREEN}
-    points = []  # the answer, and ends apart from it
-    for at in sorted(colours):
-        if at != answer and abs(ratio[at] - ratio[answer]) <= _APART:
-            continue
-        label = f"rolling resistance {PERCENT * (ratio[at] - 1.0):+.0f} %"
-        if abs(ratio[at] - 1.0) < SAME:
-            label = "same rolling resistance"
-        points.append((at, colours[at], label))
-    panels = [_trade_off_panel(data, points), *_master_curve_panels(data, points)]
+    ratio, (answer, _) = data.rolling_ratio.values, answering_point(data)
+    colours = {0: BLUE, data.sizes["point"] - 1: ORANGE, answer: GREEN}
+    # The answer, and ends apart from it.
+    drawn = {
+        at: colours[at]
+        for at in sorted(colours)
+        if at == answer or abs(ratio[at] - ratio[answer]) > _APART
+    }
+    panels = [_trade_off_panel(data, drawn), *_master_curve_panels(data, drawn, answer)]
     return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
 
 
-def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Panel:
+def _trade_off_panel(data: xr.Dataset, drawn: dict[int, str]) -> Panel:
     rolling = PERCENT * (data.rolling_ratio.values - 1.0)
     low, gain, high = (PERCENT * data[name].values for name in ("gain_low", "gain", "gain_high"))
     marks: list[Mark] = [
@@ -69,22 +62,22 @@ def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Pa
         Series(rolling, gain, INK, marker="o", size=3.0, low=low, high=high),
         Series([0.0], [0.0], INK, "today", "", marker="s", size=6.0),
     ]
-    for at, colour, label in points:
+    for at, colour in drawn.items():
+        label = f"rolling resistance {rolling[at]:+.0f} %"
+        if abs(rolling[at]) < PERCENT * SAME:
+            label = "same rolling resistance"
         marks.append(
             Series([rolling[at]], [gain[at]], colour, label, "", marker="o", size=6.0, order=3.0)
         )
-    if "compound" in data.dims:
-        for at, name in enumerate(data.compound.values.tolist()):
-            compound = data.isel(compound=at)
-            x, y, *ends = (
-                np.array([PERCENT * float(compound[f"compound_{key}"])])
-                for key in ("rolling_ratio", "gain", "gain_low", "gain_high")
-            )
-            colour = COMPOUND_COLOURS[at % len(COMPOUND_COLOURS)]
-            marks.append(
-                Series(x - PERCENT, y, colour, name, "", marker="D", size=5.0, low=ends[0],
-                       high=ends[1])
-            )  # fmt: skip
+    names = data.compound.values.tolist() if "compound" in data.dims else ()
+    for at, (name, colour) in enumerate(zip(names, cycle(COMPOUND_COLOURS), strict=False)):
+        x, y, low, high = (
+            PERCENT * data[f"compound_{key}"].values[[at]]
+            for key in ("rolling_ratio", "gain", "gain_low", "gain_high")
+        )
+        marks.append(
+            Series(x - PERCENT, y, colour, name, "", marker="D", size=5.0, low=low, high=high)
+        )
     return Panel(
         PlotAxis("change of rolling resistance [%]"),
         PlotAxis("friction gained [%]", margin=0.1),
@@ -92,35 +85,33 @@ def _trade_off_panel(data: xr.Dataset, points: list[tuple[int, str, str]]) -> Pa
     )
 
 
-def _master_curve_panels(data: xr.Dataset, points: list[tuple[int, str, str]]) -> list[Panel]:
+def _master_curve_panels(data: xr.Dataset, drawn: dict[int, str], answer: int) -> list[Panel]:
     """Return moduli, loss factor, and moduli over today's.
 
     Shaded are the frequencies that change at today's rolling resistance; dotted lines enclose those
     excited.
     """
-    chosen = at_todays_rolling(data)
-    chosen = data.isel(point=-1) if chosen is None else chosen
     shades: list[Mark] = [
         CrossLine(low, FAINT, "changed by more than 20 %" if not at else "", upright=True, to=high)
-        for at, (low, high) in enumerate(changed_frequencies(data, chosen))
+        for at, (low, high) in enumerate(changed_frequencies(data, data.isel(point=answer)))
     ]
-    for at, end in enumerate((float(data.excited_low), float(data.excited_high))):
-        label = "98 % of the friction between" if not at else ""
-        shades.append(CrossLine(end, GREY, label, "dotted", upright=True))
+    for end, label in ((data.excited_low, "98 % of the friction between"), (data.excited_high, "")):
+        shades.append(CrossLine(float(end), GREY, label, "dotted", upright=True))
     frequency = data.frequency.values
+
+    def curves(today: xr.DataArray, designed: xr.DataArray) -> list[Mark]:
+        series = [Series(frequency, today.values, INK, width=1.6)]
+        for at, colour in drawn.items():
+            series.append(Series(frequency, designed.values[at], colour, width=1.0, order=3.0))
+        return [*series]
+
     moduli, change = [*shades], [CrossLine(1.0), *shades]
     for name, symbol in (("storage", "$E'$"), ("loss", "$E''$")):
-        today = data[f"today_{name}"].values / MEGA
-        moduli.append(Series(frequency, today, INK, width=1.6))
-        for at, colour, _ in points:
-            values = data[name].values[at] / MEGA
-            moduli.append(Series(frequency, values, colour, width=1.0, order=3.0))
-        moduli.append(Note(frequency[0], today[0], symbol, offset=(3, 6)))
-    tangent = (data.today_loss / data.today_storage).values
-    factor = [*shades, Series(frequency, tangent, INK, width=1.6)]
-    for at, colour, _ in points:
-        ratio = data.loss.values[at] / data.storage.values[at]
-        factor.append(Series(frequency, ratio, colour, width=1.0, order=3.0))
+        today = data[f"today_{name}"] / MEGA
+        moduli += curves(today, data[name] / MEGA)
+        moduli.append(Note(frequency[0], float(today[0]), symbol, offset=(3, 6)))
+    factor = [*shades, *curves(data.today_loss / data.today_storage, data.loss / data.storage)]
+    for at, colour in drawn.items():
         for name, dash in (("storage", "dashdot"), ("loss", "solid")):
             ratio = data[name].values[at] / data[f"today_{name}"].values
             change.append(Series(frequency, ratio, colour, "", dash, width=1.2))

@@ -15,8 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from itertools import groupby
+from dataclasses import dataclass, field
 from operator import attrgetter
 
 import numpy as np
@@ -34,6 +33,37 @@ from gripscale.questions.vary.friction_ratio import (
     series_changes,
 )
 from gripscale.rubber import Rubber
+
+# Estimated relative error of the contacts whose friction is stated, as in comparisons.
+DESIGN_TOLERANCE = 0.05
+
+
+def _shares(friction: GoalFriction, contacts: Sequence[RoughContact]) -> Array:
+    """Return the share of each part in G: its goal's weight times its share of the friction."""
+    each = np.array([contact.friction_from_dissipation for contact in contacts])
+    goals = [part.goal for part in friction.parts]
+    weights = friction.weights[goals] * np.array([part.weight for part in friction.parts])
+    return np.asarray(weights * each / friction.averaged(list(each))[goals])
+
+
+@dataclass(frozen=True)
+class SolvedCompound:
+    """A compound at the goals, and how far another series of its measurement changes ln mu."""
+
+    contacts: Sequence[RoughContact] = field(repr=False)  # fine enough for a friction
+    # s . ln(E*_k/E*_0) [-] of each admissible series, (series,), on the grid of the search.
+    series: Array = field(repr=False)
+
+    @classmethod
+    def of(cls, friction: GoalFriction, rubber: Rubber, measured: Rubber) -> SolvedCompound:
+        """Solve a compound: `measured` itself, or a design that multiplies its modulus."""
+        contacts = friction.contacts(rubber)
+        slopes = [
+            series_changes(contact, rubber_at(measured, friction.goals[part.goal].temperature))
+            for part, contact in zip(friction.parts, contacts, strict=True)
+        ]
+        series = np.asarray(_shares(friction, contacts) @ np.array(slopes))
+        return cls(friction.contacts(rubber, tolerance=DESIGN_TOLERANCE), series)
 
 
 @dataclass(frozen=True)
@@ -65,8 +95,8 @@ def gain(
 ) -> Gain:
     """Return the gain of the compound of contacts `after` over that of contacts `before`.
 
-    Both are lists of `GoalFriction.contacts`, on grids that are fine enough for a friction;
-    `rubber` is the standard error of G from the measurement of the rubber (`series_error`).
+    Both are those of `SolvedCompound`; `rubber` is the standard error of G from the measurement of
+    the rubber (`series_error`).
     """
     weights = friction.weights
 
@@ -88,19 +118,6 @@ def gain(
     return Gain(total, doubled, *_sampling(friction, before, after), grid, rubber)
 
 
-def _shares(friction: GoalFriction, contacts: Sequence[RoughContact]) -> Array:
-    """Return the share of each part in G: its goal's weight times its share of the friction."""
-    each = np.array([contact.friction_from_dissipation for contact in contacts])
-    total = friction.averaged(list(each))
-    parts = friction.parts
-    return np.array(
-        [
-            friction.weights[part.goal] * part.weight * mu / total[part.goal]
-            for part, mu in zip(parts, each, strict=True)
-        ]
-    )
-
-
 def _sampling(
     friction: GoalFriction, before: Sequence[RoughContact], after: Sequence[RoughContact]
 ) -> tuple[float, float]:
@@ -108,33 +125,12 @@ def _sampling(
 
     Goals on one profile have the same pieces; profiles are independent.
     """
-    shares = _shares(friction, before), _shares(friction, after)
-    order = sorted(range(len(before)), key=lambda i: id(friction.parts[i].surface))
-    differences, carrying = [], []
-    for _, members in groupby(order, key=lambda i: id(friction.parts[i].surface)):
-        residuals, fewest = np.zeros(0), math.inf
-        for i in members:
-            piece = PIECE * friction.parts[i].largest_wavelength
-            low, high = (
-                share[i] * friction_residuals(contacts[i], piece)
-                for share, contacts in zip(shares, (before, after), strict=True)
-            )
-            residuals = residuals + (high - low) if residuals.size else high - low
-            fewest = min(fewest, pieces_that_carry(before[i], piece))
-        differences.append(residuals)
-        carrying.append(fewest)
-    return scatter_of_pieces(differences, carrying)
-
-
-def series_derivatives(
-    friction: GoalFriction, contacts: Sequence[RoughContact], measured: Rubber
-) -> Array:
-    """Return s . ln(E*_k/E*_0) [-] of each admissible series of a `measured` rubber, (series,).
-
-    `contacts` are those of this rubber, or of a design that multiplies its modulus.
-    """
-    slopes = [
-        series_changes(contact, rubber_at(measured, friction.goals[part.goal].temperature))
-        for part, contact in zip(friction.parts, contacts, strict=True)
-    ]
-    return np.asarray(_shares(friction, contacts) @ np.array(slopes))
+    pairs = [(contacts, _shares(friction, contacts)) for contacts in (before, after)]
+    differences: dict[int, Array | float] = {}
+    carrying: dict[int, float] = {}
+    for i, part in enumerate(friction.parts):
+        road, piece = id(part.surface), PIECE * part.largest_wavelength
+        low, high = (share[i] * friction_residuals(solved[i], piece) for solved, share in pairs)
+        differences[road] = differences.get(road, 0.0) + (high - low)
+        carrying[road] = min(carrying.get(road, math.inf), pieces_that_carry(before[i], piece))
+    return scatter_of_pieces([*map(np.asarray, differences.values())], [*carrying.values()])

@@ -18,6 +18,12 @@ A loss compliance J'' = E''/|E*|^2 of at most c is not linear: E* then lies outs
 radius 1/2c about i/2c. The tangent where tan(delta) is t keeps it there,
 
     sin(2 delta) E'(w) - cos(2 delta) E''(w) >= sin(delta)^2/c,    tan(delta) = t = high t_0.
+
+Rolling resistance is what a tyre loses at the frequencies and temperatures it meets: it is cooler
+before it has rolled for an hour, and each turn has harmonics. A compound made for one frequency and
+temperature pays at their neighbours: held at 10 Hz and 60 C alone, the loss factor of a design was
+1.5 times today's at 40 C and at 50 Hz. At a stated strain losses follow tan(delta), at a stated
+force J''. Both are therefore kept over a band, and the worst of them is the ratio that counts.
 """
 
 from __future__ import annotations
@@ -27,6 +33,7 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,9 +86,7 @@ class PointLimit(Checked):
     @property
     def condition(self) -> str:
         """Frequency and temperature in words."""
-        where = (
-            "the temperature measured" if self.temperature is None else celsius(self.temperature)
-        )
+        where = _in_words(self.temperature)
         if self.wanted is not None:
             where += f" (the shift ends there, not at {celsius(self.wanted)})"
         return f"{self.frequency:g} Hz and {where}"
@@ -98,24 +103,26 @@ class PointLimit(Checked):
             return self
         return replace(self, temperature=reached, wanted=kelvin)
 
-    def modulus_parts(self, rubber: Rubber) -> tuple[Array, Array]:
-        """Return what each modulus of a rubber adds to E' and E'' [Pa], E_inf first."""
-        body = rubber_at(rubber, self.temperature)
-        return modulus_parts(body, np.array(2.0 * math.pi * self.frequency))
-
     def value(self, rubber: Rubber) -> float:
         """Return E' [Pa], tan(delta) [-] or J'' [1/Pa] of a rubber."""
         body = rubber_at(rubber, self.temperature)
         modulus = complex(body.complex_modulus(2.0 * math.pi * self.frequency))
         if self.quantity == "storage_modulus":
             return modulus.real
-        return modulus.imag / (
-            modulus.real if self.quantity == "loss_factor" else abs(modulus) ** 2
-        )
+        stiffness = modulus.real if self.quantity == "loss_factor" else abs(modulus) ** 2
+        return modulus.imag / stiffness
+
+    def ratio(self, rubber: Rubber, today: Rubber) -> float:
+        """Return the value of a rubber over that of today's [-]."""
+        return self.value(rubber) / self.value(today)
 
     def __str__(self) -> str:
         symbol = _SYMBOLS[self.quantity]
         return f"{symbol} at {self.condition}, {self.low:g} to {self.high:g} times today's"
+
+
+def _in_words(kelvin: float | None) -> str:
+    return "the temperature measured" if kelvin is None else celsius(kelvin)
 
 
 def _factor(name: str, value: float) -> float:
@@ -191,6 +198,11 @@ def changed(rubber: Rubber, ratio: Array, name: str = "") -> Rubber:
         )
 
 
+def all_moduli(rubber: Rubber) -> Array:
+    """Return the moduli of the Prony series [Pa], E_inf first."""
+    return np.concatenate([[rubber.equilibrium_modulus], rubber.moduli])
+
+
 def modulus_parts(rubber: Rubber, omega: Array) -> tuple[Array, Array]:
     """Return what each modulus, E_inf first, adds to E' and E'' [Pa], (frequency, terms + 1)."""
     phase = np.multiply.outer(np.asarray(omega, dtype=float), rubber.relaxation_times)
@@ -214,10 +226,9 @@ class AdmissibleChanges:
         cls, rubber: Rubber, limits: CompoundLimits, rolling: Sequence[PointLimit] = ()
     ) -> AdmissibleChanges:
         """Return the changes within `limits` and those of rolling resistance."""
-        points = limits.points
-        if points is None:
-            kelvin = None if rubber.shift is None else HANDLING
-            points = (PointLimit("storage_modulus", 0.9, 1.1, temperature=kelvin),)
+        kelvin = None if rubber.shift is None else HANDLING
+        stiff = PointLimit("storage_modulus", 0.9, 1.1, temperature=kelvin)
+        points = (stiff,) if limits.points is None else limits.points
         reached = tuple(point.within_shift(rubber) for point in points)
         return cls(rubber, limits, reached, tuple(rolling))
 
@@ -232,29 +243,24 @@ class AdmissibleChanges:
 
         E_inf is a decade beyond the slowest relaxation.
         """
-        order = 1 + np.argsort(self.rubber.relaxation_times)
-        times = np.log10(self.rubber.relaxation_times[order - 1])
-        pairs = np.column_stack([order[:-1], order[1:]])
-        distance = np.diff(times)
-        if order.size:
-            pairs = np.vstack([pairs, [order[-1], 0]])
-            distance = np.append(distance, 1.0)
-        return pairs.reshape(-1, 2), distance
+        order = np.argsort(self.rubber.relaxation_times)
+        decades = np.diff(np.log10(self.rubber.relaxation_times[order]))
+        pairs = np.column_stack([1 + order, np.append(1 + order[1:], 0)])
+        return pairs, np.append(decades, 1.0)
 
     @cached_property
     def smooth_rows(self) -> Array:
         """Rows whose product with r is at most zero: neighbours change alike."""
         pairs, distance = self.neighbours
-        steepest = self.limits.factor_per_decade**distance
-        rows = np.zeros((2 * len(pairs), 1 + self.rubber.moduli.size))
-        for i, (first, second) in enumerate(pairs):
-            rows[2 * i, [first, second]] = 1.0, -steepest[i]
-            rows[2 * i + 1, [first, second]] = -steepest[i], 1.0
-        return rows
+        first, second = np.eye(1 + self.rubber.moduli.size)[pairs.T]
+        steepest = self.limits.factor_per_decade ** distance[:, None]
+        rows = np.stack([first - steepest * second, second - steepest * first], axis=1)
+        return rows.reshape(-1, rows.shape[-1])
 
     def point_rows(self, point: PointLimit) -> list[tuple[Array, float]]:
         """Return rows whose product with r is at most a number, for one limit of the moduli."""
-        storage, loss = point.modulus_parts(self.rubber)
+        body = rubber_at(self.rubber, point.temperature)
+        storage, loss = modulus_parts(body, np.array(2.0 * math.pi * point.frequency))
         storage, loss = storage / storage.sum(), loss / storage.sum()
         today = float(loss.sum())
         if point.quantity == "storage_modulus":
@@ -273,12 +279,10 @@ class AdmissibleChanges:
     @cached_property
     def rows(self) -> tuple[Array, Array]:
         """Rows and what their product with r must not exceed: all limits but the bounds."""
-        rubber = self.rubber
-        glass = np.concatenate([[rubber.equilibrium_modulus], rubber.moduli])
-        ranges = (*self.points, *self.rolling)
         parts = [(row, 0.0) for row in self.smooth_rows]
-        parts += [pair for point in ranges for pair in self.point_rows(point)]
-        parts.append((glass / rubber.glassy_modulus, 1.0))
+        for point in (*self.points, *self.rolling):
+            parts += self.point_rows(point)
+        parts.append((all_moduli(self.rubber) / self.rubber.glassy_modulus, 1.0))
         matrix, most = zip(*parts, strict=True)
         return np.array(matrix), np.array(most)
 
@@ -317,3 +321,39 @@ class AdmissibleChanges:
         tight = (self.smooth_rows @ ratio > -_AT_LIMIT).reshape(-1, 2).any(axis=1)
         reached[self.neighbours[0][tight].reshape(-1)] = True
         return np.asarray(reached)
+
+
+# About one turn of a car's wheel at motorway speed, and its harmonics [Hz].
+FREQUENCIES = (10.0, 50.0)
+# Of a rolling tread, the usual one of the laboratory first [K].
+TEMPERATURES = tuple(ZERO_CELSIUS + degrees for degrees in (60.0, 40.0, 50.0, 70.0))
+
+
+def rolling_band(rubber: Rubber) -> tuple[PointLimit, ...]:
+    """Return what stands for rolling resistance, at most today's; tan(delta) at 10 Hz first.
+
+    A rubber without a temperature shift has the frequencies alone; where its shift ends, the
+    nearest temperature stands for those beyond.
+    """
+    temperatures = (None,) if rubber.shift is None else TEMPERATURES
+    losses = ("loss_factor", "loss_compliance")
+    points: dict[object, PointLimit] = {}
+    for kelvin, frequency, quantity in product(temperatures, FREQUENCIES, losses):
+        point = PointLimit(quantity, 0.0, 1.0, frequency, kelvin).within_shift(rubber)
+        points.setdefault((quantity, frequency, point.temperature), point)
+    return tuple(points.values())
+
+
+def rolling_ratio(band: Sequence[PointLimit], rubber: Rubber, today: Rubber) -> float:
+    """Return the rolling resistance of a compound over today's [-]: the worst of the band."""
+    return max(point.ratio(rubber, today) for point in band)
+
+
+def band_in_words(band: Sequence[PointLimit]) -> str:
+    """Return the conditions of a band, such as "10 to 50 Hz and 40 to 70 °C"."""
+    kelvins = sorted(point.temperature for point in band if point.temperature is not None)
+    where = _in_words(kelvins[0] if kelvins else None)
+    if len(set(kelvins)) > 1:
+        where = f"{kelvins[0] - ZERO_CELSIUS:g} to {celsius(kelvins[-1])}"
+    beyond = " (the shift ends there)" if any(point.wanted for point in band) else ""
+    return f"{FREQUENCIES[0]:g} to {FREQUENCIES[-1]:g} Hz and {where}{beyond}"

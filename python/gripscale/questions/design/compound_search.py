@@ -28,9 +28,13 @@ import numpy as np
 
 from gripscale.case import Case
 from gripscale.core import Array, InputError, worker_count
-from gripscale.questions.design.compound_limits import AdmissibleChanges, CompoundLimits, PointLimit
+from gripscale.questions.design.compound_limits import (
+    AdmissibleChanges,
+    CompoundLimits,
+    PointLimit,
+    rolling_band,
+)
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
-from gripscale.questions.design.rolling import rolling_band
 from gripscale.questions.vary.inputs import surface_of
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
@@ -68,6 +72,11 @@ class DesignProblem:
         """Today's compound."""
         return self.friction.rubber
 
+    @property
+    def unchanged(self) -> Array:
+        """Ratios of today's moduli over today's [-]: where each search begins."""
+        return np.ones(1 + self.rubber.moduli.size)
+
     def admissible(self, level: float = math.inf) -> AdmissibleChanges:
         """Return the changes with a rolling resistance of at most `level` times today's."""
         rolling = [replace(point, high=level) for point in self.rolling]
@@ -94,19 +103,17 @@ class DesignProblem:
         both ends, a factor or the level a tenth larger.
         """
         limits, narrow = self.limits, self.admissible(level)
-        points = narrow.points
         larger = replace(limits, largest_factor=WIDER * limits.largest_factor)
         steeper = replace(limits, factor_per_decade=WIDER * limits.factor_per_decade)
-        wider = {LARGEST_FACTOR: (larger, points), PER_DECADE: (steeper, points)}
-        for i, point in enumerate(points):
+        wider = {LARGEST_FACTOR: replace(narrow, limits=larger)}
+        wider[PER_DECADE] = replace(narrow, limits=steeper)
+        for i, point in enumerate(narrow.points):
             room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
-            wider[str(point)] = (limits, (*points[:i], room, *points[i + 1 :]))
+            ranges = (*narrow.points[:i], room, *narrow.points[i + 1 :])
+            wider[str(point)] = replace(narrow, points=ranges)
+        wider[ROLLING_LEVEL] = self.admissible(WIDER * level)
         least = _most(narrow, slope)
-        worth = {
-            name: _most(replace(narrow, limits=room, points=ranges), slope) - least
-            for name, (room, ranges) in wider.items()
-        }
-        return worth | {ROLLING_LEVEL: _most(self.admissible(WIDER * level), slope) - least}
+        return {name: _most(admissible, slope) - least for name, admissible in wider.items()}
 
     def default_levels(self) -> list[float]:
         """Return today's level, some down to the least that is admissible, and some above."""

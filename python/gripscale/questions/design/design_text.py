@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,6 @@ from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
 # What a goal may state beside `weight` and `road`.
 GOAL_QUANTITIES = ("speed", "pressure", "temperature")
-LEAST_CHANGE = 0.2  # change of E' or E'' from which a frequency counts as changed
 
 
 def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
@@ -73,38 +71,6 @@ def parse_levels(text: str) -> list[float]:
     except ValueError as error:
         raise InputError(f'levels must be such as "0.8,1,1.2"; got {text!r}') from error
     return [float(number) for number in checks.positive_vector("levels", numbers)]
-
-
-def at_todays_rolling(data: xr.Dataset) -> xr.Dataset | None:
-    """Return the point whose rolling resistance is at most today's, None if there is none."""
-    allowed = np.flatnonzero(data.rolling_ratio.values <= 1.0 + 1e-6)
-    return data.isel(point=allowed[-1]) if allowed.size else None
-
-
-def rolling_at_todays_friction(data: xr.Dataset) -> float:
-    """Return the least rolling resistance over today's with today's friction [-].
-
-    Linear between the points; NaN if the lowest point still has more friction than today's.
-    """
-    ratio, gain = data.rolling_ratio.values, data.gain.values
-    above = np.flatnonzero(gain >= 0.0)
-    if not above.size or above[0] == 0:
-        return math.nan
-    low, high = above[0] - 1, above[0]
-    share = -gain[low] / (gain[high] - gain[low])
-    return float(ratio[low] + share * (ratio[high] - ratio[low]))
-
-
-def changed_frequencies(data: xr.Dataset, point: xr.Dataset) -> list[tuple[float, float]]:
-    """Return the ranges of frequency [Hz] in which E' or E'' of a point is not today's."""
-    ratios = np.stack([point[name] / data[f"today_{name}"] for name in ("storage", "loss")])
-    flags = np.concatenate([[False], (np.abs(ratios - 1.0) > LEAST_CHANGE).any(axis=0), [False]])
-    ends = np.flatnonzero(np.diff(flags.astype(int)))
-    frequency = data.frequency.values
-    return [
-        (float(frequency[first]), float(frequency[last - 1]))
-        for first, last in zip(ends[::2], ends[1::2], strict=True)
-    ]
 
 
 def designed_rubber(data: xr.Dataset, point: int) -> Rubber:

@@ -16,13 +16,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
 from gripscale.core import Array, Checked, ComplexArray, checked, checks
 from gripscale.core.errors import ConvergenceError, InputError
-from gripscale.core.parallel import Job, in_threads
+from gripscale.core.parallel import in_threads
 from gripscale.core.units import celsius
 from gripscale.half_space.model import smallest_wavelength
 from gripscale.half_space.result import RoughContact
@@ -117,10 +118,8 @@ class GoalFriction:
             require_shift(rubber, goal.temperature, "a goal")
             road = roads[checks.one_of("road", goal.road, roads)]
             if road.measured is None:
-                raise InputError(
-                    "a design needs a measured road; got sine waves stated by hand with "
-                    f"{goal.road}"
-                )
+                why = f"got sine waves stated by hand with {goal.road}"
+                raise InputError(f"a design needs a measured road; {why}")
             longest = float(road.sines.wavelength[0])
             surfaces: list[Profile | HeightMap] = list(road.measured.surfaces)
             # the period of a line of n points is n spacings
@@ -143,7 +142,7 @@ class GoalFriction:
         """
         bodies = [rubber_at(rubber, goal.temperature) for goal in self.goals]
 
-        def solve(index: int) -> RoughContact:
+        def solve(index: int, _: object) -> RoughContact:
             part = self.parts[index]
             goal = self.goals[part.goal]
             contact = solve_rough_contact(
@@ -179,30 +178,29 @@ class GoalFriction:
         key = np.asarray(ratio, dtype=float).tobytes()
         if key not in self._solved:
             solved = self.contacts(changed(self.rubber, ratio))
-            slopes = self._each(lambda index: self._gradient(index, solved[index]))
+
+            def slope(index: int, _: object) -> Array:
+                """Return d mu / d r_i of one part, all terms of E* at once."""
+                contact, goal = solved[index], self.goals[self.parts[index].goal]
+                adjoint = FrictionAdjoint.of(contact, tolerance=GRADIENT_TOLERANCE)
+                if index not in self._terms:  # the same for all compounds: their grid is
+                    grid, body = contact.grid, rubber_at(self.rubber, goal.temperature)
+                    omega = contact.speed * np.broadcast_to(grid.along, grid.spectrum_shape)
+                    storage, loss = modulus_parts(body, np.abs(omega))
+                    self._terms[index] = storage + 1j * np.sign(omega)[..., None] * loss
+                _, relative = relative_change(contact)
+                changes = np.moveaxis(relative[..., None] * self._terms[index], -1, 0)
+                return np.array([float(adjoint.by_modulus(change).sum()) for change in changes])
+
+            slopes = self._each(slope)
             friction = self.averaged([contact.friction_from_dissipation for contact in solved])
             gradient = self.averaged(slopes) / friction[:, None]
             value = float(self.weights @ np.log(friction))
             self._solved[key] = value, np.asarray(self.weights @ gradient)
         return self._solved[key]
 
-    def _gradient(self, index: int, contact: RoughContact) -> Array:
-        """Return d mu / d r_i of one part, all terms of E* at once."""
-        grid, adjoint = contact.grid, FrictionAdjoint.of(contact, tolerance=GRADIENT_TOLERANCE)
-        if index not in self._terms:  # the same for all compounds: their grid is
-            body = rubber_at(self.rubber, self.goals[self.parts[index].goal].temperature)
-            omega = contact.speed * np.broadcast_to(grid.along, grid.spectrum_shape)
-            storage, loss = modulus_parts(body, np.abs(omega))
-            self._terms[index] = storage + 1j * np.sign(omega)[..., None] * loss
-        _, relative = relative_change(contact)
-        changes = np.moveaxis(relative[..., None] * self._terms[index], -1, 0)
-        return np.array([float(adjoint.by_modulus(change).sum()) for change in changes])
-
-    def _each(self, work: Callable[[int], _T]) -> list[_T]:
+    def _each(self, work: Callable[[int, object], _T]) -> list[_T]:
         """Return the work of each part, on all threads; the parts are independent."""
-
-        def job(index: int) -> Job[_T]:
-            return lambda _: work(index)
-
-        done = dict(in_threads([job(i) for i in range(len(self.parts))], self.workers))
-        return [done[index] for index in range(len(self.parts))]
+        jobs = [partial(work, index) for index in range(len(self.parts))]
+        done = dict(in_threads(jobs, self.workers))
+        return [done[index] for index in range(len(jobs))]

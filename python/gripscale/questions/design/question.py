@@ -12,20 +12,21 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
+from gripscale.charts.draw import image
 from gripscale.core import checks, doubt
+from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
-from gripscale.io.table import Table
-from gripscale.questions.design import page
+from gripscale.io.table import Column, Table, change, fixed
+from gripscale.questions.design.charts import design_picture
 from gripscale.questions.design.compound_design import (
     DESIGN_FILE,
-    DESIGN_TOLERANCE,
     FRUITLESS,
-    Reference,
     design_key,
     left_out,
     other_compounds,
@@ -33,15 +34,19 @@ from gripscale.questions.design.compound_design import (
     solved_point,
     stored_points,
     todays_answers,
+    todays_compound,
 )
+from gripscale.questions.design.compound_gain import SolvedCompound
 from gripscale.questions.design.compound_limits import CompoundLimits
 from gripscale.questions.design.compound_search import PRECISION, design_problem
-from gripscale.questions.design.design_dataset import today, variable
 from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.design.page import design_cards, design_lines
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
+from gripscale.questions.uncertainty.page import as_elements
 from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
-from gripscale.report.elements import Page
+from gripscale.report.again import case_title, rerun_section
+from gripscale.report.elements import Page, Section
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -56,22 +61,77 @@ class CompoundDesign(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        return tuple(page.design_lines(self.data))
+        return tuple(design_lines(self.data))
 
     def parts(self) -> Iterator[str | Table]:
-        yield from page.design_tables(self.data)
+        yield self.table()
+        if "compound" in self.data.dims:
+            columns = _gain_columns(self.data, "compound_", "rolling resistance, change")
+            names = Column("compound", self.data.compound.values)
+            yield Table("compounds", [names, *columns], "Other compounds beside today's")
 
     def table(self) -> Table:
-        return page.design_table(self.data)
+        """Return the points of the curve."""
+        data, notes = self.data, []
+        columns = [
+            Column("rolling_loss_factor", data.rolling_loss_factor.values, "tan δ rolling"),
+            *_gain_columns(data, "", "rolling resistance"),
+        ]
+        for at, goal in enumerate(data.goal.values.tolist()):
+            friction = data.answer_friction.values[:, at]
+            columns.append(Column(f"friction_{at + 1}", friction, f"μ {at + 1}"))
+            notes.append(f"μ {at + 1}: {goal}")
+        for at, limit in enumerate(data.limit.values.tolist()):
+            name = limit.split(" at ")[0]
+            values = data.limited_ratio.values[:, at]
+            columns.append(Column(f"limit_{at + 1}", values, f"{name} / today", format=fixed(2)))
+        if bool(np.isfinite(data.wet_loss_factor.values).all()):
+            columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
+            wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
+            notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
+
+        def of_all(share: float) -> str:
+            return f"{100.0 * share:.0f} %"
+
+        columns += [
+            Column("limited_share", data.limited_share.values, "at a limit", format=of_all),
+            Column("gap", data.gap.values, "left to gain", format=change),
+        ]
+        title = "Trade-off: each row is the admissible compound of most friction"
+        return Table("design", columns, title, notes)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        from gripscale.questions.design.charts import design_pictures
-
-        for picture in design_pictures(self.data):
-            yield picture.name, picture.figure
+        picture = design_picture(self.data)
+        yield picture.name, picture.figure
 
     def page_content(self) -> Page:
-        return page.design_page(self.data, self.findings)
+        answer, *basis = self.lines
+        curve = image(design_picture(self.data))
+        return Page.of(
+            f"Compound for {case_title(self.data.attrs)}",
+            answer,
+            self.findings,
+            design_cards(self.data),
+            [
+                Section("curve", "Friction over rolling resistance", [curve]),
+                Section("points", "Points of the curve", as_elements(self.parts())),
+                rerun_section(self.data.attrs),
+            ],
+            (line.strip() for line in basis),
+        )
+
+
+def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
+    def unsigned_zero(value: float) -> str:
+        return change(round(value, 4) + 0.0)
+
+    rolling = data[f"{of}rolling_ratio"].values - 1.0
+    ends = np.column_stack([data[f"{of}gain_{end}"].values for end in ("low", "high")])
+    return [
+        Column("rolling_change", rolling, heading, format=unsigned_zero),
+        Column("gain", data[f"{of}gain"].values, "friction gained", format=change),
+        Column("gain_interval", ends, "90 % interval", format=change),
+    ]
 
 
 def design(
@@ -136,15 +196,14 @@ def design(
     key = design_key(case, problem, wanted, named)
     stored, fruitless = stored_points(target, key)
     now = todays_answers(case, problem, target, on_task)
-    reference = Reference.of(problem.friction)
+    problem.friction.log_friction(problem.unchanged)  # all contacts start from these
+    reference = SolvedCompound.of(problem.friction, problem.rubber, problem.rubber)
     compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
-    others, notes = other_compounds(
-        problem, reference, {name: each.rubber for name, each in compounds.items()}
-    )
-    base = today(problem, reference.contacts, DESIGN_TOLERANCE)
-    base["today_answer_friction"] = variable(now, "friction of the answer", dim="goal")
-    base = base.merge(others).assign_attrs(
-        {**base.attrs, **case.attributes},
+    rubbers_by_name = {name: each.rubber for name, each in compounds.items()}
+    others, notes = other_compounds(problem, reference, rubbers_by_name)
+    base = todays_compound(problem, reference.contacts, now).merge(others)
+    base = base.assign_attrs(
+        case.attributes,
         case_file=case.origin.name,
         kind=CompoundDesign.kind,
         design_key=key,
@@ -166,9 +225,9 @@ def design(
         point = stored.get(level)
         if point is None:
             point = solved_point(problem, reference, level, points[-1:])
-            designed = now * (point.friction / base.today_friction).values
+            answers = base.today_answer_friction * (point.friction / base.today_friction)
             text = "friction of the answer with the design"
-            point["answer_friction"] = variable(designed, text, dim="goal")
+            point["answer_friction"] = answers.assign_attrs(variable_attributes(text))
         rises = not points or float(point.gain - points[-1].gain) > PRECISION
         if rises:
             points.append(point)
@@ -176,9 +235,8 @@ def design(
             fruitless.add(level)
         if not bool(point.rolling_reached):
             fruitless |= {higher for higher in rising if higher > level}
-        curve = xr.concat(points, "point", combine_attrs="override").sortby("rolling_level")
-        attributes = {**base.attrs, FRUITLESS: json.dumps(sorted(fruitless))}
-        data = base.merge(curve).assign_attrs(attributes)
+        data = base.merge(xr.concat(points, "point", combine_attrs="override"))
+        data.attrs[FRUITLESS] = json.dumps(sorted(fruitless))
         if target is not None:
             netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
         if rises and on_point is not None:
